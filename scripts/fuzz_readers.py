@@ -15,6 +15,7 @@ import faulthandler
 import os
 import re
 import resource
+import shutil
 import signal
 import sys
 import tempfile
@@ -99,8 +100,14 @@ def seeds(format: Format, meshes: Path | None) -> list[Seed]:
             for encoding in format.encodings:
                 for k, mesh in enumerate(_meshes()):
                     path = Path(folder) / f"{k}{format.suffixes[0]}"
+                    path = Path(folder) / f"{encoding}-{k}" / path.name if format.place else path
                     io.write(path, mesh, encoding=encoding)
-                    found.append(Seed(format.suffixes[0], path.read_bytes()))
+                    parts = path.parent.rglob("*") if format.place else ()
+                    beside = {
+                        one.relative_to(path.parent).as_posix(): one.read_bytes() for one in parts if one.is_file()
+                    }
+                    beside.pop(path.name, None)
+                    found.append(Seed(format.suffixes[0], path.read_bytes(), beside))
     if format.name == "session":  # which holds more than a mesh, so that no mesh is written as one
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "session.hexmend"
@@ -155,8 +162,8 @@ def _meshes() -> list[Mesh]:
     return [mesh, mesh.replace(**sets, hex_data={"pressure": np.linspace(0, 1, mesh.n_hexes)})]
 
 
-def attempt(path: Path) -> str:
-    """Return the outcome for a file: "mesh", "error", or a description of the failure."""
+def attempt(path: Path, names: set[str]) -> str:
+    """Return the outcome for a file: "mesh", "error" naming one of the files, or a description of the failure."""
     signal.alarm(SECONDS)
     try:
         io.read(path)
@@ -164,7 +171,11 @@ def attempt(path: Path) -> str:
         text = str(error)
         if "its reader fails" in text:  # an exception that a child's reader did not expect
             return text
-        return "error" if path.name in text and "\n" not in text else f"an error without the file's name: {text!r}"
+        return (
+            "error"
+            if any(name in text for name in names) and "\n" not in text
+            else f"an error without the file's name: {text!r}"
+        )
     except TooLong:
         return f"more than {SECONDS} s"
     except MemoryError:
@@ -187,8 +198,9 @@ def fuzz(format: Format, cases: int, seed: int, meshes: Path | None, kept: Path)
         written = [path, *(place / name for name in one.beside)]
         bad = int(random.integers(len(written)))
         for k, (file, data) in enumerate(zip(written, (one.data, *one.beside.values()), strict=True)):
+            file.parent.mkdir(parents=True, exist_ok=True)
             file.write_bytes(spoilt(data, random) if k == bad else data)
-        came = attempt(path)
+        came = attempt(path, {file.name for file in written})
         counts[came] += 1
         if came not in ("mesh", "error"):
             print(f"{path}: {came}", file=sys.stderr, flush=True)
@@ -196,7 +208,7 @@ def fuzz(format: Format, cases: int, seed: int, meshes: Path | None, kept: Path)
         for file in written:
             file.unlink()
         if one.beside:
-            place.rmdir()
+            shutil.rmtree(place)
     return counts
 
 

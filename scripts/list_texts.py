@@ -14,14 +14,22 @@ APP = Path(__file__).resolve().parents[1] / "app" / "hexmend_app"
 
 
 def texts_of(path: Path) -> Iterator[str]:
-    """Return the literal texts that a module passes to `tr`, in order."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if (
-            isinstance(node, ast.Call)
-            and getattr(node.func, "id", "") == "tr"
-            and isinstance(node.args[0], ast.Constant)
-        ):
-            yield node.args[0].value
+    """Return the texts that a module passes to `tr`, in order: literals, and those of constants of the module."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    constants = {
+        target.id: statement.value
+        for statement in tree.body
+        if isinstance(statement, ast.Assign)
+        for target in statement.targets
+        if isinstance(target, ast.Name)
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "tr":
+            text = node.args[0]
+            if isinstance(text, ast.Name):
+                text = constants.get(text.id, text)
+            if isinstance(text, ast.Constant):
+                yield text.value
 
 
 def main(folders: list[str]) -> None:

@@ -20,11 +20,14 @@ from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
+from hexmend.solver_checks import SOLVERS
 from hexmend.study.batch.case import TaskLimits
 from hexmend.study.batch.table_columns import COLUMNS
 from hexmend_app.codec.config_table import Option, options_of
 from hexmend_app.codec.docstring_help import helps
 from hexmend_app.picture import Scene
+from hexmend_app.picture.appearance import Structure
+from hexmend_app.picture.layer_switch import LAYERS, OWN_KEYS
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -65,6 +68,19 @@ def meanings() -> str:
     return table(
         ("name", "title", "", "from"), ((f"`{one.name}`", one.title, one.meaning, one.source) for one in _metrics())
     )
+
+
+def solvers() -> str:
+    """The checks of every solver: limits, definitions, sources, and what is left out."""
+    parts = []
+    for solver in sorted(SOLVERS.values(), key=lambda one: one.title.lower()):
+        rows = (
+            (one.name, one.limit_text, one.unit, one.level.name.lower(), one.definition, one.source)
+            for one in solver.checks
+        )
+        head = ("check", "limit", "unit", "beyond it", "definition", "source")
+        parts.append(f"## {solver.title}\n`--for {solver.name}`. {solver.omitted}\n\n{table(head, rows)}")
+    return "\n\n".join(parts)
 
 
 def stops() -> str:
@@ -118,12 +134,19 @@ def _keys(kind: type) -> str:
     """The keys of a table, and below each that is a table itself, its own."""
     rows = []
     for one in options_of(kind):
-        rows.append((f"`{one.name}`", _values(one), _default(one), helps(kind)[one.field]))
+        rows.append((f"`{one.name}`", _values(one), _default(one), _help(kind, one)))
         inner = _table_of(one.kind)
         if inner is not None:
             rows += [(f"`{one.name}`: `{key.name}`", _values(key), _default(key), helps(inner)[key.field])
                      for key in options_of(inner)]  # fmt: skip
     return table(("key", "values", "default", "what"), rows)
+
+
+def _help(kind: type, one: Option) -> str:
+    """Describe a key; the keys of layers are described by the layers."""
+    if kind is not Structure:
+        return helps(kind)[one.field]
+    return LAYERS[one.name].action_help if one.name in OWN_KEYS else "Names of other layers that are on."
 
 
 def _table_of(kind: Any) -> type | None:
@@ -144,9 +167,10 @@ def _values(one: Option) -> str:
             words.append("tables" if get_origin(kind) is tuple else "a table")
         elif get_origin(kind) is tuple and inner[0] is str:
             words.append("a list of names")
-        elif get_origin(kind) is tuple:
+        elif get_origin(kind) in (tuple, frozenset):
             whole = "whole " * (inner[0] is int)
-            words.append(f"{len(inner)} {whole}numbers" if ... not in get_args(kind) else f"a list of {whole}numbers")
+            fixed = get_origin(kind) is tuple and ... not in get_args(kind)
+            words.append(f"{len(inner)} {whole}numbers" if fixed else f"a list of {whole}numbers")
         elif issubclass(kind, StrEnum):
             words.append(", ".join(f'"{choice}"' for choice in kind))
         elif kind is str:
@@ -159,7 +183,7 @@ def _values(one: Option) -> str:
 
 def _default(one: Option) -> str:
     """Describe the default of a key."""
-    if _table_of(one.kind) is not None or one.default in (None, "", ()):
+    if _table_of(one.kind) is not None or one.default in (None, "", (), frozenset()):
         return "–"
     value = one.default
     shown = {True: "true", False: "false"}.get(value) if isinstance(value, bool) else None
@@ -185,6 +209,7 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "methods": ("docs/methods.md", methods),
     "metrics": ("docs/metrics.md", metrics),
     "meanings": ("docs/metrics.md", meanings),
+    "solvers": ("docs/solvers.md", solvers),
     "stops": ("docs/recipes.md", stops),
     "formats": ("docs/formats.md", formats),
     "scene": ("docs/figures.md", scene),

@@ -24,7 +24,7 @@ CORE = [
     {"gallery", "boundary", "target"},
     {"layers"},
     {"energy"},
-    {"doctor"},
+    {"doctor", "solver_checks"},
     {"iteration"},
     {"optimise"},
     {"smoothers"},

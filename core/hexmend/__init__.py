@@ -39,7 +39,10 @@ if TYPE_CHECKING:
 
 aliases.install()
 hooks.register_hooks(
-    html="hexmend.notebook:html", quality="hexmend.quality:metric_values", worst_hexes="hexmend.quality:worst_hexes"
+    html="hexmend.notebook:html",
+    quality="hexmend.quality:metric_values",
+    with_rules="hexmend.mesh.rules.resolution:with_rules",
+    worst_hexes="hexmend.quality:worst_hexes",
 )
 
 _HOMES = {

@@ -20,8 +20,10 @@ from screenshots import (
     zoom_out,
 )
 
-from hexmend_app.picture.appearance import ColourScale, RangeMode, Structure, ValueRange
-from hexmend_app.picture.cut_planes import BoxClip
+from hexmend_app.picture.appearance import Structure
+from hexmend_app.picture.colours import Range
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box
 from hexmend_app.shell.window import Window
 from hexmend_app.theme.theme_choice import ThemeChoice, choose
 
@@ -40,8 +42,8 @@ def box(window: Window) -> None:
     points = window.session.document.now.mesh.points
     low, high = points.min(axis=0), points.max(axis=0)
     window.session.view.change(
-        clip=BoxClip(tuple((low + high) / 2 * (1, 0, 1)), tuple(high), crinkle=False, notch=True),
-        scale=ColourScale("scaled-jacobian", mode=RangeMode.FITTED),
+        cut=Cut(box=Box(tuple((low + high) / 2 * (1, 0, 1)), tuple(high)), style=CutStyle.SMOOTH, notch=True),
+        colours={"metric": "scaled-jacobian", "range": Range.FITTED},
     )
     window.show_panel("look")
     zoom_out(window)
@@ -51,13 +53,13 @@ def structure(window: Window) -> None:
     """Irregular edges seen through the mesh, fixed nodes on a cut mesh."""
     window.session.view.set_handles(False)
     cut_mesh(window, (1, -1, 0))
-    window.session.view.change(structure=Structure(irregular=True, sharp=True, fixed=True, free=True))
+    window.session.view.change(structure=Structure.of("irregular", "sharp", "fixed", "free"))
     window.show_panel("show")
 
 
 def inside(window: Window) -> None:
     """Two layers peeled, hexes shrunk, only those of medium quality."""
-    window.session.view.change(peel=2, shrink=0.35, quality_range=ValueRange("q", 0.2, 0.8))
+    window.session.view.change(show={"peel": 2, "shrink": 0.35, "quality": (0.2, 0.8)})
     window.show_panel("inside")
     zoom_out(window)
 

@@ -17,7 +17,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
 from hexmend_app.state.run.run_controller import Phase
@@ -145,7 +145,7 @@ def choose_entry(window: Window, name: str, data: str) -> None:
 def cut_mesh(window: Window, normal: tuple[float, float, float] = (1, 0, 0), crinkle: bool = True) -> None:
     """Cut the mesh through its middle, by whole hexes or smoothly."""
     middle = tuple(window.session.document.now.mesh.points.mean(axis=0))
-    window.session.view.set_clip(PlaneClip.at(normal, middle, crinkle=crinkle))
+    window.session.view.set_cut(Cut.at(normal, middle, CutStyle.CRINKLE if crinkle else CutStyle.SMOOTH))
 
 
 def set_method(window: Window, name: str, **limits: float) -> None:

@@ -59,7 +59,7 @@ def movement(window: Window) -> None:
     window.show_panel("movement")
     run_method(window, "mend", max_iterations=30)
     cut_open(window)
-    window.session.view.change(traces=Traces(arrows=Arrows.SIGHT))
+    window.session.view.change(movement=Traces(arrows=Arrows.SIGHT))
     window.session.view.colour_by("moved-most")
     window.refresh()
     window.canvas.look_along("+x")
@@ -72,7 +72,7 @@ def change(window: Window) -> None:
     window.show_panel("movement")
     run_method(window, "laplacian", max_iterations=6)
     window.session.timeline.go(window.session.timeline.record, 1)
-    window.session.view.change(traces=Traces(Since.ITERATION))
+    window.session.view.change(movement=Traces(Since.ITERATION))
     window.session.view.colour_by("q-change")
     cut_open(window)
 

@@ -8,7 +8,7 @@ import shiboken6
 from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QAbstractSpinBox, QComboBox, QLineEdit
 
 from hexmend_app.picture import Camera
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.cut import Cut
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import click, phase
 from tests.app.picturing import everything
@@ -56,7 +56,7 @@ def live(window, qtbot):
     session.commands.tag("bad", [7])
     session.commands.pin(int(np.flatnonzero(session.document.now.mesh.free)[50]), True)
     session.selection.choose(7)
-    session.view.set_clip(PlaneClip.at((1, 0, 0), middle))
+    session.view.set_cut(Cut.at((1, 0, 0), middle))
     session.view.isolate([7], 1)
     session.snapshots.add("kept", session.document.now)
     session.saved_cameras.add("kept", Camera("+y"))

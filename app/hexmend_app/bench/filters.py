@@ -13,8 +13,7 @@ import numpy as np
 from hexmend.gallery import make
 from hexmend.study.bench.section import BenchSection, peak_mb
 from hexmend_app.bench.windows import draw, measure_meshes, report, rotation_frame_ms
-from hexmend_app.picture.appearance import Isolation, ValueRange
-from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.picture import Box, Cut, CutStyle, Isolate
 
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
@@ -40,17 +39,21 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
     deep = int(mesh.topology.layers.argmax())
     outer = np.flatnonzero(mesh.topology.layers == 0)[:: max(1, mesh.n_hexes // 500)]
     looks = {
-        "clip": [{"clip": PlaneClip.at((1, 0, 0), place)} for place in places],
-        "smooth cut": [{"clip": PlaneClip.at((1, 0, 0), place, crinkle=False)} for place in places],
-        "box": [{"clip": BoxClip(tuple(low), place)} for place in places],
-        "corner cut out": [{"clip": BoxClip(place, tuple(high), notch=True)} for place in places],
-        "smooth corner": [{"clip": BoxClip(place, tuple(high), crinkle=False, notch=True)} for place in places],
-        "quality range": [{"quality_range": ValueRange("q", 0.5 + k / 100, 1.0)} for k in range(_CHANGES)],
-        "peel": [{"peel": 1 + k % int(mesh.topology.layers.max())} for k in range(_CHANGES)],
-        "isolate": [{"isolation": Isolation((deep,), 1 + k)} for k in range(_CHANGES)],
-        "dig": [{"dug": frozenset(outer[: k + 1].tolist())} for k in range(_CHANGES)],
-        "shrink": [{"shrink": 0.2 + k / 50} for k in range(_CHANGES)],
-        "clip, peel, shrink": [{"clip": PlaneClip.at((1, 0, 0), place), "peel": 1, "shrink": 0.3} for place in places],
+        "clip": [{"cut": Cut.at((1, 0, 0), place)} for place in places],
+        "smooth cut": [{"cut": Cut.at((1, 0, 0), place, CutStyle.SMOOTH)} for place in places],
+        "box": [{"cut": Cut(box=Box(tuple(low), place))} for place in places],
+        "corner cut out": [{"cut": Cut(box=Box(place, tuple(high)), notch=True)} for place in places],
+        "smooth corner": [
+            {"cut": Cut(box=Box(place, tuple(high)), style=CutStyle.SMOOTH, notch=True)} for place in places
+        ],
+        "quality range": [{"show": {"quality": (0.5 + k / 100, 1.0)}} for k in range(_CHANGES)],
+        "peel": [{"show": {"peel": 1 + k % int(mesh.topology.layers.max())}} for k in range(_CHANGES)],
+        "isolate": [{"show": {"isolate": Isolate((deep,), 1 + k)}} for k in range(_CHANGES)],
+        "dig": [{"show": {"hidden": frozenset(outer[: k + 1].tolist())}} for k in range(_CHANGES)],
+        "shrink": [{"show": {"shrink": 0.2 + k / 50}} for k in range(_CHANGES)],
+        "clip, peel, shrink": [
+            {"cut": Cut.at((1, 0, 0), place), "show": {"peel": 1, "shrink": 0.3}} for place in places
+        ],
     }
     viewport = window.canvas.viewport
     window.session.view.set_handles(False)
@@ -83,7 +86,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
             "quads": len(viewport.mesh_layer.faces.quads),
         }
         window.session.view.show_all()
-        window.session.view.change(shrink=0.0)
+        window.session.view.change(show={"shrink": 0.0})
     return result
 
 

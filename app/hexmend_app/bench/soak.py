@@ -19,7 +19,7 @@ from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend.study.bench.section import resident_mb
 from hexmend_app.bench.windows import draw, end_run, run_event_loop, save_and_wait, wait_until
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture import Cut, CutStyle
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
 
@@ -182,8 +182,8 @@ def _open(window: Window, path: Path) -> None:
 def _change_view(window: Window) -> None:
     view, mesh = window.session.view, window.session.document.now.mesh
     middle = tuple(mesh.points.mean(axis=0))
-    for clip in (PlaneClip.at((1, 0, 0), middle), PlaneClip.at((0, 1, 0), middle, crinkle=False), None):
-        view.set_clip(clip)
+    for cut in (Cut.at((1, 0, 0), middle), Cut.at((0, 1, 0), middle, CutStyle.SMOOTH), Cut()):
+        view.set_cut(cut)
         draw(window)
     for metric in ("scaled-jacobian", "q"):
         view.colour_by(metric)

@@ -16,7 +16,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend.study.bench.section import BenchSection
 from hexmend_app.bench.windows import draw, end_run, measure_meshes, report, run_event_loop
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture import Cut, CutStyle
 
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
@@ -45,7 +45,7 @@ def _frame(window: Window, cut: str) -> tuple[float, float]:
     start = window.session.document.start
     middle = tuple(start.mesh.points.mean(axis=0))
     window.session.view.set_handles(False)
-    window.session.view.set_clip(None if cut == "whole" else PlaneClip.at((1, 0, 0), middle, cut == "crinkle"))
+    window.session.view.set_cut(Cut() if cut == "whole" else Cut.at((1, 0, 0), middle, CutStyle(cut)))
     shift = start.mesh.mean_edge_length * 0.05 * np.random.default_rng(0).normal(size=start.mesh.points.shape)
     shift *= start.mesh.free[:, None]
     states = [State.of(start.mesh.with_points(start.mesh.points + share * shift)) for share in (0.0, 0.5, 1.0)]

@@ -17,7 +17,7 @@ from hexmend_app.canvas.camera_animation import CameraAnimation
 from hexmend_app.canvas.render_widget import RenderWidget
 from hexmend_app.canvas.view_keys import move_of
 from hexmend_app.picture.camera_pose import CameraPose
-from hexmend_app.picture.cut_planes import ClipPlane
+from hexmend_app.picture.cut_planes import Plane
 from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 from hexmend_app.scene.views.panes import Panes
 from hexmend_app.state.view.camera_request import PoseHistoryData
@@ -157,7 +157,7 @@ class CameraView(QWidget):
         self.panes.camera_controller.reset_depth()
         self.changed()
 
-    def face(self, plane: ClipPlane) -> None:
+    def face(self, plane: Plane) -> None:
         """Fly to a view perpendicular to a plane, from the side that the cut removes."""
         self.camera_animation.fly(self.panes.camera_controller.flight_along(plane.normal))
 

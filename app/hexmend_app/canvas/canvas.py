@@ -19,7 +19,7 @@ from hexmend_app.canvas.pointer import Pointer
 from hexmend_app.canvas.shading_task import ShadingTask
 from hexmend_app.canvas.view_captions import HEIGHT
 from hexmend_app.canvas.view_frame import ViewFrame
-from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.scene.cutting.box_widget import BoxWidget
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
@@ -44,7 +44,7 @@ class Canvas(CameraView):
 
     Signals
     -------
-    plane_dragged(ClipPlane)
+    plane_dragged(Plane)
         The user moved or rotated the plane in the view.
     box_dragged(low, high)
         The user moved a side of the box in the view.
@@ -138,10 +138,10 @@ class Canvas(CameraView):
     def _place_handles(self) -> None:
         """Place the handles in the first view; they are hidden if it is not visible."""
         handles, at = self._handles
-        clip = None if self.viewport.frame is None else self.viewport.frame.look.clip
+        cut = Cut() if self.viewport.frame is None else self.viewport.frame.look.cut
         shown = handles and self.viewport in self.panes.visible
-        self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) and at < len(clip.planes) else None, shown)
-        self.box.set(clip if isinstance(clip, BoxClip) else None, shown)
+        self.plane.set(cut.planes[at] if at < len(cut.planes) else None, shown)
+        self.box.set(cut.box, shown)
 
     # Selection
 
@@ -278,7 +278,7 @@ class Canvas(CameraView):
         if colouring is None:
             self.colour_bar.hide()
         else:
-            self.colour_bar.setVisible(not self.viewport.frame.look.neutral)
+            self.colour_bar.setVisible(not self.viewport.frame.look.colours.neutral)
             self.colour_bar.set_label(colouring.title)
             self.colour_bar.set_table(colouring.table)
             self.colour_bar.set_range(colouring.low, colouring.high)

@@ -14,9 +14,8 @@ from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.study.thesis.mesh_figures import MeshFigure
-from hexmend_app.picture import Camera, Page, Scene, TextPlace
-from hexmend_app.picture.appearance import Isolation, Look, Structure
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture import Camera, Colours, Cut, Isolate, LineStyle, Page, Scene, Show, TextPlace
+from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
@@ -24,6 +23,9 @@ from hexmend_app.scene.page.page_renderer import draw_page, format_of
 from hexmend_app.scene.render.colour_count import count_colours
 from hexmend_app.scene.render.graphics import prepare_off_screen
 from hexmend_app.scene.render.rasters import aim
+
+#: Colours and lines of figures that show the shape of the mesh alone.
+_NEUTRAL, _NO_EDGES = Colours(neutral=True), LineStyle(edges=0.0)
 
 #: Width and height in pixels.
 SIZE = (900, 600)
@@ -85,11 +87,11 @@ def _with_palette(image: Image.Image, bar: int) -> Image.Image:
 
 
 def _geometry(mesh: Mesh) -> _Subject:
-    return _Subject(mesh, Look(neutral=True, edges=False, structure=Structure(sharp=True)), mesh.points)
+    return _Subject(mesh, Look(colours=_NEUTRAL, lines=_NO_EDGES, structure=Structure.of("sharp")), mesh.points)
 
 
 def _mesh(mesh: Mesh) -> _Subject:
-    return _Subject(mesh, Look(neutral=True), mesh.points)
+    return _Subject(mesh, Look(colours=_NEUTRAL), mesh.points)
 
 
 def _domain(mesh: Mesh) -> _Subject:
@@ -101,19 +103,19 @@ def _domain(mesh: Mesh) -> _Subject:
     below, above = ends[surface[ends[:, 0]] & ~surface[ends[:, 1]]].T
     points = mesh.points.copy()
     points[above] = points[below] + _PRESSED * (points[above] - points[below])
-    isolation = Isolation(tuple(layer.tolist()), rings=0)
-    return _Subject(mesh.with_points(points), Look(isolation=isolation, neutral=True, edges=False), mesh.points)
+    show = Show(isolate=Isolate(tuple(layer.tolist()), rings=0))
+    return _Subject(mesh.with_points(points), Look(show=show, colours=_NEUTRAL, lines=_NO_EDGES), mesh.points)
 
 
 def _section(mesh: Mesh) -> _Subject:
     """Show the half behind the middle y plane of the inner boundary, and the mesh around it."""
     points = mesh.points[_inside(mesh)]
     low, high = points.min(axis=0), points.max(axis=0)
-    clip = PlaneClip.at((0.0, -1.0, 0.0), tuple((low + high) / 2 + _ASIDE * (high - low)))
+    cut = Cut.at((0.0, -1.0, 0.0), tuple((low + high) / 2 + _ASIDE * (high - low)))
     around = _AROUND * (high - low).max()
     places = np.array([(x, (low + high)[1] / 2, z) for x in (low[0] - around, high[0] + around)
                        for z in (low[2] - around, high[2] + around)])  # fmt: skip
-    return _Subject(mesh, Look(clip=clip), places)
+    return _Subject(mesh, Look(cut=cut), places)
 
 
 def _inside(mesh: Mesh) -> np.ndarray:

@@ -71,7 +71,7 @@ def method_words(args: argparse.Namespace) -> list[str]:
     """Return the options of the methods as words of a command without pictures; an empty list without methods."""
     if args.methods == NONE:
         return []
-    known = ("set", "boundary", "target", "layers", *(limit.name for limit in declared(StoppingCriteria)))
+    known = ("set", "boundary", "goal", "target", "layers", *(limit.name for limit in declared(StoppingCriteria)))
     return ["--methods", args.methods or DEFAULT_METHOD, *_words({name: getattr(args, name) for name in known})]
 
 

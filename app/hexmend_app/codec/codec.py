@@ -1,6 +1,7 @@
 """Conversion of values to plain data and back by the types of dataclass fields, for the state in session files.
 
-Dataclasses become tables of their fields, enumerations become their values, tuples and frozensets become lists.
+Dataclasses become tables of their fields, and tables of scenes are stored as in their files; enumerations become their
+values, tuples and frozensets become lists.
 Decoding checks types: an error names the place of a field that is unknown, missing or of another type. A field that was
 added in a later version has its default when read from older files; a renamed field is also read under its former name.
 """
@@ -15,7 +16,9 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from hexmend.errors import HexmendError
-from hexmend_app.codec.conversion import Conversion, entry_types, fixed_length
+from hexmend_app.codec import config_table
+from hexmend_app.codec.config_table import ConfigTable
+from hexmend_app.codec.conversion import Conversion, are_integers, entry_types, fixed_length
 
 _SINCE = "since"
 
@@ -50,15 +53,15 @@ class Codec(Conversion):
 
     Examples
     --------
-    >>> from hexmend_app.picture.appearance import Look, Structure
+    >>> from hexmend_app.picture.appearance import Traces
     >>> codec = Codec({})
-    >>> codec.encode(Structure(), Structure)["sharp"]
-    False
-    >>> codec.decode(codec.encode(Look(), Look), Look) == Look()
+    >>> codec.encode(Traces(), Traces)["since"]
+    'opened'
+    >>> codec.decode(codec.encode(Traces(), Traces), Traces) == Traces()
     True
-    >>> codec.decode({"sharp": 3}, Structure, "structure")
+    >>> codec.decode({"factor": 3}, Traces, "movement")
     Traceback (most recent call last):
-    hexmend_app.codec.codec.DecodeError: structure has no field 'irregular'
+    hexmend_app.codec.codec.DecodeError: movement has no field 'since'
     """
 
     def __init__(
@@ -100,6 +103,8 @@ class Codec(Conversion):
         return {type(value).__name__: self.encode(value, type(value))}
 
     def _encode_table(self, value: Any, kind: type) -> dict[str, Any]:
+        if issubclass(kind, ConfigTable):
+            return config_table.encode(value)
         return {name: self.encode(getattr(value, name), field_kind) for name, field_kind in _fields(kind).items()}
 
     def _decode_union(self, data: Any, kinds: tuple[Any, ...], where: str) -> Any:
@@ -114,6 +119,8 @@ class Codec(Conversion):
 
     def _decode_table(self, data: Any, kind: type, where: str) -> Any:
         _check(data, dict, where)
+        if issubclass(kind, ConfigTable):
+            return config_table.decode(kind, data, (where.rpartition(".")[2],))
         fields = _fields(kind, self._version)
         renamed = {former: name for name, former in self._former.get(kind, {}).items() if name not in data}
         data = {renamed.get(name, name): value for name, value in data.items()}
@@ -131,6 +138,8 @@ class Codec(Conversion):
         count = fixed_length(kind)
         if count not in (None, len(data)):
             raise DecodeError(f"{where} has {len(data)} entries: expected {count}")
+        if are_integers(data, kind):
+            return data
         kinds = entry_types(kind, len(data))
         entries = zip(data, kinds, strict=True)
         return [self.decode(entry, entry_kind, f"{where}[{at}]") for at, (entry, entry_kind) in enumerate(entries)]

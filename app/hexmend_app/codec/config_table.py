@@ -9,13 +9,14 @@ from __future__ import annotations
 import dataclasses
 import math
 import typing
+from collections.abc import Collection
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
 from typing import Any, NamedTuple
 
 from hexmend.errors import ParameterError
-from hexmend_app.codec.conversion import Conversion, entry_types, fixed_length
+from hexmend_app.codec.conversion import Conversion, are_integers, entry_types, fixed_length
 
 #: Maximum number of letters of a text, and maximum absolute value of a number.
 LONGEST, _MAX_NUMBER = 200, 1e300
@@ -56,7 +57,12 @@ def option(default: Any = None, **bounds: Any) -> Any:
 
 @cache
 def options_of(kind: type) -> tuple[Option, ...]:
-    """Return the declarations of the keys of a table or another dataclass, in order."""
+    """Return the declarations of the keys of a table or another dataclass, in order.
+
+    They are its fields, unless it has a method `keys` that declares others, which `to_keys` and `from_keys` convert.
+    """
+    if hasattr(kind, "from_keys"):
+        return kind.keys()
     types = typing.get_type_hints(kind)
     return tuple(
         Option(field.name.rstrip("_"), field.name, types[field.name], _default(field), **field.metadata.get("key", {}))
@@ -70,6 +76,10 @@ def _default(field: dataclasses.Field) -> Any:
 
 #: Place of a value: names of tables, numbers of entries and the key, outermost first.
 KeyPath = tuple[str | int, ...]
+
+
+#: Values of keys that are not written.
+_EMPTY = (None, "", (), {}, frozenset())
 
 
 class _Place(NamedTuple):
@@ -140,8 +150,9 @@ class _TableConversion(Conversion):
         return self.encode(value, type(value) if dataclasses.is_dataclass(value) else _with_shape(value, kinds))
 
     def _encode_table(self, value: Any, kind: type) -> dict[str, Any]:
-        entries = {option.name: (getattr(value, option.field), option.kind) for option in options_of(type(value))}
-        return {name: self.encode(*entry) for name, entry in entries.items() if entry[0] not in (None, "", (), {})}
+        values = value.to_keys() if hasattr(kind, "from_keys") else vars(value)
+        entries = {option.name: (values[option.field], option.kind) for option in options_of(type(value))}
+        return {name: self.encode(*entry) for name, entry in entries.items() if entry[0] not in _EMPTY}
 
     def _decode_union(self, data: Any, kinds: tuple[Any, ...], where: _Place) -> Any:
         return self.decode(data, _with_shape(data, kinds), where)
@@ -161,7 +172,7 @@ class _TableConversion(Conversion):
             for name, value in data.items()
         }
         try:
-            return kind(**values)
+            return kind.from_keys(values) if hasattr(kind, "from_keys") else kind(**values)
         except OptionError as error:
             raise OptionError(f"{table}: {error}" if where.path else str(error)) from None
         except (ParameterError, ValueError) as error:
@@ -173,12 +184,14 @@ class _TableConversion(Conversion):
         return kind(data)
 
     def _decode_entries(self, data: Any, kind: Any, where: _Place) -> list[Any]:
-        if not isinstance(data, list | tuple):
+        if not isinstance(data, list | tuple | frozenset):
             raise OptionError.of(where.path, data, "is not a list: expected a list such as [1, 2]")
         count = fixed_length(kind)
         most = where.option.most if count is None else count
         if most is not None and (len(data) > most or (count is not None and len(data) < count)):
             raise OptionError.of(where.path, data, f"has {len(data)} entries: expected {most}")
+        if count is None and are_integers(data, kind) and _within(data, where.option):
+            return data
         entries = []
         for number, (entry, entry_kind) in enumerate(zip(data, entry_types(kind, len(data)), strict=True), 1):
             path = (*where.path, number) if dataclasses.is_dataclass(entry_kind) else where.path
@@ -229,6 +242,12 @@ def _place(path: KeyPath) -> str:
     inside = 2 if len(path) > 1 and isinstance(path[1], int) else 1
     table, rest = " ".join(map(str, path[:inside])), " ".join(map(str, path[inside:]))
     return f"[{table}] {rest}".rstrip()
+
+
+def _within(numbers: Collection[int], option: Option) -> bool:
+    """Return True if all numbers are within the bounds of an option."""
+    low, high = -_MAX_NUMBER if option.low is None else option.low, _MAX_NUMBER if option.high is None else option.high
+    return not numbers or (low <= min(numbers) and max(numbers) <= high)
 
 
 def _text(value: Any, path: KeyPath, longest: int = LONGEST) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import typing
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from enum import Enum
 from types import NoneType, UnionType
 from typing import Any
@@ -32,6 +32,8 @@ class Conversion:
             return value.value
         if origin in _SEQUENCES:
             ordered = sorted(value) if origin is frozenset else value
+            if are_integers(value, kind):
+                return list(ordered)
             return [self.encode(*entry) for entry in zip(ordered, entry_types(kind, len(value)), strict=True)]
         if origin in (dict, Mapping):
             return {name: self.encode(entry, inner[1]) for name, entry in value.items()}
@@ -97,3 +99,8 @@ def entry_types(kind: Any, count: int) -> tuple[Any, ...]:
     """Return the declared types of the entries of a sequence type."""
     inner = typing.get_args(kind)
     return inner if fixed_length(kind) is not None else (inner[0],) * count
+
+
+def are_integers(entries: Collection[Any], kind: Any) -> bool:
+    """Return True if a sequence type is one of integers, and all entries are: they need no conversion one by one."""
+    return typing.get_args(kind)[0] is int and {int}.issuperset(map(type, entries))

@@ -14,6 +14,7 @@ from hexmend.io.formats.cgns.reader import JOIN_HINT
 from hexmend.io.formats.cgns.structured import structured_hexes
 from hexmend.io.formats.vtk.grid import KIND_BY_TYPE, WIDTH_BY_TYPE
 from hexmend.io.storage import subprocess_reader
+from hexmend.mesh.materials import STRUCTURED_BLOCKS
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.formats.adf_links import check_links
 
@@ -55,7 +56,9 @@ def content(path: Path) -> Content:
         data.append(_arrays(zone.GetPointData()))
         first += len(zone_points)
     node_data = concatenate_data(data, [len(part) for part in points])
-    return Content(np.concatenate(points), tuple(blocks), node_data, notes=tuple(notes))
+    grids = [name for name, zone in zones if name and zone.IsA("vtkStructuredGrid")] if len(zones) > 1 else []
+    fields = {STRUCTURED_BLOCKS: grids} if grids else {}  # blocks of a grid are no materials
+    return Content(np.concatenate(points), tuple(blocks), node_data, field_data=fields, notes=tuple(notes))
 
 
 def _leaves(data: object, name: str = "") -> list[tuple[str, object]]:

@@ -5,11 +5,13 @@ A `Scene` consists of tables (`Camera`, `Cut`, `Show`, `Colours`, `Page`, ...); 
 
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.picture.camera import Camera, PicturePanel, WipeLayout
-from hexmend_app.picture.cut import Box, Cut, CutStyle, Plane
+from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box, Plane
 from hexmend_app.picture.page import AxesStyle, Captions, ColourBarStyle, Corner, LineStyle, Page, TextPlace
 from hexmend_app.picture.scene import FORMAT, Scene
 from hexmend_app.picture.scene_files import camera_from, camera_text, from_toml, read_scene, to_toml, write_scene
-from hexmend_app.picture.visibility import Colours, Isolate, Range, Show
+from hexmend_app.picture.visibility import Isolate, Show
 
 __all__ = [
     "FORMAT",

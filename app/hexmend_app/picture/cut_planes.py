@@ -1,12 +1,18 @@
-"""Cutting planes and boxes as values without Qt and VTK."""
+"""Planes and boxes of cuts as values without Qt and VTK."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+
+from hexmend.errors import ParameterError
+from hexmend.mesh.mesh import Mesh
+from hexmend_app.codec.config_table import ConfigTable, option
+from hexmend_app.picture.camera_pose import Vector
 
 #: Angle in degrees within which a plane that is rotated by hand snaps to an axis.
 SNAP = 8.0
@@ -17,44 +23,61 @@ _MARGIN = 1e-9  # of the diagonal of a box
 
 
 @dataclass(frozen=True)
-class ClipPlane:
-    """Cutting plane; the half-space that `normal` points to lies beyond it.
+class Plane(ConfigTable):
+    """Plane of a cut, which hides the side that its normal points to.
 
     Parameters
     ----------
-    normal : tuple of 3 floats
-        Normal, which is normalised to unit length.
-    origin : tuple of 3 floats
-        Point of the plane, in the unit of the mesh.
+    normal : Vector
+        Normal of the plane, of any length; it is normalised.
+    position : float, optional
+        Position along the normal, from 0 at one end of the mesh to 1 at the other; by default 0.5.
+    point : Vector, optional
+        Point of the plane, in the unit of the mesh, instead of a position.
     """
 
-    normal: tuple[float, float, float] = (1.0, 0.0, 0.0)
-    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    normal: Vector = option((1.0, 0.0, 0.0))
+    position: float | None = option(low=0, high=1)
+    point: Vector | None = option()
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         length = math.hypot(*self.normal)
-        if not length > 0 or not math.isfinite(length):
-            raise ValueError(f"the normal of the plane is {self.normal}: expected a nonzero vector")
-        if abs(length - 1) < _ROUNDING:
-            length = 1.0  # copies of a plane are identical
-        object.__setattr__(self, "normal", tuple(float(c) / length for c in self.normal))
-        object.__setattr__(self, "origin", tuple(float(c) for c in self.origin))
+        if abs(length - 1) >= _ROUNDING:  # copies of a plane are identical
+            object.__setattr__(self, "normal", tuple(c / length for c in self.normal))
 
-    @property
+    def check(self) -> None:
+        """Raise `ParameterError` unless there is a nonzero normal and at most one of position and point."""
+        if self.position is not None and self.point is not None:
+            raise ParameterError("the plane has a position and a point: expected one of them")
+        if not math.hypot(*self.normal) > 0:
+            raise ParameterError("normal = [0, 0, 0] is no direction: expected a nonzero vector")
+
+    def on(self, mesh: Mesh) -> Plane:
+        """Return the plane with a point in a mesh instead of a position."""
+        if self.point is not None:
+            return self
+        normal = np.array(self.normal)
+        along = mesh.points[mesh.topology.used] @ normal
+        share = 0.5 if self.position is None else self.position
+        offset = along.min() + share * (along.max() - along.min())
+        return Plane(self.normal, point=tuple((normal * offset / (normal @ normal)).tolist()))
+
+    @cached_property
     def equation(self) -> tuple[np.ndarray, float]:
-        """Normal, (3,), and offset; points x of the plane satisfy x . normal = offset."""
-        return np.array(self.normal), float(np.dot(self.normal, self.origin))
+        """Normal, (3,), and offset; points x of the plane satisfy x . normal = offset. The plane has a point."""
+        return np.array(self.normal), float(np.dot(self.normal, self.point))
 
     def signed_distance(self, points: np.ndarray) -> np.ndarray:
         """Return the distances of points, (k, 3), from the plane, positive beyond it."""
         normal, offset = self.equation
         return np.asarray(points) @ normal - offset
 
-    def flipped(self) -> ClipPlane:
+    def flipped(self) -> Plane:
         """Return the plane with the opposite normal."""
         return dataclasses.replace(self, normal=tuple(-c for c in self.normal))
 
-    def snapped(self, degrees: float = SNAP) -> ClipPlane:
+    def snapped(self, degrees: float = SNAP) -> Plane:
         """Return the plane with its normal along an axis if they differ by at most `degrees`; else the plane itself."""
         size = np.abs(self.normal)
         axis = int(size.argmax())
@@ -64,119 +87,47 @@ class ClipPlane:
 
 
 @dataclass(frozen=True)
-class PlaneClip:
-    """Cut by planes.
+class Box(ConfigTable):
+    """Axis-aligned box of a cut.
 
     Parameters
     ----------
-    planes : tuple of ClipPlane
-        At least one plane.
-    crinkle : bool
-        Cut by whole hexes, which are hidden if their centres are cut away, instead of a smooth cut.
-    notch : bool
-        Hide only what lies beyond all planes, which removes a corner, instead of what lies beyond any plane.
-    """
-
-    planes: tuple[ClipPlane, ...] = (ClipPlane(),)
-    crinkle: bool = True
-    notch: bool = False
-
-    def __post_init__(self) -> None:
-        if not self.planes:
-            raise ValueError("the cut has no plane: expected at least one")
-        object.__setattr__(self, "planes", tuple(self.planes))
-
-    @classmethod
-    def at(cls, normal: tuple, origin: tuple, crinkle: bool = True) -> PlaneClip:
-        """Return the cut by a single plane."""
-        return cls((ClipPlane(normal, origin),), crinkle)
-
-    def with_plane(self, at: int, plane: ClipPlane) -> PlaneClip:
-        """Return a copy in which the plane with the index `at` is replaced."""
-        return dataclasses.replace(self, planes=(*self.planes[:at], plane, *self.planes[at + 1 :]))
-
-
-@dataclass(frozen=True)
-class BoxClip:
-    """Cut by an axis-aligned box.
-
-    Parameters
-    ----------
-    low, high : tuple of 3 floats
+    low, high : Vector
         Lowest and highest corner, in the unit of the mesh.
-    crinkle : bool
-        As in `PlaneClip`.
-    notch : bool
-        Hide the inside of the box instead of its outside.
+    shares : bool
+        Corners are fractions of the bounding box of the mesh, from 0 to 1, instead of coordinates.
     """
 
-    low: tuple[float, float, float]
-    high: tuple[float, float, float]
-    crinkle: bool = True
-    notch: bool = False
+    low: Vector = option((0.0, 0.0, 0.0))
+    high: Vector = option((1.0, 1.0, 1.0))
+    shares: bool = option(False)
 
-    def __post_init__(self) -> None:
-        low, high = (tuple(float(c) for c in corner) for corner in (self.low, self.high))
-        if not all(a <= b for a, b in zip(low, high, strict=True)) or not np.isfinite([*low, *high]).all():
-            raise ValueError(f"the box goes from {low} to {high}: expected the lower corner first")
-        object.__setattr__(self, "low", low)
-        object.__setattr__(self, "high", high)
+    def check(self) -> None:
+        """Raise `ParameterError` for an invalid box."""
+        if not all(a <= b for a, b in zip(self.low, self.high, strict=True)):
+            raise ParameterError(f"the box goes from {self.low} to {self.high}: expected the lower corner first")
+        if self.shares and not (min(self.low) >= 0 and max(self.high) <= 1):
+            raise ParameterError(f"the box goes from {self.low} to {self.high}: expected fractions from 0 to 1")
 
-    @property
-    def planes(self) -> tuple[ClipPlane, ...]:
-        """Planes of the sides: x low, x high, y low, ...; beyond any of them, or with `notch` all, hexes are hidden.
+    def on(self, mesh: Mesh) -> Box:
+        """Return the box with coordinates in a mesh instead of fractions."""
+        if not self.shares:
+            return self
+        points = mesh.points[mesh.topology.used]
+        lowest, highest = points.min(axis=0), points.max(axis=0)
+        low, high = (lowest + (highest - lowest) * share for share in (self.low, self.high))
+        return Box(tuple(low.tolist()), tuple(high.tolist()))
+
+    def sides(self, inwards: bool) -> tuple[Plane, ...]:
+        """Return the planes of the sides: x low, x high, y low, ...; their normals point outwards or `inwards`.
 
         They lie slightly outside the box, so that faces of the mesh on its sides are inside.
         """
-        orientation = -1.0 if self.notch else 1.0
+        orientation = -1.0 if inwards else 1.0
         low, high = np.array(self.low), np.array(self.high)
         margin = _MARGIN * float(np.linalg.norm(high - low))
         return tuple(
-            ClipPlane(tuple(sign * orientation * _AXES[axis]), tuple(corner))
+            Plane(tuple(sign * orientation * _AXES[axis]), point=tuple(corner))
             for axis in range(3)
             for sign, corner in ((-1.0, low - margin), (1.0, high + margin))
         )
-
-
-Clip = PlaneClip | BoxClip
-
-
-@dataclass(frozen=True)
-class CutLeft:
-    """Hexes that a cut by whole hexes has left, which remain the same while nodes move.
-
-    Parameters
-    ----------
-    clip : PlaneClip or BoxClip
-        The cut.
-    hexes : tuple of (first, last)
-        Ascending ranges of hex numbers, both ends inclusive.
-    """
-
-    clip: Clip
-    hexes: tuple[tuple[int, int], ...] = ()
-
-    def __post_init__(self) -> None:
-        previous = -1
-        for first, last in self.hexes:
-            if not previous < first <= last:
-                raise ValueError(f"hexes {first} to {last} follow {previous}: expected ascending ranges")
-            previous = last
-
-    @classmethod
-    def of(cls, clip: Clip, left: np.ndarray) -> CutLeft:
-        """Return the hexes that a mask, (m,) bool, marks as remaining."""
-        ends = np.flatnonzero(np.diff(left, prepend=False, append=False))
-        return cls(clip, tuple((int(first), int(end) - 1) for first, end in ends.reshape(-1, 2)))
-
-    @property
-    def most(self) -> int:
-        """Largest hex number; -1 if no hex remains."""
-        return self.hexes[-1][1] if self.hexes else -1
-
-    def mask(self, hexes: int) -> np.ndarray:
-        """Return True for the remaining hexes of a mesh with `hexes` hexes, (m,) bool."""
-        mask = np.zeros(hexes, dtype=bool)
-        for first, last in self.hexes:
-            mask[first : last + 1] = True
-        return mask

@@ -66,6 +66,11 @@ class LineStyle(ConfigTable):
 
     edges: float | None = option(low=0, high=20, unit="pt")
 
+    @property
+    def shown(self) -> bool:
+        """True if the edges of hexes are drawn."""
+        return self.edges != 0
+
 
 @dataclass(frozen=True)
 class ColourBarStyle(ConfigTable):

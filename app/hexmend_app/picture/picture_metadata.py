@@ -13,6 +13,7 @@ import numpy as np
 
 import hexmend.run.recipe as recipes
 from hexmend.errors import FileError, ParameterError
+from hexmend.io.format_lookup import format_by_place
 from hexmend.mesh.mesh import Mesh
 from hexmend.run.recipe import Recipe
 from hexmend.toml_text import parse_toml
@@ -67,7 +68,7 @@ class PicturedMesh(ConfigTable):
         if not self.file:
             return []
         paths = (picture.parent / self.file, picture.parent / PurePosixPath(self.file).name)
-        return [path for path in paths if path.is_file()]
+        return [path for path in paths if path.is_file() or format_by_place(path)]
 
 
 @dataclass(frozen=True)

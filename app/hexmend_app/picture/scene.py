@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields
 from typing import Any
 
 from hexmend.errors import ParameterError
@@ -11,13 +11,21 @@ from hexmend_app.codec.config_table import ConfigTable, option
 from hexmend_app.picture.appearance import Look, Structure, Traces
 from hexmend_app.picture.camera import MAX_PANELS, Camera, PicturePanel
 from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.named_cameras import MAX_CAMERAS
 from hexmend_app.picture.page import AxesStyle, ColourBarStyle, LineStyle, Page
-from hexmend_app.picture.visibility import Colours, Show
+from hexmend_app.picture.visibility import Show
 
 #: Number of the current format; lower numbers can be read.
 FORMAT = 1
+
+#: Tables that a scene shares with a look.
+_OF_LOOK = tuple(field.name for field in fields(Look))
+
+#: Maximum number of hexes that a scene hides or isolates individually, and maximum length of the text that lists the
+#: hexes which a cut leaves; the cut of a look with a longer text is evaluated when the picture is drawn.
+_MAX_HEXES, _MAX_TEXT = 300_000, 2_000_000
 
 
 @dataclass(frozen=True)
@@ -69,9 +77,13 @@ class Scene(ConfigTable):
     page: Page = option(Page)
 
     def check(self) -> None:
-        """Raise `ParameterError` for a newer format, and for panels with unknown cameras."""
+        """Raise `ParameterError` for a newer format, too many hexes, and panels with unknown cameras."""
         if self.format > FORMAT:
             raise ParameterError(f"format = {self.format} is newer than this version of Hexmend, which reads {FORMAT}")
+        isolated = () if self.show.isolate is None else self.show.isolate.hexes
+        for name, hexes in (("hidden", self.show.hidden), ("isolate", isolated)):
+            if len(hexes) > _MAX_HEXES:
+                raise ParameterError(f"[show] {name} lists {len(hexes):,} hexes: expected {_MAX_HEXES:,} at most")
         for number, panel in enumerate(self.panels, 1):
             if panel.camera and panel.camera not in self.cameras:
                 known = ", ".join(self.cameras) or "none"
@@ -87,26 +99,14 @@ class Scene(ConfigTable):
         pose : CameraPose, optional
             Pose of the camera; by default the isometric view.
         tables
-            Other tables: `page`, `bar`, `axes`, `lines`, `panels`, `cameras`. The look determines edges and shading.
+            Other tables: `bar`, `axes`, `panels`, `cameras`, and tables that replace those of the look.
         """
-        page = replace(tables.pop("page", Page()), shading=look.shading)
-        lines = tables.pop("lines", LineStyle())
-        if not look.edges:
-            lines = replace(lines, edges=0.0)
-        elif lines.edges == 0:
-            lines = replace(lines, edges=None)
+        tables = {**{name: getattr(look, name) for name in _OF_LOOK}, **tables}
         if pose is not None:
             tables["camera"] = Camera.at(pose)
-        return cls(
-            cut=Cut.from_clip(look.clip, look.left),
-            show=Show.from_look(look),
-            structure=look.structure,
-            movement=look.traces,
-            colours=Colours.from_look(look),
-            lines=lines,
-            page=page,
-            **tables,
-        )
+        if len(tables["cut"].hexes) > _MAX_TEXT:
+            tables["cut"] = tables["cut"].with_hexes(None)
+        return cls(**tables)
 
     def look(self, mesh: Mesh) -> Look:
         """Return the look of the scene for a mesh.
@@ -116,18 +116,7 @@ class Scene(ConfigTable):
         ParameterError
             If the scene refers to a hex that does not exist in the mesh.
         """
-        self.show.check_numbers(mesh.n_hexes)
-        return Look(
-            clip=self.cut.of(mesh),
-            left=self.cut.left(mesh),
-            scale=self.colours.scale,
-            edges=self.lines.edges != 0,
-            shading=self.page.shading,
-            neutral=self.colours.neutral,
-            structure=self.structure,
-            traces=self.movement,
-            **self.show.fields(),
-        )
+        return Look(**{name: getattr(self, name) for name in _OF_LOOK}).on(mesh)
 
     def camera_of(self, panel: PicturePanel) -> Camera:
         """Return the camera of a panel."""

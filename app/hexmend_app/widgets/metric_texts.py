@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from hexmend.quality import METRICS, HexQuantity, Metric
+from hexmend_app.translation import tr
 
 
 def metrics_offered() -> list[Metric]:
@@ -13,9 +14,16 @@ def metrics_offered() -> list[Metric]:
 def described(metric: HexQuantity) -> str:
     """Return the tooltip of a metric: formula, meaning, acceptable range and source."""
     low, high = metric.acceptable
-    return (
-        f"<qt><b>{metric.title}</b>: {metric.formula}.<br>{metric.meaning}<br>"
-        f"Acceptable from {low:g} to {high:g} {metric.unit}. <i>{metric.source}</i></qt>"
+    return tr(
+        "<qt><b>{title}</b>: {formula}.<br>{meaning}<br>Acceptable from {low:g} to {high:g} {unit}. "
+        "<i>{source}</i></qt>",
+        title=metric.title,
+        formula=metric.formula,
+        meaning=metric.meaning,
+        low=low,
+        high=high,
+        unit=metric.unit,
+        source=metric.source,
     )
 
 

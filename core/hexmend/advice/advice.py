@@ -35,8 +35,8 @@ class Advice:
     surface : str
         Change of the boundary, as a sentence; empty if no method let it slide.
     limiting, locked_below : (k,) int64
-        Hexes whose corners prevent the least scaled Jacobian from rising further, and hexes with a lower corner whose
-        nodes are all fixed.
+        Hexes whose corners prevent the least scaled Jacobian (or time step) from rising further, and hexes with a
+        lower corner whose nodes are all fixed.
     suggestions : tuple of Suggestion
         The most urgent first; may be empty.
     no_suggestion : str

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
@@ -18,6 +18,7 @@ from hexmend.boundary.features import (
     marked_edges,
     turning_angles,
 )
+from hexmend.boundary.skin_faces import skin_faces
 from hexmend.errors import MeshError
 from hexmend.mesh.components import components
 from hexmend.mesh.fields import as_set
@@ -72,6 +73,19 @@ class Boundary:
         """Number of curves."""
         return int(self.curve_of_segment.max(initial=-1)) + 1
 
+    def with_corners(self, nodes: np.ndarray) -> Boundary:
+        """Return the boundary with some nodes (k,) as corners; curves and patches stay as they are."""
+        node_class, component = self.node_class.copy(), self.component.copy()
+        nodes = nodes[node_class[nodes] != NodeClass.INSIDE]
+        node_class[nodes], component[nodes] = NodeClass.CORNER, -1
+        return replace(self, node_class=node_class, component=component)
+
+    def without_nodes(self, nodes: np.ndarray) -> Boundary:
+        """Return the boundary with some nodes (k,) inside: they move freely, whatever their curve or patch."""
+        node_class, component = self.node_class.copy(), self.component.copy()
+        node_class[nodes], component[nodes] = NodeClass.INSIDE, -1
+        return replace(self, node_class=node_class, component=component)
+
     def count(self, node_class: NodeClass) -> int:
         """Return the number of nodes of a class."""
         return int(np.count_nonzero(self.node_class == node_class))
@@ -87,7 +101,9 @@ def boundary_of(
     sharp: np.ndarray | None = None,
     corners: np.ndarray | None = None,
 ) -> Boundary:
-    """Classify the boundary nodes of a mesh.
+    """Classify the nodes of the boundary of a mesh and of the interfaces between its materials.
+
+    A patch is of the boundary or of an interface, never of both: where they meet is a curve.
 
     Parameters
     ----------
@@ -101,9 +117,10 @@ def boundary_of(
         angles is less than this multiple of `feature_angle`; 0 keeps them all.
     sharp : (e, 2) int, optional
         Edges that are features whatever their angle. By default those that the mesh's file marks (Medit's Ridges and
-        RequiredEdges, and edges at which references of Quadrilaterals change).
+        RequiredEdges, and edges at which references of Quadrilaterals change), and those at which named sets end.
     corners : (c,) int, optional
-        Nodes that are corners. By default those that the file marks (Medit's Corners) and the pinned nodes.
+        Nodes that are corners. By default those that the file marks (Medit's Corners), those alone in a named set,
+        and the pinned nodes.
 
     Returns
     -------
@@ -124,7 +141,7 @@ def boundary_of(
     sharp = marked_edges(mesh) if sharp is None else sharp
     corners = marked_corners(mesh) if corners is None else corners
     marks = {"sharp": sharp, "corners": corners}
-    return classify(mesh.points, mesh.topology.boundary_faces, feature_angle, turn=turn, whisker=whisker, **marks)
+    return classify(mesh.points, skin_faces(mesh).faces, feature_angle, turn=turn, whisker=whisker, **marks)
 
 
 def classify(

@@ -7,7 +7,7 @@ import numpy as np
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of
 from hexmend.boundary.edges import edge_keys
 from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
-from hexmend.mesh.hexahedron import FACES
+from hexmend.boundary.skin_faces import skin_faces
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants
 
@@ -44,18 +44,22 @@ def bend_corners(mesh: Mesh, boundary: Boundary) -> np.ndarray:
     ----------
     mesh : Mesh
     boundary : Boundary
-        Boundary of the mesh.
+        As of `boundary_of`.
 
     Returns
     -------
     (k,) int
         Numbers of nodes, ascending.
     """
-    hexes, sides = np.nonzero(mesh.topology.face_neighbours < 0)
+    skin = skin_faces(mesh)
     sides_ahead = np.stack([boundary.faces, np.roll(boundary.faces, -1, axis=1)], axis=-1)
     on_curve = np.isin(edge_keys(sides_ahead, mesh.n_nodes), edge_keys(boundary.segments, mesh.n_nodes))
     at = on_curve & np.roll(on_curve, 1, axis=1) & (boundary.node_class[boundary.faces] == NodeClass.CURVE)
     face, place = np.nonzero(at)
-    sigma = corner_determinants(mesh.points, mesh.hexes, hexes[face])
-    corner = FACES[sides[face], place]
-    return np.unique(boundary.faces[face, place][sigma[np.arange(face.size), corner] > 0])
+    nodes, open_ = boundary.faces[face, place], np.zeros(face.size, dtype=bool)
+    for hexes in skin.hexes[face].T:  # an interface has a hex on both sides
+        there = np.flatnonzero(hexes >= 0)
+        sigma = corner_determinants(mesh.points, mesh.hexes, hexes[there])
+        corner = (mesh.hexes[hexes[there]] == nodes[there, None]).argmax(axis=1)
+        open_[there] |= sigma[np.arange(there.size), corner] > 0
+    return np.unique(nodes[open_])

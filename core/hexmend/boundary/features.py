@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.boundary.edges import SurfaceEdges, chains, segment_pairs
+from hexmend.boundary.skin_faces import edges_between_sets, lone_set_nodes
 from hexmend.mesh.components import components
 from hexmend.mesh.mesh import Mesh
 
@@ -94,8 +95,11 @@ def turning_angles(points: np.ndarray, segments: np.ndarray, between: np.ndarray
 
 
 def marked_edges(mesh: Mesh) -> np.ndarray:
-    """Edges marked in the mesh's file as ridges or required, and those between faces of two references, (e, 2) int."""
-    found = [np.empty((0, 2), dtype=np.int32)]
+    """Edges marked in the mesh's file as ridges or required, and those at which named sets end, (e, 2) int.
+
+    Faces of two references, as Medit has them, are of two sets.
+    """
+    found = [edges_between_sets(mesh)]
     for cells in mesh.cells:
         if cells.kind == "quad" and "medit:ref" in cells.data:
             edges, side = SurfaceEdges(cells.nodes, mesh.n_nodes), np.asarray(cells.data["medit:ref"])
@@ -107,6 +111,6 @@ def marked_edges(mesh: Mesh) -> np.ndarray:
 
 
 def marked_corners(mesh: Mesh) -> np.ndarray:
-    """Nodes marked in the mesh's file as corners, and pinned nodes, (c,) int."""
-    pinned = np.empty(0, dtype=np.int64) if mesh.pinned is None else np.flatnonzero(mesh.pinned)
-    return np.concatenate([np.asarray(mesh.node_sets.get("corners", []), dtype=np.int64), pinned])
+    """Nodes marked in the mesh's file as corners, those alone in a named set, and those that stay, (c,) int."""
+    corners = np.asarray(mesh.node_sets.get("corners", []), dtype=np.int64)
+    return np.concatenate([corners, lone_set_nodes(mesh), np.flatnonzero(mesh.immovable)])

@@ -15,10 +15,13 @@ from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints
 from hexmend.boundary.comparison import MAX_TARGET_DISTANCE
 from hexmend.boundary.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
+from hexmend.boundary.flat_parts import flat_motion
 from hexmend.boundary.normals import unit_vectors, vertex_normals
+from hexmend.boundary.restrictions import fixed_on_surface, freed_by_rules, interface_nodes
 from hexmend.boundary.surface import PartitionedSurface
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding_surface as kernels
+from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
 from hexmend.mesh.validation import as_points, points_like
@@ -32,7 +35,9 @@ _INTERIOR_WEIGHT = 1e-3
 class SlidingBoundary(Band):
     """A mesh whose boundary nodes slide on a surface: nodes of curves along curves, nodes of patches on patches.
 
-    Corners and pinned nodes stay.
+    Interfaces between materials are patches of the surface too, and nodes on them slide as the rules of the mesh say.
+    Corners and pinned nodes stay. On a target surface interfaces stay. Nodes with a linear motion do not slide: they
+    move as that says.
 
     Parameters
     ----------
@@ -42,34 +47,47 @@ class SlidingBoundary(Band):
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
     max_deviation : float
         Largest distance of the boundary's edge and face midpoints from the surface, in the mesh's unit.
+    outer : bool
+        Let the nodes of the boundary slide; else only those do for which the rules of the mesh say so.
 
     Attributes
     ----------
     boundary : Boundary
+        With nodes that stay as corners.
     surface : Surface
     node_class : (n,) uint8
         `NodeClass` of each node with respect to the surface.
     releasable : (n,) bool
         True for corners found by angle, which may be made to slide; false for those that are marked or pinned.
+    confined : (n,) bool
+        True for nodes that never leave the surface: those of interfaces.
     mesh : Mesh
         The given mesh with only corners, pinned nodes and unused nodes fixed; its sliding nodes lie on the target.
     nodes : (k,) int64
         Sliding nodes, ascending.
     """
 
-    def __init__(self, mesh: Mesh, feature_angle: float = FEATURE_ANGLE, max_deviation: float = np.inf):
-        self.boundary = boundary_with_kept_corners(mesh, feature_angle)
+    def __init__(
+        self, mesh: Mesh, feature_angle: float = FEATURE_ANGLE, max_deviation: float = np.inf, outer: bool = True
+    ):
+        whole = boundary_with_kept_corners(mesh, feature_angle)
+        stays = fixed_on_surface(mesh, outer)
+        self.boundary = whole.with_corners(np.flatnonzero(stays)).without_nodes(freed_by_rules(mesh))
         target, start = mesh.target, mesh.surface_points
         if target is None:
             self.surface = PartitionedSurface(start, self.boundary)
         else:
-            whole = PartitionedSurface(target.points, classify(target.points, target.faces, feature_angle))
-            self.surface = whole.attached(start, self.boundary, MAX_TARGET_DISTANCE * mesh.mean_edge_length)
+            given = PartitionedSurface(target.points, classify(target.points, target.faces, feature_angle))
+            self.surface = given.attached(start, self.boundary, MAX_TARGET_DISTANCE * mesh.mean_edge_length)
         self.node_class = self.surface.node_class
         slides = self.node_class >= NodeClass.CURVE
+        if mesh.linear_motion is not None:
+            slides &= ~mesh.linear_motion.marks(mesh.n_nodes)
         self.nodes = np.flatnonzero(slides)
         self.releasable = self.boundary.node_class == NodeClass.CORNER
         self.releasable[marked_corners(mesh)] = False
+        self.confined = interface_nodes(mesh)
+        self.releasable &= ~(stays | self.confined)
         self._group = self.surface.group_of(self.nodes)
         self._number = index_of(self.nodes, mesh.n_nodes)
         if target is not None:
@@ -154,6 +172,28 @@ class SlidingBoundary(Band):
         start = np.searchsorted(at[quads_at], np.arange(self.nodes.size + 1)).astype(np.int32)
         quads = kernels.BoundaryQuads(start, quads_at, faces, self.outward)
         return kernels.SlidingSurface(self._number, trees.roots[self._group], trees.box_trees, quads)
+
+    @cached_property
+    def curved_nodes(self) -> np.ndarray:
+        """Sliding nodes that are neither on a flat patch nor on a straight curve, ascending, (k,) int64."""
+        if self._given is not None:  # a surface of its own
+            return self.nodes
+        return self.nodes[~self._flat.marks(self.mesh.n_nodes)[self.nodes]]
+
+    @cached_property
+    def linear_mesh(self) -> Mesh:
+        """`mesh`, in which nodes of flat patches and straight curves have a linear motion, in plane and along line."""
+        mesh = self.mesh
+        if self._given is not None or not self._flat:
+            return mesh
+        flat, start, given = self._flat, mesh.motion_start.copy(), mesh.linear_motion
+        start[flat.nodes] = self.points[flat.nodes]
+        motion = flat if given is None else given.merge(flat)
+        return mesh.with_points(start).with_linear_motion(motion).with_points(mesh.points).with_fixed(mesh.fixed)
+
+    @cached_property
+    def _flat(self) -> LinearMotion:
+        return flat_motion(self.points, self.boundary, self.nodes, self.mesh.mean_edge_length)
 
     @cached_property
     def outward(self) -> np.ndarray:

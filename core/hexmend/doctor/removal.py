@@ -54,7 +54,7 @@ def renumber_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
     kept, first = np.unique(target, return_index=True)
     first = first[kept >= 0]
     mids = mesh.mid_nodes
-    return mesh.rebuilt(
+    rebuilt = mesh.rebuilt(
         points=mesh.points[first],
         hexes=target[mesh.hexes],
         mid_nodes=None if mids is None else np.where(mids >= 0, target[mids], -1),
@@ -63,6 +63,11 @@ def renumber_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
         node_sets=_renumbered_sets(mesh.node_sets, target),
         cells=tuple(Cells(c.kind, target[c.nodes].astype(np.int32), c.data, c.sets) for c in mesh.cells),
     )
+    motion = mesh.linear_motion
+    if motion is None:
+        return rebuilt
+    start = rebuilt.with_points(mesh.motion_start[first])
+    return start.with_linear_motion(motion.renumbered(target)).with_points(rebuilt.points)
 
 
 def has_repeated_node(hexes: np.ndarray) -> np.ndarray:

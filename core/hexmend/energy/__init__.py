@@ -2,6 +2,7 @@
 
 from hexmend.aliases import exports
 from hexmend.energy.hex_energy import energies, objective
+from hexmend.energy.linear_motion_energy import LinearMotionEnergy, energy_of
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.regularisation import POLICIES, AdaptiveDelta, DeltaPolicy, FixedDelta
@@ -16,10 +17,12 @@ __all__ = [
     "DeltaPolicy",
     "FixedDelta",
     "Hessian",
+    "LinearMotionEnergy",
     "MeshEnergy",
     "ObjectiveNorm",
     "SlidingEnergy",
     "energies",
+    "energy_of",
     "objective",
 ]
 

@@ -56,6 +56,8 @@ class AssembledHessian(SymmetricOperator):
         super().__init__(3 * sparsity.nodes.size)
         self.sparsity, self.off_diagonal, self.diagonal, self.exponent = sparsity, off_diagonal, diagonal, exponent
         self.order = sparsity.order
+        #: Matrix of all free nodes from which this one of fewer was made; see `hexmend.energy.reduction`.
+        self.unreduced: AssembledHessian | None = None
         self._work = np.empty(64 * sparsity.nodes.size + 16, off_diagonal.dtype)
 
     def reset(self) -> AssembledHessian:

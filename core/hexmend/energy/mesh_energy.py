@@ -134,6 +134,28 @@ class MeshEnergy:
         """Value of the energy if all hexes are cubes, or as the target wants them, and delta is 0."""
         return self.norm.cube_value * self.mesh.n_hexes
 
+    def on_part(self, part: Mesh, hexes: np.ndarray) -> MeshEnergy:
+        """Return the energy of a part of the mesh, as a function of the free nodes of the part.
+
+        Parameters
+        ----------
+        part : Mesh
+            Its hexes are some of this mesh.
+        hexes : (k,) int
+            Their numbers in this mesh.
+
+        Returns
+        -------
+        MeshEnergy
+            Of positions in mean edge lengths of this mesh, with its norm, omitted corners and target.
+        """
+        energy = MeshEnergy(part, self.norm, self.omitted[hexes])
+        energy.unit = self.unit
+        if self._lengths is not None:
+            lengths, weight = self._lengths[hexes], self.mesh.element_target.size_weight
+            energy._lengths, energy.target = lengths, TargetMatrices(self.unit / lengths, weight)
+        return energy
+
     def with_objective(self, norm: ObjectiveNorm, omitted: np.ndarray) -> MeshEnergy:
         """Return a copy with another norm and other omitted corners; the data that depend on the mesh alone are shared.
 
@@ -193,6 +215,10 @@ class MeshEnergy:
     def infeasible_nodes(self, x: np.ndarray, moved: np.ndarray) -> np.ndarray | None:
         """Return True for nodes that may not move from x (n, 3) to `moved` (n, 3), (n,) bool; None if all may."""
         return None
+
+    def with_masters(self, marks: np.ndarray) -> np.ndarray:
+        """Return marks of nodes, (n,) bool, to which the nodes are added that others of them move with."""
+        return marks
 
     @property
     def _corner_buffer(self) -> np.ndarray:

@@ -30,20 +30,33 @@ class SlidingEnergy(MeshEnergy):
     sliding : SlidingBoundary
     norm, omitted
         See `MeshEnergy`.
+    flat_is_linear : bool
+        Leave nodes on flat patches and straight curves to the linear motion of the mesh, `SlidingBoundary.linear_mesh`.
+
+    Attributes
+    ----------
+    sliding_nodes : (k,) int64
+        Nodes that are projected.
     """
 
-    faceted = True
-
-    def __init__(self, sliding: SlidingBoundary, norm: ObjectiveNorm = SQUARES, omitted: np.ndarray | None = None):
-        super().__init__(sliding.mesh, norm, omitted)
+    def __init__(
+        self,
+        sliding: SlidingBoundary,
+        norm: ObjectiveNorm = SQUARES,
+        omitted: np.ndarray | None = None,
+        flat_is_linear: bool = False,
+    ):
+        super().__init__(sliding.linear_mesh if flat_is_linear else sliding.mesh, norm, omitted)
         self.sliding = sliding
-        self._rows = np.searchsorted(self.nodes, sliding.nodes)
+        self.sliding_nodes = sliding.curved_nodes if flat_is_linear else sliding.nodes
+        self.faceted = self.sliding_nodes.size > 0
+        self._rows = np.searchsorted(self.nodes, self.sliding_nodes)
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         there = super().moved(x, step, alpha)
-        nodes = self.sliding.nodes
-        there[nodes] = self.sliding.project(there[nodes] * self.unit) / self.unit
+        nodes = self.sliding_nodes
+        there[nodes] = self.sliding.project(there[nodes] * self.unit, nodes) / self.unit
         return there
 
     def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
@@ -53,12 +66,12 @@ class SlidingEnergy(MeshEnergy):
         that ascend along the tangent too are kept: thin hexes couple their nodes, which descend together.
         """
         gradient = super().gradient(x, delta)
-        rows, nodes, unit = self._rows, self.sliding.nodes, self.unit
+        rows, nodes, unit = self._rows, self.sliding_nodes, self.unit
         size = np.linalg.norm(step[rows], axis=1)
         lengths = 1.0 if self.node_lengths is None else np.minimum(self.node_lengths[rows], 1.0)
         far = _PROBE_LENGTH * lengths / np.maximum(size, np.finfo(float).tiny)[:, None]
         aims = (x[nodes] + far * step[rows]) * unit
-        leads = (self.sliding.project(aims) / unit - x[nodes]) / far
+        leads = (self.sliding.project(aims, nodes) / unit - x[nodes]) / far
         slopes = np.einsum("ki,ki->k", leads, gradient[rows])
         kept = slopes < 0
         if self.target is not None:
@@ -84,7 +97,7 @@ class SlidingEnergy(MeshEnergy):
         """Tangential projectors of the sliding nodes at positions x (n, 3) of all nodes, (k, 3, 3), symmetric."""
         seen = self._seen  # one read, as another thread may replace it
         if seen is None or seen[0] is not x:
-            bases = self.sliding.tangent_bases(x[self.sliding.nodes] * self.unit)
+            bases = self.sliding.tangent_bases(x[self.sliding_nodes] * self.unit, self.sliding_nodes)
             seen = self._seen = x, bases @ bases.transpose(0, 2, 1)
         return seen[1]
 

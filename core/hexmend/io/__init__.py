@@ -14,7 +14,18 @@ import pkgutil
 from hexmend.aliases import exports
 from hexmend.io import formats
 from hexmend.io.base.format import FORMATS, Format
-from hexmend.io.files import read, readable_suffixes, unsupported_data, writable_suffixes, write, writer_for
+from hexmend.io.coordinates.original import Original
+from hexmend.io.coordinates.replacement import Written
+from hexmend.io.files import (
+    read,
+    readable_suffixes,
+    replaces_coordinates,
+    unsupported_data,
+    writable_suffixes,
+    write,
+    write_as_given,
+    writer_for,
+)
 
 for _module in pkgutil.iter_modules(formats.__path__):
     importlib.import_module(f"{formats.__name__}.{_module.name}")
@@ -24,8 +35,8 @@ if TYPE_CHECKING:
     from hexmend.io.surfaces import read_surface
 
 __all__ = [
-    "FORMATS", "Format", "read", "read_surface", "readable_suffixes", "unsupported_data", "writable_suffixes", "write",
-    "writer_for",
+    "FORMATS", "Format", "Original", "Written", "read", "read_surface", "readable_suffixes", "replaces_coordinates",
+    "unsupported_data", "writable_suffixes", "write", "write_as_given", "writer_for",
 ]  # fmt: skip
 
 

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-import difflib
 import os
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
-from typing import NoReturn
 
 from hexmend.aliases import old_keywords
 from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
-from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.base.format import Format
 from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING
-from hexmend.io.base.plugins import plugin_formats
+from hexmend.io.coordinates.located import CoordinatesError
+from hexmend.io.coordinates.original import Original, difference
+from hexmend.io.coordinates.replacement import ChangedFileError, Written, is_same_file, replace_coordinates
+from hexmend.io.format_lookup import every_format, format_by_place, format_of, suffixes_of, writable_format
 from hexmend.io.storage.atomic import atomic_write, check_writable
+from hexmend.io.storage.readable import check_readable, reading
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
 
@@ -27,7 +28,8 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
     Parameters
     ----------
     path : path-like
-        A file of any format in `FORMATS`; the content decides where the suffix is unknown or misleading.
+        A file of any format in `FORMATS`; the content decides where the suffix is unknown or misleading. For OpenFOAM
+        also the folder of a case.
     as_is : bool
         Keep parts whose hexes are all mirrored; else their node order is reversed.
     interpolate_missing : bool
@@ -36,8 +38,8 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
     Returns
     -------
     Mesh
-        Named after the file's stem. The order of nodes and hexes, data, sets, fixed nodes and other cells are kept.
-        Its `notes` list the changes made on reading.
+        Named after the file's stem or the case. The order of nodes and hexes, data, sets, fixed nodes and other cells
+        are kept. Its `notes` list the changes made on reading.
 
     Raises
     ------
@@ -45,12 +47,14 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
         Where the file cannot be read as a mesh: it names the location in the file and a remedy.
     """
     path = Path(path)
-    check_readable(path, "a mesh file")
-    format = _format_of(path)
+    if format_by_place(path) is None:
+        check_readable(path, "a mesh file or the folder of an OpenFOAM case")
+    format = format_of(path)
     token = INTERPOLATE_MISSING.set(interpolate_missing)
     try:
         with reading(path, "Close other programs or use a larger machine."):
-            mesh = format.read(path).replace(name=path.stem)
+            mesh = format.read(path)
+            mesh = mesh if format.place else mesh.replace(name=path.stem)
             return mesh if as_is else with_consistent_orientation(mesh)
     except MeshError as error:
         raise FileError(path, str(error), _REMEDY["finite" in str(error)]) from None
@@ -58,7 +62,13 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
         INTERPOLATE_MISSING.reset(token)
 
 
-def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = None) -> None:
+def write(
+    path: str | os.PathLike[str],
+    mesh: Mesh,
+    *,
+    encoding: str | None = None,
+    like: str | os.PathLike[str] | Original | None = None,
+) -> None:
     """Write a mesh; if that fails, an earlier file stays unchanged.
 
     Parameters
@@ -69,18 +79,31 @@ def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = No
         Data that the format cannot store are left out; see `unsupported_data`.
     encoding : str, optional
         One of the format's `encodings`; the first one if None.
+    like : path-like or Original, optional
+        File of the same format with the same hexes, whose coordinates are replaced in the copy that is written; all
+        else in it is kept.
 
     Raises
     ------
     FileError
-        For an unknown suffix or encoding, and where the file cannot be written.
+        For an unknown suffix or encoding, where the file cannot be written, and for a mesh that differs from that of
+        `like` in more than its coordinates.
     """
     path = Path(path)
-    format = _writer(path)
+    if like is not None:
+        _write_like(path, mesh, like)
+        return
+    _write_anew(path, mesh, encoding, writable_format(path))
+
+
+def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) -> None:
     encoding = format.encodings[0] if encoding is None else encoding
     if encoding not in format.encodings:
         problem = f"{format.title} has no encoding {encoding!r}"
         raise FileError(path, problem, f"Use one of {', '.join(format.encodings)}.")
+    if format.place:
+        format.write(path, mesh, encoding)
+        return
     with atomic_write(path) as temporary:
         try:
             format.write(temporary, mesh, encoding)
@@ -88,12 +111,87 @@ def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = No
             raise FileError(path, error.problem, error.remedy) from None
 
 
-def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str], Mesh], None]:
+def _write_like(path: Path, mesh: Mesh, like: str | os.PathLike[str] | Original) -> None:
+    if not isinstance(like, Original):
+        given = read(like, as_is=True)
+        turned = with_consistent_orientation(given)
+        like = Original(Path(like), turned if difference(given, mesh, ()) else given)
+    if not replaces_coordinates(path, like):
+        problem = f"cannot be written like {like.path.name}: its format is another, or keeps nothing else"
+        raise FileError(path, problem, "Write it without the argument like.")
+    try:
+        replace_coordinates(path, mesh, like, format_of(like.path))
+    except CoordinatesError as error:
+        raise FileError(path, f"cannot be written: {error}", "Write it without the argument like.") from None
+
+
+def replaces_coordinates(path: str | os.PathLike[str], original: Original | None) -> bool:
+    """Return True if a mesh is written by replacing coordinates in a copy of its file, whose format `path` has.
+
+    Parameters
+    ----------
+    path : path-like
+    original : Original or None
+
+    Raises
+    ------
+    FileError
+        For an unknown suffix, and for a folder that cannot take the mesh.
+    """
+    if original is None or not (original.path.is_file() or format_by_place(original.path)):
+        return False
+    format = writable_format(Path(path), original.path)
+    if format.locate is None or format_of(original.path) is not format:
+        return False
+    if format.place:
+        format.place.check_target(Path(path), original.mesh, original.path)
+    return True
+
+
+def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original | None) -> Written:
+    """Write a mesh by replacing coordinates in a copy of its file where that has the same format, else anew.
+
+    Parameters
+    ----------
+    path : path-like
+    mesh : Mesh
+    original : Original or None
+        File of the mesh, and the mesh as read from it; None to write anew.
+
+    Returns
+    -------
+    Written
+        Tells which of both was done, and why a file was written anew although it has the format of the original.
+
+    Raises
+    ------
+    FileError
+        Where the file cannot be written, or `path` is the original file and that has changed since it was read.
+    """
+    path, reason = Path(path), ()
+    if replaces_coordinates(path, original):
+        try:
+            return replace_coordinates(path, mesh, original, format_of(original.path))
+        except CoordinatesError as error:
+            reason = (f"The file is written anew: {error}.",)
+        except ChangedFileError as error:
+            if is_same_file(path, original.path):
+                raise
+            reason = (f"The file is written anew: {error.path.name} {error.problem}.",)
+    _write_anew(path, mesh, None, writable_format(path, original and original.path))
+    return Written(False, reason)
+
+
+def writer_for(
+    path: str | os.PathLike[str], source: str | os.PathLike[str] | None = None
+) -> Callable[[str | os.PathLike[str], Mesh], None]:
     """Return `write` after a check of suffix and folder, so that errors are found before a long run.
 
     Parameters
     ----------
     path : path-like
+    source : path-like, optional
+        File that the mesh is read from; a case is written as a case where the suffix chooses nothing.
 
     Returns
     -------
@@ -106,12 +204,15 @@ def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str]
         For an unknown suffix, and where the file cannot be written.
     """
     path = Path(path)
-    _writer(path)
-    check_writable(path)
+    format = writable_format(path, source and Path(source))
+    if not format.place:
+        check_writable(path)
     return write
 
 
-def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
+def unsupported_data(
+    path: str | os.PathLike[str], mesh: Mesh, source: str | os.PathLike[str] | None = None
+) -> list[str]:
     """Describe the data of a mesh that are lost if it is written to a file.
 
     Parameters
@@ -119,6 +220,8 @@ def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
     path : path-like
         Its suffix chooses the format; the file need not exist.
     mesh : Mesh
+    source : path-like, optional
+        As of `writer_for`.
 
     Returns
     -------
@@ -128,9 +231,11 @@ def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
     Raises
     ------
     FileError
-        For an unknown suffix.
+        For an unknown suffix, and for a folder that cannot take the mesh.
     """
-    format = _writer(Path(path))
+    format = writable_format(Path(path), source and Path(source))
+    if format.place:
+        format.place.check_target(Path(path), mesh, None)
     required = required_capabilities(mesh, format.stored_names)
     missing = [description for kind, description in required.items() if kind not in format.capabilities]
     return missing + (format.limitations(mesh) if format.limitations else [])
@@ -138,20 +243,12 @@ def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
 
 def readable_suffixes() -> tuple[str, ...]:
     """Return the suffixes that `read` knows, with the dot."""
-    return _suffixes(_every_format())
+    return suffixes_of(every_format())
 
 
 def writable_suffixes() -> tuple[str, ...]:
     """Return the suffixes that `write` knows, with the dot."""
-    return _suffixes(format for format in _every_format() if format.write)
-
-
-def _every_format() -> tuple[Format, ...]:
-    return *FORMATS.values(), *plugin_formats()
-
-
-def _suffixes(formats: Iterable[Format]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(suffix for format in formats for suffix in format.suffixes))
+    return suffixes_of(format for format in every_format() if format.write)
 
 
 #: Remedies for an invalid mesh: False in general, True for coordinates that are not finite.
@@ -159,91 +256,3 @@ _REMEDY = {
     False: "Correct the file, or write it again with the program that made it.",
     True: "Correct the file, or let hexmend repair put such nodes between their neighbours.",
 }
-
-#: Bytes from which the format of a file is recognised.
-_HEAD = 4096
-
-
-def _format_of(path: Path) -> Format:
-    """Find the format of a file: by the suffix, unless the content is of another format."""
-    named = [format for format in FORMATS.values() if path.suffix.lower() in format.suffixes]
-    with open(path, "rb") as file:
-        head = file.read(_HEAD)
-    for format in named:
-        if format.matches is None or format.matches(head):
-            return format
-    for format in FORMATS.values():
-        if format.matches is not None and format.matches(head):
-            return format
-    for format in plugin_formats():  # loaded only if none of ours matches
-        if format.matches is not None and format.matches(head):
-            return format
-        if not named and path.suffix.lower() in format.suffixes:
-            return format
-    return named[0] if named else _unknown(path, "read", _every_format())
-
-
-def _writer(path: Path) -> Format:
-    for formats in (FORMATS.values, plugin_formats):  # plug-ins are loaded only if none of ours writes it
-        for format in formats():
-            if format.write and path.suffix.lower() in format.suffixes:
-                return format
-    return _unknown(path, "write", [format for format in _every_format() if format.write])
-
-
-def _unknown(path: Path, verb: str, formats: Iterable[Format]) -> NoReturn:
-    titles = {suffix: format.title for format in reversed(tuple(formats)) for suffix in reversed(format.suffixes)}
-    known = ", ".join(f"{suffix} ({title})" for suffix, title in reversed(titles.items()))
-    problem = f"the suffix {path.suffix!r} is unknown" if path.suffix else "the name has no suffix"
-    raise FileError(path, problem, f"Hexmend can {verb} {known}.")
-
-
-def check_readable(path: Path, expected: str) -> None:
-    """Raise a `FileError` unless the path is a readable regular file that is not empty.
-
-    Parameters
-    ----------
-    path : Path
-    expected : str
-        Expected content for errors, such as "a mesh file".
-    """
-    try:
-        if path.is_dir():
-            raise FileError(path, f"is a folder: expected {expected}", "Name a file in it.")
-        if not path.exists():
-            raise FileError(path, f"there is no such file in {path.absolute().parent}", _nearest(path))
-        if not path.is_file():
-            raise FileError(path, "is no regular file", "Save it to a file first.")
-        if path.stat().st_size == 0:
-            raise FileError(path, "is empty", "Write it again with the program that made it.")
-    except (OSError, ValueError) as error:  # a folder without permission, an invalid name
-        raise FileError(path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
-    if not os.access(path, os.R_OK):
-        raise FileError(path, "cannot be read: permission denied", "Ask for permission to read it, or copy it.")
-
-
-@contextmanager
-def reading(path: Path, remedy: str) -> Iterator[None]:
-    """Context manager that turns errors of the memory and the file system into a `FileError`.
-
-    Parameters
-    ----------
-    path : Path
-    remedy : str
-        Advice where the memory does not suffice.
-    """
-    try:
-        yield
-    except MemoryError:
-        raise FileError(path, "needs more memory than there is", remedy) from None
-    except OSError as error:
-        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
-
-
-def _nearest(path: Path) -> str:
-    """Suggest a file of a similar name, as a sentence."""
-    try:
-        near = difflib.get_close_matches(path.name, (entry.name for entry in path.absolute().parent.iterdir()), n=1)
-    except OSError:
-        near = []
-    return f"Did you mean {near[0]}?" if near else "Check the spelling."

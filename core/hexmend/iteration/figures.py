@@ -15,7 +15,7 @@ _HISTORY = (
         "objective",
         "objective",
         "The objective that the method minimises at this step, Σ η(H)^p with its p and offset (3.3): infinite while "
-        "any element is inverted. Steps that raise the least scaled Jacobian do not minimise it.",
+        "any element is inverted. Steps that raise the least scaled Jacobian or time step do not minimise it.",
         format_objective,
         -1,
     ),

@@ -18,6 +18,7 @@ from hexmend.iteration.stopping import StoppingCriteria
 from hexmend.layers import LayerReport
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, objective, regressions
+from hexmend.quality.material_volumes import MaterialVolume
 
 
 @reads_old_names
@@ -150,6 +151,8 @@ class Result:
         One for each method that was run.
     surface : SurfaceChange or None
         Distance of the boundary from where it was; None where no method let it slide.
+    materials : mapping of str to MaterialVolume
+        Volumes of the materials by name; empty for a mesh of one material.
     active : ActiveSet or None
         Corners that let the last method go no further, if it has found them.
     layers : tuple of LayerReport
@@ -172,6 +175,7 @@ class Result:
     history: tuple[dict[str, float | int | str | None], ...]
     stages: tuple[StageResult, ...]
     surface: SurfaceChange | None = None
+    materials: Mapping[str, MaterialVolume] = field(default_factory=dict)
     active: ActiveSet | None = None
     layers: tuple[LayerReport, ...] = ()
     target_q: tuple[float, ...] | None = None

@@ -44,6 +44,10 @@ def check_field(field: str, value: object, nodes: int, hexes: int) -> object:
         return as_immutable(as_bools(value, "pinned", nodes))
     if field == "mid_nodes" and value is not None:
         return as_immutable(_as_mid_nodes(value, nodes, hexes))
+    if field == "side_set_types":
+        return _as_types(value)
+    if field == "periodic_pairs":
+        return _as_pairs(value)
     return value
 
 
@@ -93,6 +97,25 @@ def _as_side_set(values: object, label: str, hexes: int) -> np.ndarray:
         raise MeshError(f"{label} has shape {array.shape}: expected (k, 2), a hex and one of its faces in each row")
     _check_members(array, label, ("side", "column"), (hexes, 6))
     return array
+
+
+def _as_types(value: object) -> dict[str, str]:
+    """Copy the types of side sets after a check that names and types are texts."""
+    if not isinstance(value, Mapping):
+        raise MeshError(f"side_set_types: found {type(value).__name__}, expected a mapping of names to types")
+    for name, kind in value.items():
+        if not (isinstance(name, str) and isinstance(kind, str)):
+            raise MeshError(f"side_set_types hold {name!r}: {kind!r}, expected texts")
+    return dict(value)
+
+
+def _as_pairs(value: object) -> tuple[tuple[str, str], ...]:
+    """Convert pairs of periodic side sets to tuples after a check that each holds two names."""
+    pairs = tuple(value) if isinstance(value, Iterable) and not isinstance(value, str) else (value,)
+    for pair in pairs:
+        if not (isinstance(pair, tuple | list) and len(pair) == 2 and all(isinstance(name, str) for name in pair)):
+            raise MeshError(f"periodic_pairs hold {pair!r}: expected two names of side sets")
+    return tuple((first, second) for first, second in pairs)
 
 
 def _check_members(array: np.ndarray, label: str, places: tuple[str, ...], counts: tuple[int, ...]) -> None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from hexmend.errors import MeshError
 from hexmend.mesh.fields import as_set
-from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules.named_sets import nodes_in_set
 from hexmend.mesh.validation import as_array
 
 
@@ -96,17 +96,7 @@ def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:
     """
     region = np.zeros(mesh.n_nodes, dtype=bool)
     region[mesh.hexes[mesh.topology.hexes_around(hexes, rings)]] = True
+    rules = mesh.node_rules
+    if rules.free is not None:  # a rule frees no node outside the region
+        mesh = mesh.with_node_rules(replace(rules, free=rules.free & region))
     return mesh.replace(pinned=~region if mesh.pinned is None else mesh.pinned | ~region)
-
-
-def nodes_in_set(mesh: Mesh, name: str) -> np.ndarray:
-    """Return the nodes of a node, hex or side set, (k,) int; raises `MeshError` for a set that does not exist."""
-    if name in mesh.node_sets:
-        return np.asarray(mesh.node_sets[name])
-    if name in mesh.hex_sets:
-        return np.unique(mesh.hexes[mesh.hex_sets[name]])
-    if name in mesh.side_sets:
-        rows = np.asarray(mesh.side_sets[name])
-        return np.unique(mesh.hexes[rows[:, :1], FACES[rows[:, 1]]])
-    known = ", ".join(map(repr, {**mesh.node_sets, **mesh.hex_sets, **mesh.side_sets})) or "none"
-    raise MeshError(f"there is no set {name!r}: there are {known}")

@@ -17,13 +17,17 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.fields import check_field
+from hexmend.mesh.linear_motion import LinearMotion
+from hexmend.mesh.linear_motion.constrained_points import constrained_points, with_ties_fixed
+from hexmend.mesh.materials import STRUCTURED_BLOCKS, Materials, find_materials
+from hexmend.mesh.rules.motion_rules import MotionRules, NodeRules
 from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_bools, as_hexes, as_points, check_finite, points_like
 
-#: Attributes that are no fields, but kept by derived meshes.
-_DERIVED = ("_surface", "_target", "_element_target")
+#: Attributes that are no fields, but kept by derived meshes: surfaces for sliding, target, rules, linear motion.
+_DERIVED = ("_surface", "_target", "_element_target", "_rules", "_motion", "_motion_start")
 
 
 class TargetSurface(Protocol):
@@ -35,6 +39,12 @@ class TargetSurface(Protocol):
 
     def check_near(self, mesh: Mesh) -> None:
         """Raise `MeshError` unless the boundary of a mesh lies near the surface."""
+
+
+#: Cached properties that do not depend on the points.
+_SHARED = ("fixed", "free", "immovable", "materials")
+#: Fields from which the materials follow.
+_OF_MATERIALS = {"hex_sets", "hex_data", "field_data"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +78,10 @@ class Mesh:
         Values of the mesh as a whole.
     notes : tuple of str
         Changes made to the mesh on reading, as sentences.
+    side_set_types : mapping of name to str
+        Kinds of boundary that side sets are, by the names of OpenFOAM: wall, patch, symmetryPlane, empty, wedge...
+    periodic_pairs : tuple of (str, str)
+        Names of side sets of which one is a translated or rotated copy of the other.
 
     Raises
     ------
@@ -96,6 +110,8 @@ class Mesh:
     mid_nodes: np.ndarray | None = None
     field_data: Mapping[str, object] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    side_set_types: Mapping[str, str] = field(default_factory=dict)
+    periodic_pairs: tuple[tuple[str, str], ...] = ()
     topology: Topology = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -145,10 +161,58 @@ class Mesh:
         return len(self.hexes)
 
     @cached_property
+    def materials(self) -> Materials | None:
+        """The partition of the hexes by material; None for one material. See `hexmend.mesh.materials`."""
+        blocks = self.field_data.get(STRUCTURED_BLOCKS, ())
+        blocks = {str(name) for name in np.ravel(np.asarray(blocks, dtype=object))}
+        return find_materials(self.topology, self.hex_sets, self.hex_data, blocks)
+
+    @property
+    def node_rules(self) -> NodeRules:
+        """Rules of motion of the nodes; see `hexmend.mesh.rules.resolution`."""
+        return self.__dict__.get("_rules", NodeRules())
+
+    @property
+    def interfaces(self) -> Materials | None:
+        """The materials if the nodes on the interfaces between them are kept or slide; None if they move freely."""
+        return None if self.node_rules.interfaces == "free" else self.materials
+
+    @property
+    def slides_by_rule(self) -> bool:
+        """True if nodes slide even where the boundary is fixed: those of interfaces, or of sets that rules name."""
+        rules = self.node_rules
+        return rules.slides is not None or (rules.interfaces == "slide" and self.materials is not None)
+
+    @property
+    def interior(self) -> np.ndarray:
+        """True for nodes neither on the boundary nor on an interface that is kept or slides, (n,) bool."""
+        inner = ~self.topology.boundary
+        return inner if self.interfaces is None else inner & ~self.interfaces.interface_nodes
+
+    @cached_property
+    def immovable(self) -> np.ndarray:
+        """True for nodes that stay where they are even if the boundary slides: pinned or fixed by a rule; (n,) bool."""
+        rules = self.node_rules
+        stays = np.zeros(self.n_nodes, dtype=bool) if self.pinned is None else self.pinned.copy()
+        if rules.free is not None:
+            stays &= ~rules.free
+        return as_immutable(stays if rules.fixed is None else stays | rules.fixed)
+
+    @cached_property
     def fixed(self) -> np.ndarray:
-        """True for nodes that no method moves: of the boundary, pinned, or used by no hex; (n,) bool."""
-        fixed = self.topology.boundary | ~self.topology.used
-        return as_immutable(fixed if self.pinned is None else fixed | self.pinned)
+        """True for nodes that no method moves, unless they slide; (n,) bool.
+
+        They are those of the boundary and of interfaces between materials, the pinned ones, and those of no hex. Nodes
+        of the boundary with a linear motion may move; see `with_linear_motion`.
+        """
+        fixed, motion = self.topology.boundary | ~self.topology.used, self.linear_motion
+        if motion is not None:
+            fixed &= ~(motion.marks(self.n_nodes) & self.topology.used)
+        fixed |= self.immovable
+        materials, free = self.interfaces, self.node_rules.free
+        if materials is not None:
+            fixed |= materials.interface_nodes if free is None else materials.interface_nodes & ~free
+        return as_immutable(fixed if motion is None else with_ties_fixed(motion, fixed))
 
     @cached_property
     def free(self) -> np.ndarray:
@@ -195,7 +259,7 @@ class Mesh:
         check_finite(points)
         if self.mid_nodes is not None:
             points = move_mid_nodes(self.points, points, self.hexes, self.mid_nodes)
-        return self._copy("fixed", "free", points=as_immutable(points))
+        return self._copy(*_SHARED, points=as_immutable(points))
 
     @property
     def surface_points(self) -> np.ndarray:
@@ -231,7 +295,7 @@ class Mesh:
         """
         if check:
             surface.check_near(self)
-        return self._copy("fixed", "free", _target=surface)
+        return self._copy(*_SHARED, _target=surface)
 
     @property
     def element_target(self) -> Target | None:
@@ -259,14 +323,69 @@ class Mesh:
         """
         if target is not None and len(target.lengths) != self.n_hexes:
             raise MeshError(f"the target is for {len(target.lengths)} hexes: the mesh has {self.n_hexes}")
-        return self._copy("fixed", "free", _element_target=target)
+        return self._copy(*_SHARED, _element_target=target)
 
     def keeping_surface(self) -> Mesh:
         """Return the mesh with its present boundary kept as the surface for sliding, whatever points it gets later."""
-        return self._copy("fixed", "free", _surface=self.surface_points)
+        return self._copy(*_SHARED, _surface=self.surface_points)
+
+    @property
+    def linear_motion(self) -> LinearMotion | None:
+        """Linear constraints on the displacements of nodes, None if there are none; see `with_linear_motion`."""
+        return self.__dict__.get("_motion")
+
+    def with_linear_motion(self, motion: LinearMotion | None) -> Mesh:
+        """Return the mesh with linear constraints on the displacements of its nodes from where they are now.
+
+        Nodes that are restricted to a plane or line, tied nodes and those they follow are free to move, also on the
+        boundary, unless they are pinned. Nodes that are tied to a fixed node are fixed.
+
+        Parameters
+        ----------
+        motion : LinearMotion or None
+            Constraints that replace those of the mesh; none end them.
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        MeshError
+            For a node that does not exist.
+        """
+        if not motion:
+            copy = self._copy("materials")
+            copy.__dict__.pop("_motion", None)
+            copy.__dict__.pop("_motion_start", None)
+            return copy
+        if motion.largest_node >= self.n_nodes:
+            raise MeshError(
+                f"the linear motion names node {motion.largest_node}, but the mesh has {self.n_nodes} nodes, counted "
+                "from 0: correct the number"
+            )
+        return self._copy("materials", "immovable", _motion=motion, _motion_start=self.points)
+
+    @property
+    def motion_start(self) -> np.ndarray:
+        """Node positions, (n, 3), from which the displacements of the linear motion are counted."""
+        return self.__dict__.get("_motion_start", self.points)
+
+    def constrained(self, points: np.ndarray) -> np.ndarray:
+        """Return node positions, (n, 3), that keep the linear motion of the mesh; see `constrained_points`.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Returned themselves if the mesh has no linear motion; not changed.
+        """
+        motion = self.linear_motion
+        return points if motion is None else constrained_points(motion, self.motion_start, points, self.free)
 
     def with_fixed(self, fixed: np.ndarray) -> Mesh:
         """Return the mesh with exactly these nodes fixed, whatever its boundary and pins; all else is shared.
+
+        Nodes that are tied to them by a linear motion are fixed too.
 
         Parameters
         ----------
@@ -281,8 +400,29 @@ class Mesh:
         MeshError
             For another length or type.
         """
-        fixed = as_immutable(as_bools(fixed, "fixed", self.n_nodes))
-        return self._copy(fixed=fixed, _surface=self.surface_points)
+        fixed = as_bools(fixed, "fixed", self.n_nodes)
+        if self.linear_motion is not None:
+            fixed = with_ties_fixed(self.linear_motion, fixed)
+        return self._copy("materials", "immovable", fixed=as_immutable(fixed), _surface=self.surface_points)
+
+    def with_rules(self, **rules: object) -> Mesh:
+        """Return the mesh with rules of motion by names of sets: fields of `hexmend.mesh.rules.MotionRules`.
+
+        They hold for runs on this mesh; no file keeps them. See `hexmend.mesh.rules.resolution.with_rules`.
+
+        Parameters
+        ----------
+        **rules
+            Such as `interfaces="slide", fix=["inlet"]`.
+        """
+        return hook("with_rules")(self, MotionRules(**rules))
+
+    def with_node_rules(self, rules: NodeRules) -> Mesh:
+        """Return the mesh with rules of motion of its nodes in place of those it has; all else is shared.
+
+        `hexmend.mesh.rules.resolution.with_rules` makes them of the names of sets.
+        """
+        return self._copy("materials", _rules=rules)
 
     def replace(self, **changes: object) -> Mesh:
         """Return a copy with other values of some fields, but not points or hexes; all else is shared.
@@ -308,15 +448,22 @@ class Mesh:
         unknown = changes.keys() - self._values().keys()
         if unknown:
             raise TypeError(f"a mesh has no {', '.join(sorted(unknown))}")
-        copy = self._copy()
+        copy = self._copy(*(() if changes.keys() & _OF_MATERIALS else ("materials",)))
         copy._set_checked(changes)
         return copy
 
     def rebuilt(self, **changes: object) -> Mesh:
-        """Return a new mesh with other values of any fields, points and hexes included; the rest is taken over."""
+        """Return a new mesh with other values of any fields, points and hexes included; the rest is taken over.
+
+        Other points may be other nodes: a linear motion is taken over only without them.
+        """
         mesh = Mesh(**self._values() | changes)
         if self.target is not None:
             mesh._set(_target=self.target)
+        if "_rules" in self.__dict__ and "hexes" not in changes:
+            mesh._set(_rules=self.node_rules)
+        if self.linear_motion is not None and "points" not in changes:
+            mesh._set(_motion=self.linear_motion, _motion_start=self.motion_start)
         return mesh
 
     def _copy(self, *cached: str, **changes: object) -> Mesh:

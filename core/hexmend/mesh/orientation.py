@@ -13,6 +13,14 @@ from hexmend.mesh.second_order import MIRRORED_MID_NODES
 MIRRORED_CORNERS = np.array([4, 5, 6, 7, 0, 1, 2, 3])
 MIRRORED_FACES = np.array([0, 1, 2, 3, 5, 4])
 
+#: End of the note on hexes that were renumbered.
+_TURNED = "were wound the other way (inside out) in the file, and have been turned."
+
+
+def was_turned(mesh: Mesh) -> bool:
+    """Return True if parts of the mesh were renumbered on reading."""
+    return any(note.endswith(_TURNED) for note in mesh.notes)
+
 
 def with_consistent_orientation(mesh: Mesh) -> Mesh:
     """Return the mesh with all left-handed parts renumbered right-handed, and a note that says so.
@@ -32,9 +40,7 @@ def with_consistent_orientation(mesh: Mesh) -> Mesh:
     if not count:
         return mesh
     where = "All hexes" if count == mesh.n_hexes else f"{count:,} hexes, which make whole parts,"
-    return mirror_hexes(mesh, which).replace(
-        notes=(*mesh.notes, f"{where} were wound the other way (inside out) in the file, and have been turned.")
-    )
+    return mirror_hexes(mesh, which).replace(notes=(*mesh.notes, f"{where} {_TURNED}"))
 
 
 def mirrored_parts(mesh: Mesh) -> np.ndarray:

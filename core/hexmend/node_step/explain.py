@@ -49,12 +49,19 @@ def explain(mesh: Mesh, smoother: Smoother, node: int) -> NodeStep:
     node = as_index(node, mesh.n_nodes, "node")
     if mesh.fixed[node]:
         raise MeshError(f"node {node} is fixed or on the boundary: expected a free interior node")
+    if mesh.linear_motion is not None and mesh.linear_motion.marks(mesh.n_nodes)[node]:
+        return next_iteration_step(smoother, mesh, node)
     return explain_free_node(smoother, mesh, node)
 
 
 @singledispatch
 def explain_free_node(smoother: Smoother, mesh: Mesh, node: int) -> NodeStep:
     """Explain the step for a free node; by default it is taken from the method's next iteration."""
+    return next_iteration_step(smoother, mesh, node)
+
+
+def next_iteration_step(smoother: Smoother, mesh: Mesh, node: int) -> NodeStep:
+    """Return the part of one node in the next iteration of a method."""
     step = next_step(smoother, mesh)
     if step is None:
         return step_to_target(smoother, mesh, node, mesh.points[node].copy(), stays=StepStatus.FINISHED)

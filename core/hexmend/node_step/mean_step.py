@@ -14,6 +14,7 @@ from hexmend.node_step.patch import MARGIN, Patch
 from hexmend.node_step.record import NodeStep, Pull, StepStatus
 from hexmend.quality import measure
 from hexmend.smoothers.base import Smoother
+from hexmend.smoothers.constrained_steps import constrained_steps
 
 #: delta of the energy that is shown for a patch with an inverted hex; methods of this kind have no delta.
 DISPLAY_DELTA = 0.01
@@ -21,7 +22,7 @@ DISPLAY_DELTA = 0.01
 
 def next_step(smoother: Smoother, mesh: Mesh) -> Step | None:
     """Return the first step of a method on a mesh; None if it makes none."""
-    steps = smoother.steps(mesh)
+    steps = constrained_steps(smoother, mesh)
     step = next(islice(steps, 1, None), None)
     steps.close()
     return step

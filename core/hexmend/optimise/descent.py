@@ -194,6 +194,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
         halved = np.zeros(len(x), dtype=bool) if infeasible is None else infeasible.copy()
         share[halved & (share <= DESCENT.stay_below)] = 0.0
         halved[hexes[worsened]] = True
+        halved = energy.with_masters(halved)
         if not halved.any():
             break
         share[halved] *= 0.5

@@ -175,7 +175,10 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
         shares = np.empty((ring.size, 8, 3))
         gradient(x, hexes, 0.0, (2.0, 1.0), np.zeros(ring.size, np.uint8), shares)
         downhill = -shares[np.arange(ring.size), places % 8].sum(axis=0)
-    kind = "boundary" if mesh.topology.boundary[number] else "pinned" if mesh.fixed[number] else "free"
+    kind = "boundary" if mesh.topology.boundary[number] else "free"
+    if mesh.fixed[number] and kind == "free":
+        between = mesh.interfaces is not None and mesh.interfaces.interface_nodes[number]
+        kind = "interface" if between and not mesh.immovable[number] else "pinned"
     pinned = mesh.pinned is not None and bool(mesh.pinned[number])
     return NodeDetails(number, mesh.points[number], kind, ring, energy, downhill, pinned)
 

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 def record(result: Result) -> dict[str, Any]:
     """Return the report of `hexmend smooth --json`; some keys are there only where they apply.
 
-    These are `stages` for recipes, `surface` for sliding boundaries, `layers` where there are any, and `target`.
+    These are `stages` for recipes, `surface` for sliding boundaries, `materials` and `layers` where there are any, and
+    `target`.
     """
     from hexmend.iteration.figures import HISTORY
     from hexmend.run.recipe import Recipe
@@ -34,6 +35,8 @@ def record(result: Result) -> dict[str, Any]:
     }
     if result.surface is not None:
         report["surface"] = result.surface.to_dict()
+    if result.materials:
+        report["materials"] = {name: volume.to_dict() for name, volume in result.materials.items()}
     if result.layers:
         report["layers"] = [wall.to_dict() for wall in result.layers]
     if result.mesh.element_target is not None:

@@ -11,10 +11,15 @@ from hexmend.aliases import exports
 from hexmend.errors import ParameterError
 from hexmend.iteration import Iteration, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
+from hexmend.mesh.rules.resolution import with_rules
 from hexmend.parameters import current_name, declared, hint
 from hexmend.run.recipe import Recipe
 from hexmend.run.run import Run
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
+
+#: Names of rules of motion, which runs take as settings.
+_RULES = tuple(one.name for one in dataclasses.fields(MotionRules))
 
 __all__ = ["Run", "StoppingCriteria", "iterate", "smooth"]
 
@@ -37,7 +42,9 @@ def iterate(
         Limits; for a recipe they replace those of every stage.
     **settings
         Parameters of the method and limits by name, such as `boundary="slide", max_iterations=50`. They replace those
-        of `smoother` and `stop`. A recipe takes only limits, which hold for every stage.
+        of `smoother` and `stop`. A recipe takes only limits, which hold for every stage. Rules of motion by name, such
+        as `interfaces="slide", fix=["inlet"]`, hold in addition to those of the mesh: see
+        `hexmend.mesh.rules.MotionRules`.
 
     Returns
     -------
@@ -61,8 +68,13 @@ def iterate(
     2 True
     3 True
     """
+    given = {name: settings.pop(name) for name in _RULES if name in settings}
     smoother, stop = _configured(smoother, stop, settings)
-    return Run(_read(mesh), smoother, stop)
+    mesh = _read(mesh)
+    if given:
+        rules = mesh.node_rules.rules.merge(MotionRules(**given))
+        mesh = with_rules(mesh, dataclasses.replace(rules, interfaces=given.get("interfaces", rules.interfaces)))
+    return Run(mesh, smoother, stop)
 
 
 def smooth(

@@ -13,8 +13,9 @@ A recipe is written as TOML::
     [[stage]]
     method = "mend"
 
-Values that are not named have their defaults. Hexmend writes all values, so that a file means the same when defaults
-change.
+A table ``[motion]`` has rules of motion such as ``interfaces = "slide"``; see `hexmend.mesh.rules.MotionRules`. Values
+that are not named have their defaults. Hexmend writes all values of methods and limits, so that a file means the same
+when defaults change.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from typing import Any, ClassVar
 
 from hexmend.errors import ParameterError
 from hexmend.iteration import StoppingCriteria
+from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import from_values, hint
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.smoothers.sliding_smoother import UNLIMITED
@@ -57,6 +59,8 @@ class Recipe:
     title : str
     stages : tuple of Stage
         At least one.
+    rules : MotionRules
+        What happens to interfaces and to the nodes of named sets, in all stages.
 
     Raises
     ------
@@ -77,6 +81,7 @@ class Recipe:
 
     title: str
     stages: tuple[Stage, ...]
+    rules: MotionRules = field(default_factory=MotionRules)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "stages", tuple(self.stages))
@@ -84,7 +89,7 @@ class Recipe:
             raise ParameterError("a recipe has no stage: expected at least one")
 
     @classmethod
-    def of(cls, *parts: Stage | Smoother | str, title: str = "") -> Recipe:
+    def of(cls, *parts: Stage | Smoother | str, title: str = "", rules: MotionRules | None = None) -> Recipe:
         """Make a recipe of stages; a method, or the name of one, becomes a stage with the default limits.
 
         Parameters
@@ -92,18 +97,21 @@ class Recipe:
         *parts : Stage, Smoother or str
         title : str
             By default the titles of the methods.
+        rules : MotionRules, optional
         """
         methods = (METHODS[part]() if isinstance(part, str) else part for part in parts)
         stages = tuple(part if isinstance(part, Stage) else Stage(part) for part in methods)
-        return cls(title or "; then ".join(stage.smoother.title for stage in stages), stages)
+        title = title or "; then ".join(stage.smoother.title for stage in stages)
+        return cls(title, stages, rules or MotionRules())
 
     def limited(self, **limits: Any) -> Recipe:
         """Return a copy with these fields of `StoppingCriteria` replaced in every stage."""
         return replace(self, stages=tuple(replace(stage, stop=replace(stage.stop, **limits)) for stage in self.stages))
 
     def values(self) -> dict[str, Any]:
-        """Return the recipe as data with the keys `title` and `stages`."""
-        return {"title": self.title, "stages": [stage.values() for stage in self.stages]}
+        """Return the recipe as data with the keys `title`, `stages`, and `motion` if it has rules of motion."""
+        motion = {"motion": self.rules.values()} if self.rules else {}
+        return {"title": self.title, **motion, "stages": [stage.values() for stage in self.stages]}
 
 
 def to_toml(recipe: Recipe) -> str:
@@ -111,7 +119,8 @@ def to_toml(recipe: Recipe) -> str:
     import tomli_w
 
     stages = [stage.values() for stage in recipe.stages]
-    return _HEAD + tomli_w.dumps({"format": FORMAT, "title": recipe.title, "stage": stages})
+    motion = {"motion": recipe.rules.values()} if recipe.rules else {}
+    return _HEAD + tomli_w.dumps({"format": FORMAT, "title": recipe.title, **motion, "stage": stages})
 
 
 def from_toml(text: str) -> Recipe:
@@ -123,13 +132,14 @@ def from_toml(text: str) -> Recipe:
         If the text is not a recipe; the message names line and column, or the stage, the key and what was expected.
     """
     data = migrate(parse_toml(text, "a recipe"))
-    check_keys("the recipe", data, ("format", "title", "stage"))
+    check_keys("the recipe", data, ("format", "title", "motion", "stage"))
     title, stages = data.get("title", ""), data.get("stage", [])
     if not isinstance(title, str):
         raise ParameterError(f"title = {title!r} is not a text: expected a title in quotes")
     if not isinstance(stages, list) or not all(isinstance(stage, dict) for stage in stages) or not stages:
         raise ParameterError('the recipe has no stage: expected [[stage]] and a line such as  method = "mend"')
-    return Recipe.of(*(read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title)
+    rules = MotionRules.from_values(read_table(data, "motion"))
+    return Recipe.of(*(read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title, rules=rules)
 
 
 def migrate(data: dict[str, Any]) -> dict[str, Any]:

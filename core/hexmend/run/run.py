@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
 from hexmend.aliases import reads_old_names
@@ -11,7 +11,11 @@ from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, Layers
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
+from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
+from hexmend.quality.material_volumes import MaterialVolume, volume_changes
+from hexmend.run.interface_messages import interface_message
 from hexmend.run.messages import describe_change, kept_message
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.shape_watch import ShapeWatch
@@ -37,7 +41,8 @@ class Run(Iterator[Iteration]):
     Attributes
     ----------
     mesh, smoother
-        As given.
+        As given; the mesh has the rules of motion of a recipe, and where a stage slides, its periodic pairs move as
+        one.
     start : Iteration
         Number 0: the mesh as given.
     last : Iteration
@@ -54,9 +59,13 @@ class Run(Iterator[Iteration]):
     """
 
     def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: StoppingCriteria | None = None):
-        self.mesh = mesh
+        if isinstance(smoother, Recipe) and smoother.rules:
+            mesh = with_rules(mesh, mesh.node_rules.rules.merge(smoother.rules))
         self.smoother = smoother
         self._stages = _stages(smoother, stop)
+        if mesh.periodic_pairs and any(stage.smoother.slides for stage in self._stages):
+            mesh = with_rules(mesh, mesh.node_rules.rules.merge(MotionRules(periodic=mesh.periodic_pairs)))
+        self.mesh = mesh
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes)
         self._shapes = ShapeWatch(mesh, quality)
@@ -170,14 +179,19 @@ class Run(Iterator[Iteration]):
         changed = [one.as_stage(cut=later.number == one.number) for one, later in pairwise(self._stage_runs)]
         done = [stage for stage in changed if stage is not None]
         title = self.smoother.title if isinstance(self.smoother, Recipe) else ""
-        return Recipe.of(*done, self._stage_run.as_stage(), *self._remaining_stages, title=title)
+        stages = *done, self._stage_run.as_stage(), *self._remaining_stages
+        return Recipe.of(*stages, title=title, rules=self.mesh.node_rules.rules)
 
     @property
     def message(self) -> str:
         """Result, reason of the end, and figures that are worse than before, as sentences."""
-        return self._message(*self._summaries(), self._shapes.reports(self.stage.smoother, self.best.points))
+        volumes = volume_changes(self.mesh, self.mesh.with_points(self.best.points))
+        walls = self._shapes.reports(self.stage.smoother, self.best.points)
+        return self._message(*self._summaries(), volumes, walls)
 
-    def _message(self, before: Summary, after: Summary, walls: tuple[LayerReport, ...]) -> str:
+    def _message(
+        self, before: Summary, after: Summary, volumes: Mapping[str, MaterialVolume], walls: tuple[LayerReport, ...]
+    ) -> str:
         at, inverted = self.last, self.best.quality.n_inverted
         text = self.outcome.value if self.outcome is not None else "Running."
         left = f"{count_phrase(inverted, 'hex', 'hexes')} still inverted" if inverted else "no hex is inverted"
@@ -188,6 +202,7 @@ class Run(Iterator[Iteration]):
         words = [text, f"{count_phrase(at.number, 'iteration')} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
             words.append(kept_message(self.best.number))
+        words.append(interface_message(self.mesh, self.mesh.with_points(self.best.points), volumes))
         target_q = self._target_q
         words.append(describe_regressions(before, after, target_q))
         if not inverted:
@@ -209,6 +224,7 @@ class Run(Iterator[Iteration]):
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._stage_runs) > 1
         mesh = self._result_mesh
+        volumes = volume_changes(self.mesh, mesh)
         walls = self._shapes.reports(self.stage.smoother, self.best.points)
         return Result(
             mesh=mesh,
@@ -217,7 +233,7 @@ class Run(Iterator[Iteration]):
             method=Recipe.name if several else self.smoother.name,
             parameters={} if several else self.stage.smoother.values(),
             outcome=self.outcome or Outcome.STOPPED,
-            message=self._message(before, after, walls),
+            message=self._message(before, after, volumes, walls),
             iterations=self.last.number,
             kept=self.best.number,
             seconds=self.last.seconds,
@@ -225,6 +241,7 @@ class Run(Iterator[Iteration]):
             history=tuple(self.history),
             stages=tuple(one.result() for one in self._stage_runs),
             surface=self._surface_change(mesh),
+            materials=volumes,
             active=self._stage_run.active if self._kept_last else None,
             layers=walls,
             target_q=self._target_q,
@@ -232,7 +249,8 @@ class Run(Iterator[Iteration]):
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
         """Return the change of the boundary from the mesh as given; None if no method let it slide."""
-        sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides), None)
+        by_rule = self.mesh.node_rules.slides is not None
+        sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides or by_rule), None)
         return None if sliding is None else surface_change(self.mesh, mesh, sliding.feature_angle)
 
     @property

@@ -16,6 +16,7 @@ from hexmend.mesh.validation import points_like
 from hexmend.quality import ElementQuality, measure, measure_against_target, objective
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import Smoother
+from hexmend.smoothers.constrained_steps import constrained_steps
 
 log = logging.getLogger(__name__)
 
@@ -87,7 +88,7 @@ class StageRun:
         self._best_rank = self._rank(self._best)
         self._update_best(start)
         began = perf_counter()
-        self._steps = self.smoother.steps(mesh.keeping_surface().with_points(start.points))
+        self._steps = constrained_steps(self.smoother, mesh.keeping_surface().with_points(start.points))
         next(self._steps)
         self.setup_seconds = perf_counter() - began
         if not mesh.free.any() and not self.smoother.movable(mesh).any():
@@ -191,7 +192,8 @@ class StageRun:
         )
 
     def _rank(self, iteration: Iteration) -> tuple[float, ...]:
-        return self.smoother.rank(self._origin_quality, self._judged_quality(iteration))
+        rank = self.smoother.rank(self._origin_quality, self._judged_quality(iteration))
+        return *rank, *self.smoother.further_rank(self._mesh.hexes, iteration.points)
 
     def _judged_quality(self, iteration: Iteration) -> ElementQuality:
         """Quality of an iteration against the target of this stage; earlier stages may have had another one."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias, TypeVar
 
@@ -23,6 +23,9 @@ from hexmend.registry import Registry, load_entry_points
 Steps: TypeAlias = Generator[Step, None, Outcome | None]
 
 
+#: Function of the points (n, 3) that returns them with some nodes moved.
+Sweep: TypeAlias = Callable[[np.ndarray], np.ndarray]
+
 #: Least fall of q(H) that four decimals show: near its optimum an optimiser goes up and down by less.
 _VISIBLE_FALL = 0.5e-4
 
@@ -41,6 +44,9 @@ class Smoother(Parametrised, ABC):
     source: ClassVar[str]
     #: True for a method that goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
+    #: True for a method whose steps keep the linear motion of a mesh; those of others are constrained afterwards, by
+    #: `hexmend.smoothers.constrained_steps`.
+    keeps_linear_motion: ClassVar[bool] = False
     #: Dihedral angle, in degrees, beyond which an edge of the boundary is a feature; a parameter of methods that slide.
     feature_angle = FEATURE_ANGLE
     #: Bytes per hex that its run needs at most in addition to the open mesh, topology included: measured by `hexmend
@@ -69,6 +75,10 @@ class Smoother(Parametrised, ABC):
     def keeps_layers(self) -> bool:
         """True if boundary layers keep their heights by a target."""
         return False
+
+    def slides_on(self, mesh: Mesh) -> bool:
+        """Return True if nodes of a mesh slide: of its boundary, or those for which its rules say so."""
+        return self.slides
 
     def movable(self, mesh: Mesh) -> np.ndarray:
         """Mark the nodes that the method may move, (n,) bool: the free ones, and those that slide."""
@@ -114,6 +124,23 @@ class Smoother(Parametrised, ABC):
             Outcome when the method has no further step; a run may close the generator earlier.
         """
 
+    def constrained_sweep(self, mesh: Mesh, linear: np.ndarray) -> Sweep | None:
+        """Make the sweep over nodes with a linear motion that follows each step of the method over the other nodes.
+
+        Parameters
+        ----------
+        mesh : Mesh
+        linear : (n,) bool
+            The nodes.
+
+        Returns
+        -------
+        callable or None
+            Function of points (n, 3) that returns them with these nodes moved. None for a method without such a
+            sweep: its steps are projected onto the admissible displacements.
+        """
+        return None
+
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
@@ -134,6 +161,21 @@ class Smoother(Parametrised, ABC):
         if self.optimises and now.against_target:
             return now.n_inverted, objective_of_sound(now, self.norm) > objective_of_sound(start, self.norm)
         return now.n_inverted, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least
+
+    def further_rank(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
+        """Sort keys of an iterate after those of `rank`, which its quality alone does not determine; none by default.
+
+        Parameters
+        ----------
+        hexes : (m, 8) int32
+        points : (n, 3) float64
+            Of the iterate.
+
+        Returns
+        -------
+        tuple of float
+        """
+        return ()
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
         """Return a hint on what helps against values (of `REGRESSION_KEYS`) that became worse; "" for none."""

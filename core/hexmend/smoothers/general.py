@@ -16,6 +16,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import measure, measure_against_target
 from hexmend.smoothers.base import METHODS, Steps, method
+from hexmend.smoothers.constrained_steps import constrained_steps
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 from hexmend.smoothers.targeted_smoother import TargetedSmoother
 from hexmend.terminal_text import count_phrase
@@ -31,6 +32,7 @@ class General(TargetedSmoother):
     help = "GETMe; then global Newton if hexes have similar size and none is inverted, else local steepest descent."
     source = "Wilson 5.1, Algorithm 5.1"
     optimises = True
+    keeps_linear_motion = True
     bytes_per_hex = 3000  # of the global Newton's method that it may go on with
 
     q_target: float = parameter(
@@ -59,7 +61,7 @@ class General(TargetedSmoother):
         chosen = METHODS["global-nr" if similar and not count else "local-sd"]
         sizes = f"{'similar' if similar else 'different'} sizes (ratio {ratio:.2g})"
         decision = f"After GETMe: {sizes}, {inverted}: {chosen.title}."
-        rest = chosen(**self._sliding_values()).steps(mesh.with_points(points))
+        rest = constrained_steps(chosen(**self._sliding_values()), mesh.with_points(points))
         next(rest)
         try:
             step = next(rest)
@@ -74,7 +76,7 @@ class General(TargetedSmoother):
     def _getme(self, mesh: Mesh) -> Generator[Step, None, np.ndarray]:
         """Run GETMe to its end; returns the points."""
         points, unit = mesh.points, mesh.mean_edge_length or 1.0
-        getme = METHODS["getme"](**self._sliding_values()).steps(mesh)
+        getme = constrained_steps(METHODS["getme"](**self._sliding_values()), mesh)
         yield dataclasses.replace(next(getme), intermediate=True)
         for _, step in zip(range(self.getme_iterations), getme, strict=False):
             move = largest_norm(step.points - points) / unit

@@ -48,15 +48,18 @@ class SlidingSmoother(Smoother):
     def slides(self) -> bool:
         return self.boundary == "slide"
 
+    def slides_on(self, mesh: Mesh) -> bool:
+        return self.slides or mesh.slides_by_rule
+
     def movable(self, mesh: Mesh) -> np.ndarray:
         sliding = self.sliding(mesh)
         return mesh.free if sliding is None else sliding.mesh.free
 
     def sliding(self, mesh: Mesh) -> SlidingBoundary | None:
-        """The surface on which the boundary nodes of a mesh slide; None where they stay."""
-        if not self.slides:
+        """The surface on which nodes of the boundary and of interfaces slide; None where they stay."""
+        if not self.slides_on(mesh):
             return None
-        return SlidingBoundary(mesh, self.feature_angle, self.absolute_tolerance(mesh))
+        return SlidingBoundary(mesh, self.feature_angle, self.absolute_tolerance(mesh), self.slides)
 
     def absolute_tolerance(self, mesh: Mesh) -> float:
         """Distance from the surface that the boundary may have, in the mesh's unit of length."""

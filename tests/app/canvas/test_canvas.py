@@ -12,7 +12,7 @@ from hexmend.quality import measure
 from hexmend_app.canvas.canvas import Canvas
 from hexmend_app.canvas.view_captions import Caption
 from hexmend_app.canvas.wipe_handle import WipeHandle
-from hexmend_app.picture.cut_planes import ClipPlane
+from hexmend_app.picture.cut_planes import Plane
 from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.view.side_views import Wipe
@@ -247,7 +247,7 @@ def test_vertical_axis_and_projection_can_be_set(canvas):
 
 @pytest.mark.slow
 def test_the_camera_flies_to_face_a_plane(canvas, qtbot):
-    canvas.face(ClipPlane((0, 1, 0), (2, 2, 2)))
+    canvas.face(Plane((0, 1, 0), point=(2, 2, 2)))
     assert canvas.camera_animation.active
     rested(qtbot, canvas)
     np.testing.assert_allclose(canvas.viewport.camera.GetDirectionOfProjection(), (0, -1, 0), atol=1e-9)

@@ -7,21 +7,15 @@ from dataclasses import dataclass, field
 
 import pytest
 
+from hexmend.errors import ParameterError
 from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter
-from hexmend_app.picture.appearance import (
-    Arrows,
-    ColourScale,
-    Isolation,
-    Look,
-    RangeMode,
-    Since,
-    Structure,
-    Traces,
-    ValueRange,
-)
-from hexmend_app.picture.cut_planes import BoxClip, ClipPlane, PlaneClip
+from hexmend_app.picture.appearance import Arrows, Look, Since, Structure, Traces
+from hexmend_app.picture.colours import Colours
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box, Plane
+from hexmend_app.picture.visibility import Isolate, Show
 
 
 @dataclass(frozen=True)
@@ -33,20 +27,32 @@ class Pair:
     later: int = field(default=3, init=False)
 
 
+@dataclass(frozen=True)
+class Ring:
+    """Fields of types that have errors of their own."""
+
+    edges: bool = True
+    peel: int = 0
+    hexes: frozenset[int] = frozenset({3, 1})
+    part: Pair | Traces | None = None
+
+
 LOOKS = [
     Look(),
-    Look(clip=PlaneClip((ClipPlane((1, 2, 3), (0.1, 0.2, 0.3)), ClipPlane()), crinkle=False, notch=True)),
-    Look(clip=BoxClip((0, 0, 0), (1, 2, 3)), isolation=Isolation((3, 1), 2), dug=frozenset({5, 2})),
+    Look(cut=Cut((Plane((1, 2, 3), point=(0.1, 0.2, 0.3)), Plane(point=(0, 0, 0))), style=CutStyle.SMOOTH, notch=True)),
+    Look(cut=Cut(box=Box((0, 0, 0), (1, 2, 3))), show=Show(isolate=Isolate((3, 1), 2), hidden=frozenset({5, 2}))),
     Look(
-        scale=ColourScale("shape", "plasma", RangeMode.PINNED, (0.1, 0.9), True),
-        quality_range=ValueRange("q", -float("inf"), 0.5),
-        structure=Structure(sharp=True),
-        traces=Traces(Since.RUN, Arrows.ALL, 3),
+        structure=Structure.of("sharp"),
+        movement=Traces(Since.RUN, Arrows.ALL, 3),
+        colours=Colours(metric="shape", map="plasma", range=(0.1, 0.9), reverse=True),
+        show=Show(quality=(-float("inf"), 0.5)),
     ),
 ]
 
 
-@pytest.mark.parametrize("value", [*LOOKS, Breakpoints(node=3, backtracks=1), Pair((1, "a"), {"b": 2.0})])
+@pytest.mark.parametrize(
+    "value", [*LOOKS, Ring(part=Traces()), Breakpoints(node=3, backtracks=1), Pair((1, "a"), {"b": 2.0})]
+)
 def test_decoding_encoded_values_returns_equal_values(value):
     codec = Codec({})
     data = json.loads(json.dumps(codec.encode(value, type(value))))
@@ -54,14 +60,18 @@ def test_decoding_encoded_values_returns_equal_values(value):
 
 
 @pytest.mark.parametrize(("kind", "change", "message"), [
-    (Look, {"colour": 1}, "look has an unknown field 'colour'"),
-    (Look, {"edges": 1}, "look.edges is of another type: expected bool"),
-    (Look, {"peel": True}, "look.peel is of another type: expected int"),
-    (Look, {"peel": 1.5}, "look.peel is of another type: expected int"),
-    (Look, {"dug": {}}, "look.dug is of another type: expected list"),
-    (Look, {"dug": [1, "a"]}, r"look.dug\[1\] is of another type"),
-    (Look, {"clip": {"Sphere": {}}}, "look.clip is none of PlaneClip, BoxClip"),
-    (Look, {"clip": {"PlaneClip": {"planes": [], "crinkle": True, "notch": False}}}, "look.clip: the cut has no plane"),
+    (Look, {"colour": 1}, r"\[look\] has an unknown key 'colour'"),
+    (Look, {"show": {"peel": True}}, r"\[look\] show peel = True is not a whole number"),
+    (Look, {"show": {"hidden": {}}}, r"\[look\] show hidden = {} is not a list"),
+    (Look, {"show": {"hidden": [1, "a"]}}, r"\[look\] show hidden = 'a' is not a whole number"),
+    (Look, {"cut": {"sphere": {}}}, r"\[look\] cut has an unknown key 'sphere'"),
+    (Ring, {"edges": 1}, "look.edges is of another type: expected bool"),
+    (Ring, {"peel": True}, "look.peel is of another type: expected int"),
+    (Ring, {"peel": 1.5}, "look.peel is of another type: expected int"),
+    (Ring, {"hexes": {}}, "look.hexes is of another type: expected list"),
+    (Ring, {"hexes": [1, "a"]}, r"look.hexes\[1\] is of another type"),
+    (Ring, {"part": {"Sphere": {}}}, "look.part is none of Pair, Traces"),
+    (Ring, {"part": {"Pair": {"first": [1, "a"]}}}, "look.part has no field 'table'"),
     (Pair, {"first": [1]}, "look.first has 1 entries: expected 2"),
     (Pair, {"table": {"b": "c"}}, "look.table.b is of another type: expected float"),
     (StoppingCriteria, {"max_iterations": -1}, "max_iterations = -1 is out of range"),
@@ -74,10 +84,10 @@ def test_errors_name_the_place_of_invalid_data(kind, change, message):
 
 
 def test_a_missing_field_is_an_error():
-    data = Codec({}).encode(Look(), Look)
-    del data["edges"]
-    with pytest.raises(DecodeError, match="look has no field 'edges'"):
-        Codec({}).decode(data, Look, "look")
+    data = Codec({}).encode(Traces(), Traces)
+    del data["factor"]
+    with pytest.raises(DecodeError, match="movement has no field 'factor'"):
+        Codec({}).decode(data, Traces, "movement")
 
 
 def test_a_type_can_have_an_adapter():
@@ -97,3 +107,10 @@ def test_a_field_is_read_under_its_former_name():
     assert codec.decode(earlier, Traces) == Traces(Since.RUN)
     with pytest.raises(DecodeError, match="an unknown field 'from'"):
         codec.decode(data | earlier, Traces)
+
+
+@pytest.mark.parametrize("hexes", [(1, True), (1, 2.0), (1, -1), (1, 2**31), (1, "a"), (1, None)])
+def test_each_entry_of_a_list_of_integers_is_checked(hexes):
+    for kind, name in ((Show, "hidden"), (Isolate, "hexes")):
+        with pytest.raises(ParameterError, match=f"{name} = "):
+            kind(**{name: hexes})

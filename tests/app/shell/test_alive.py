@@ -68,7 +68,7 @@ def smooth(window, qtbot):
 
 def test_a_mesh_is_saved_only_when_it_is_written(window, qtbot, tmp_path, gate, told):
     smooth(window, qtbot)
-    session, writing = window.session, gate(mesh_saver, "write")
+    session, writing = window.session, gate(mesh_saver, "write_as_given")
     saving = session.commands.save_in_background(tmp_path / "out.vtu")
     qtbot.waitUntil(writing.reached.is_set, timeout=PATIENCE)
     window.refresh()
@@ -91,7 +91,7 @@ def test_a_mesh_is_saved_only_when_it_is_written(window, qtbot, tmp_path, gate, 
 
 def test_changes_during_a_save_are_not_saved(window, qtbot, tmp_path, gate, told):
     smooth(window, qtbot)
-    session, writing = window.session, gate(mesh_saver, "write")
+    session, writing = window.session, gate(mesh_saver, "write_as_given")
     then = session.document.now
     session.commands.save_in_background(tmp_path / "out.vtu")
     qtbot.waitUntil(writing.reached.is_set, timeout=PATIENCE)
@@ -106,7 +106,7 @@ def test_changes_during_a_save_are_not_saved(window, qtbot, tmp_path, gate, told
 
 
 def test_a_file_contains_the_last_of_several_saves(window, qtbot, tmp_path, gate):
-    session, writing = window.session, gate(mesh_saver, "write")
+    session, writing = window.session, gate(mesh_saver, "write_as_given")
     path = tmp_path / "out.vtu"
     first = session.commands.save_in_background(path)
     qtbot.waitUntil(writing.reached.is_set, timeout=PATIENCE)
@@ -122,10 +122,10 @@ def test_a_file_contains_the_last_of_several_saves(window, qtbot, tmp_path, gate
 def test_a_failed_save_is_reported_and_leaves_the_mesh_modified(window, qtbot, tmp_path, monkeypatch, told):
     smooth(window, qtbot)
 
-    def fail(path, mesh):
+    def fail(path, mesh, original):
         raise FileError(path, "cannot be written: the disk is full", "Make room on it.")
 
-    monkeypatch.setattr(mesh_saver, "write", fail)
+    monkeypatch.setattr(mesh_saver, "write_as_given", fail)
     with qtbot.waitSignal(window.session.saver.failed, timeout=PATIENCE):
         window.session.commands.save_in_background(tmp_path / "out.vtu")
     window.refresh()
@@ -140,7 +140,7 @@ def test_a_failed_save_is_reported_and_leaves_the_mesh_modified(window, qtbot, t
 
 @pytest.mark.parametrize("answer", ["wait", "do not wait", "cancel"])
 def test_leaving_waits_for_a_save_or_asks(window, qtbot, tmp_path, gate, answer):
-    session, writing = window.session, gate(mesh_saver, "write")
+    session, writing = window.session, gate(mesh_saver, "write_as_given")
     session.commands.save_in_background(tmp_path / "out.vtu")
     qtbot.waitUntil(writing.reached.is_set, timeout=PATIENCE)
 

@@ -14,7 +14,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.picture.appearance import Arrows, ColourScale, Structure, Traces, ValueRange
+from hexmend_app.picture.appearance import Arrows, Structure, Traces
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
@@ -53,11 +53,11 @@ def isolate_and_dig(window, qtbot):
 def cut(window, qtbot):
     window.action("cut").trigger()
     window.refresh()
-    assert window.session.view.look.clip is not None
+    assert window.session.view.look.cut.active
 
 
 def filter_and_peel(window, qtbot):
-    window.session.view.change(peel=1, quality_range=ValueRange("q", 0.0, 0.5, True))
+    window.session.view.change(show={"peel": 1, "quality": (0.0, 0.5), "inverted": True})
 
 
 def explain_a_node(window, qtbot):
@@ -83,7 +83,7 @@ def run_and_go_back(window, qtbot):
         window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3, tolerance=0)))
     window.session.timeline.go(window.session.history.records[-1], 1)
     window.session.view.change(
-        scale=ColourScale("q-change"), traces=Traces(arrows=Arrows.ALL), structure=Structure(original=True)
+        movement=Traces(arrows=Arrows.ALL), structure=Structure.of("original"), colours={"metric": "q-change"}
     )
 
 
@@ -114,9 +114,7 @@ def tag_and_pin(window, qtbot):
 
 
 def show_the_structure(window, qtbot):
-    window.session.view.change(
-        structure=Structure(irregular=True, sharp=True, boundary=True, kinds=True, locked=True, original=True)
-    )
+    window.session.view.change(structure=Structure.of("irregular", "sharp", "boundary", "kinds", "locked", "original"))
     qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
 
 
@@ -172,7 +170,7 @@ LAYERS = ("outline", "structure", "selection", "ghosts", "original", "others", "
 @pytest.mark.parametrize("layer", LAYERS)
 def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatch):
     overlay_layers, failures = window.canvas.viewport.overlay_layers, []
-    window.session.view.change(structure=Structure(original=True))
+    window.session.view.change(structure=Structure.of("original"))
     window.refresh()
 
     def fail(*_):
@@ -185,7 +183,7 @@ def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatc
     monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: failures.append(str(error)))
     open_and_wait(qtbot, window, small_file)
     is_shown(window)
-    window.session.view.change(edges=not window.session.view.look.edges)
+    window.session.view.change(lines={"edges": None if not window.session.view.look.lines.shown else 0.0})
     is_shown(window)
     assert failures == [f"{layer} has failed"]
 
@@ -238,8 +236,8 @@ def test_numbers_of_the_previous_mesh_select_and_hide_nothing(window, qtbot, sma
     session.view.isolate([last])
     session.view.dig(last)
     assert (session.selection.hex, session.selection.node) == (None, None)
-    assert session.view.look.isolation is None
-    assert not session.view.look.dug
+    assert session.view.look.show.isolate is None
+    assert not session.view.look.show.hidden
     is_shown(window)
 
 

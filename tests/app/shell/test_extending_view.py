@@ -12,8 +12,8 @@ from PySide6.QtWidgets import QComboBox, QLabel
 
 from hexmend.cli.main import main
 from hexmend.errors import ParameterError
-from hexmend_app.picture import colour_map, from_toml, layer_switch
-from hexmend_app.picture.appearance import ColourScale, Structure
+from hexmend_app.picture import Colours, colour_map, from_toml, layer_switch
+from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.layers import optional_layer
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.palette.palette_entries import command_entries
@@ -51,7 +51,7 @@ def window(files, fresh_window):
 
 def show_both(window):
     """Switch the layer and the map on."""
-    window.session.view.change(structure=Structure(extra=("bounding-box",)), scale=ColourScale(map="slate"))
+    window.session.view.change(structure=Structure.of("bounding-box"), colours={"map": "slate"})
     window.refresh()
 
 
@@ -66,7 +66,7 @@ def test_panel_menu_palette_and_map_box_have_them(window):
     window.refresh()
     assert row.box.isChecked()
     assert action.isChecked()
-    assert window.session.view.look.structure == Structure(extra=("bounding-box",))
+    assert window.session.view.look.structure == Structure.of("bounding-box")
     maps = named(window, QComboBox, "Colour map")
     assert maps.itemData(maps.findData("slate"), Qt.ItemDataRole.ToolTipRole) == "From dark blue over grey to cream."
 
@@ -77,7 +77,7 @@ def test_a_session_keeps_them(window, qtbot, mesh_file, tmp_path):
     look = window.session.view.look
     assert count(pixels(window), BOX) > 100
     assert window.features["session"].save_and_wait(tmp_path / "both.hexmend")
-    window.session.view.change(structure=Structure(), scale=ColourScale())
+    window.session.view.change(structure=Structure(), colours=Colours())
     window.refresh()
     assert count(pixels(window), BOX) == 0
     open_and_wait(qtbot, window, tmp_path / "both.hexmend")
@@ -99,7 +99,7 @@ def test_commands_and_scenes_have_them(files, mesh_file, tmp_path):
     options = ["--structure", "sharp,bounding-box", "--colour-map", "slate"]
     scene = tmp_path / "scene.toml"
     assert main([*words, str(tmp_path / "options.png"), *options, "--save-scene", str(scene)]) == 0
-    assert from_toml(scene.read_text()).structure == Structure(sharp=True, extra=("bounding-box",))
+    assert from_toml(scene.read_text()).structure == Structure.of("sharp", "bounding-box")
     assert main([*words, str(tmp_path / "scene.png"), "--scene", str(scene)]) == 0
     images = [np.asarray(Image.open(tmp_path / f"{name}.png").convert("RGB")) for name in ("options", "scene")]
     assert count(images[0], BOX) > 20
@@ -108,6 +108,6 @@ def test_commands_and_scenes_have_them(files, mesh_file, tmp_path):
 
 def test_an_unknown_layer_or_map_is_named_with_the_known_ones():
     with pytest.raises(ParameterError, match="there is no layer 'bounding-bxo'"):
-        Structure(extra=("bounding-bxo",))
+        Structure.of("bounding-bxo")
     with pytest.raises(ParameterError, match="map = 'jet' is unknown: expected one of viridis"):
         from_toml('format = 1\n[colours]\nmap = "jet"\n')

@@ -16,7 +16,8 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
-from hexmend_app.picture.cut_planes import BoxClip, ClipPlane, PlaneClip
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box, Plane
 from hexmend_app.scene.layers import mesh as mesh_layer
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
@@ -89,12 +90,16 @@ def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
 
 @pytest.mark.parametrize("notch", [False, True])
 def test_hexes_removed_by_a_smooth_cut_are_not_tagged_as_shown(window, notch):
-    clip = PlaneClip((ClipPlane((1, 0, 0), middle(window)), ClipPlane((0, 1, 0), middle(window))), False, notch)
-    window.session.view.set_clip(clip)
+    cut = Cut(
+        (Plane((1, 0, 0), point=middle(window)), Plane((0, 1, 0), point=middle(window))),
+        style=CutStyle.SMOOTH,
+        notch=notch,
+    )
+    window.session.view.set_cut(cut)
     window.refresh()
     window.features["tags"].panel.shown_requested.emit("shown")
     mesh = window.session.document.now.mesh
-    heights = np.array([plane.signed_distance(mesh.points)[mesh.hexes].min(axis=1) for plane in clip.planes])
+    heights = np.array([plane.signed_distance(mesh.points)[mesh.hexes].min(axis=1) for plane in cut.planes])
     gone = (heights > 0).all(axis=0) if notch else (heights > 0).any(axis=0)
     assert 0 < gone.sum() < mesh.n_hexes
     assert mesh.hex_sets["shown"].tolist() == np.flatnonzero(~gone).tolist()
@@ -104,44 +109,44 @@ def test_hexes_removed_by_a_smooth_cut_are_not_tagged_as_shown(window, notch):
 def test_the_box_can_be_dragged_again_after_an_interrupted_drag(window, qtbot):
     size = np.ptp(window.session.document.now.mesh.points, axis=0)
     low = window.session.document.now.mesh.points.min(axis=0)
-    box = BoxClip(tuple(low + 0.2 * size), tuple(low + 0.8 * size))
-    window.session.view.set_clip(box)
+    box = Cut(box=Box(tuple(low + 0.2 * size), tuple(low + 0.8 * size)))
+    window.session.view.set_cut(box)
     pixels(window)
     view = window.canvas.interactor
-    place = seen_at(window, ((box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2, box.high[2]))
+    place = seen_at(window, (*(low + 0.5 * size)[:2], (low + 0.8 * size)[2]))
     move(view, place)
     QTest.mousePress(view, LEFT, pos=place)
     for k in range(1, 8):
         move(view, place + QPoint(0, 4 * k), LEFT)
-    assert window.session.view.look.clip != box
+    assert window.session.view.look.cut != box
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
     QTest.mouseRelease(view, LEFT, pos=place)
-    other = BoxClip(tuple(low), tuple(low + 0.5 * size))
+    other = Cut(box=Box(tuple(low), tuple(low + 0.5 * size)))
     window.refresh()
-    window.session.view.set_clip(other)
+    window.session.view.set_cut(other)
     window.refresh()
-    np.testing.assert_allclose(window.canvas.box.corners, [other.low, other.high])
-    window.session.view.set_clip(box)
+    np.testing.assert_allclose(window.canvas.box.corners, [other.box.low, other.box.high])
+    window.session.view.set_cut(box)
     pixels(window)
     for k in range(6):
         move(view, place - QPoint(0, 4 * k))
-    assert window.session.view.look.clip == box  # no button is held any more
+    assert window.session.view.look.cut == box  # no button is held any more
 
 
 def test_the_chosen_plane_is_still_the_one_after_the_cut_was_off_or_a_box(window):
-    planes = tuple(ClipPlane(normal, middle(window)) for normal in np.eye(3))
-    window.session.view.set_clip(PlaneClip(planes))
+    planes = tuple(Plane(tuple(normal.tolist()), point=middle(window)) for normal in np.eye(3))
+    window.session.view.set_cut(Cut(planes))
     window.session.view.choose_plane(2)
-    for other in (None, BoxClip((0, 0, 0), (1, 1, 1))):
-        window.session.view.set_clip(other)
-        window.session.view.set_clip(PlaneClip(planes))
+    for other in (Cut(), Cut(box=Box((0, 0, 0), (1, 1, 1)))):
+        window.session.view.set_cut(other)
+        window.session.view.set_cut(Cut(planes))
         assert window.session.view.plane_at == 2
-    window.session.view.set_clip(PlaneClip(planes[:1]))
+    window.session.view.set_cut(Cut(planes[:1]))
     assert window.session.view.plane_at == 0
 
 
 def test_a_mesh_in_other_units_opens_after_a_cut(window, qtbot, tmp_path):
-    window.session.view.set_clip(PlaneClip.at((0, 1, 0), middle(window)))
+    window.session.view.set_cut(Cut.at((0, 1, 0), middle(window)))
     mesh = scrambled(grid(3), 0.3)
     for scale in (1e-9, 1e9):
         io.write(tmp_path / f"{scale}.vtu", mesh.with_points(scale * mesh.points))
@@ -162,7 +167,7 @@ def test_a_cut_begins_in_the_mesh_however_far_unused_nodes_are(window, qtbot, tm
 
 @pytest.mark.slow
 def test_a_picture_has_the_hexes_of_the_view_after_nodes_moved(window, tmp_path):
-    window.session.view.set_clip(PlaneClip.at((1, 0, 0), middle(window)))
+    window.session.view.set_cut(Cut.at((1, 0, 0), middle(window)))
     window.refresh()
     mesh = window.session.document.now.mesh
     moved = mesh.with_points(mesh.points + (np.ptp(mesh.points), 0, 0))
@@ -171,7 +176,7 @@ def test_a_picture_has_the_hexes_of_the_view_after_nodes_moved(window, tmp_path)
     window.refresh()
     window.canvas.fit()
     window.canvas.viewport.camera.SetFocalPoint(moved.points.mean(axis=0))
-    window.session.view.change(outline=False)
+    window.session.view.change(show={"outline": False})
     window.refresh()
     assert window.canvas.viewport.shown > 0
     window.features["save"].picture(tmp_path / "seen.png", (200, 120))

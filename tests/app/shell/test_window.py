@@ -10,7 +10,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel, QScrollArea, QWidget
 
 from hexmend.quality import METRICS
-from hexmend_app.picture.appearance import ColourScale, RangeMode
+from hexmend_app.picture.colours import Range
 from hexmend_app.shell.start.program import report_unexpected_errors
 from hexmend_app.widgets.section import Section
 from tests.app.driving import drag, key, named, pixels
@@ -56,7 +56,7 @@ def test_nothing_is_cut_off(window, qtbot, size):
     window.show_panel("histogram")
     width = window.docks.centre.width()
     for metric in METRICS:  # no metric's numbers make the window or the column wider
-        window.session.view.change(scale=ColourScale(metric, mode=RangeMode.FITTED))
+        window.session.view.change(colours={"metric": metric, "range": Range.FITTED})
         window.refresh()
         QApplication.processEvents()
         assert cut_off(window) == [], metric

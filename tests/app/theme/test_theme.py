@@ -23,7 +23,7 @@ from hexmend_app.features.quality.statistics import StatisticsTable
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.features.tags.tag_panel import TagPanel
 from hexmend_app.picture import Page, Scene
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
 from hexmend_app.shell.palette.command_palette import CommandPalette
@@ -92,7 +92,7 @@ def histogram():
     widget = QualityHistogram()
     widget.set_initial(FIGURES.q, FIGURES.inverted)
     widget.set_current(FIGURES.q**2, FIGURES.inverted)
-    widget.set_range(ValueRange("q", 0.2, 0.7))
+    widget.set_range(Show((0.2, 0.7), "q"))
     widget.set_snapshots([(4, "kept", FIGURES.q**3, FIGURES.inverted)])
     return widget
 

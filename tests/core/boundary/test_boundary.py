@@ -25,7 +25,8 @@ def check(mesh, boundary):
     kind, part = boundary.node_class, boundary.part
     assert kind.dtype == np.uint8
     assert part.dtype == np.int32
-    np.testing.assert_array_equal(kind != NodeClass.INSIDE, mesh.topology.boundary)
+    between = np.zeros(mesh.n_nodes, bool) if mesh.interfaces is None else mesh.interfaces.interface_nodes
+    np.testing.assert_array_equal(kind != NodeClass.INSIDE, mesh.topology.boundary | between)
     np.testing.assert_array_equal(part >= 0, kind >= NodeClass.CURVE)
     ends = boundary.segments.ravel()
     valence = np.bincount(ends, minlength=mesh.n_nodes)

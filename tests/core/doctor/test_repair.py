@@ -4,11 +4,14 @@ import numpy as np
 
 from hexmend.doctor import examine, repair
 from hexmend.doctor.cells import _WEDGES
+from hexmend.doctor.removal import renumber_nodes
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import EDGES, FACES, UNIT_CUBE
+from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from tests.core.doctor.faulty_meshes import SOUND, blocks, collapsed, found_in
+from tests.core.grids import grid
 
 
 def test_merged_blocks_are_one_grid():
@@ -96,3 +99,19 @@ def test_a_mesh_written_twice_is_one_mesh_again():
     assert {finding.kind for finding in mended} == {"coincident-nodes", "duplicate-hexes"}
     assert examine(after) == ()
     assert after.n_hexes == SOUND.n_hexes
+
+
+def test_a_linear_motion_follows_the_numbers_of_its_nodes():
+    mesh = grid(2)
+    bottom, top = (np.flatnonzero(mesh.points[:, 2] == z) for z in (0, 2))
+    motion = LinearMotion.tying(top, bottom).merge(LinearMotion.in_planes(bottom, [0.0, 0, 1]))
+    mesh = mesh.with_linear_motion(motion)
+    order = np.random.default_rng(0).permutation(mesh.n_nodes)
+    other = renumber_nodes(mesh, order)
+    np.testing.assert_array_equal(other.fixed[order], mesh.fixed)
+    shift = np.random.default_rng(1).normal(0, 0.1, mesh.points.shape)
+    moved = np.empty(shift.shape)
+    moved[order] = mesh.constrained(mesh.points + shift)
+    back = np.argsort(order)
+    np.testing.assert_allclose(other.constrained(moved), moved, atol=1e-15)
+    assert (other.constrained(other.points + shift[back])[order[top], 2] == 2).all()

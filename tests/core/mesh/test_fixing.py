@@ -8,8 +8,9 @@ import pytest
 from hexmend import io
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
-from hexmend.mesh.fixing import nodes_in_set, with_region_free, with_sets_fixed
+from hexmend.mesh.fixing import with_region_free, with_sets_fixed
 from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.rules.named_sets import nodes_in_set
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(5), 0.4).replace(

@@ -29,7 +29,7 @@ def run(args: argparse.Namespace) -> int:
     method, stop = method_and_limits(args)
     mesh = read(args.mesh)
     check_memory(args, [method], mesh)
-    look = replace(look_of(args, mesh), traces=_traces(args))
+    look = replace(look_of(args, mesh), movement=_traces(args))
     format_of(path)  # raises for an unknown suffix before the run
     run, history = iterate(mesh, method, stop), History()
     record = history.begin(method.title, State.of(mesh))

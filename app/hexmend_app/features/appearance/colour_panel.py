@@ -12,7 +12,7 @@ from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
 from hexmend_app.features.appearance.map_box import MapBox
-from hexmend_app.picture.appearance import ColourScale, RangeMode
+from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.style import WORSE, note, set_help
@@ -24,14 +24,16 @@ from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.metric_texts import metrics_offered
 from hexmend_app.widgets.wording import short_number
 
-_MODES = {
-    RangeMode.FULL: ("Full", "All possible values of the metric"),
-    RangeMode.FITTED: (
+#: Key of the range between two numbers.
+_PINNED = "pinned"
+_RANGES = {
+    Range.FULL: ("Full", "All possible values of the metric"),
+    Range.FITTED: (
         "Fitted",
         "Current minimum and maximum, without inverted hexes; follows a running method.",
     ),
-    RangeMode.ACCEPTABLE: ("Acceptable", "Values that solvers usually accept"),
-    RangeMode.PINNED: ("Pinned", "Limits that you set, initially the current range."),
+    Range.ACCEPTABLE: ("Acceptable", "Values that solvers usually accept"),
+    _PINNED: ("Pinned", "Limits that you set, initially the current range."),
 }
 NEUTRAL = "Draw the boundary white and cut faces in one colour; inverted hexes stay magenta."
 SHADING = "Darken corners and holes when the view is still (ambient occlusion)."
@@ -43,19 +45,18 @@ class ColourPanel(QWidget):
 
     Signals
     -------
-    scale_changed(ColourScale)
+    colours_changed(Colours)
         The user changed the colours. Limits count once entered, stepped, or left for another field.
-    neutral_changed(bool), shading_changed(bool)
-        The user switched neutral colours or ambient occlusion.
+    shading_changed(bool)
+        The user switched ambient occlusion.
     """
 
-    scale_changed = Signal(object)
-    neutral_changed = Signal(bool)
+    colours_changed = Signal(object)
     shading_changed = Signal(bool)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._scale = ColourScale()
+        self._colours = Colours()
         self._ends = (0.0, 1.0)  # of the current range
         self._pinned: dict[str, tuple[float, float]] = {}  # limits that the user set, by metric
         self._metric = QComboBox()
@@ -70,13 +71,13 @@ class ColourPanel(QWidget):
         set_help(
             self._reverse, tr("Reverse"), tr("Reverse the colour map. By default the dark end marks the worst values.")
         )
-        self._mode = Segmented(tr("Range"), [(mode.value, tr(text), tr(help)) for mode, (text, help) in _MODES.items()])
+        self._range = Segmented(tr("Range"), [(str(key), tr(text), tr(help)) for key, (text, help) in _RANGES.items()])
         self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
         set_help(self._low, tr("Lowest value"), tr("Value of the first colour. Pin the range to set it."))
         set_help(self._high, tr("Highest value"), tr("Value of the last colour. Pin the range to set it."))
         self._neutral, self._shading = QCheckBox(tr("Neutral")), QCheckBox(tr("Shading"))
-        set_help(self._neutral, tr("Neutral"), NEUTRAL)
-        set_help(self._shading, tr("Shading"), SHADING)
+        set_help(self._neutral, tr("Neutral"), tr(NEUTRAL))
+        set_help(self._shading, tr("Shading"), tr(SHADING))
         self._problem = note(colour=WORSE)
         self._problem.hide()
         self._lay_out()
@@ -84,8 +85,8 @@ class ColourPanel(QWidget):
         self._metric.activated.connect(lambda: self.choose_metric(self._metric.currentData()))
         self._map.chosen.connect(lambda name: self._change(map=name))
         self._reverse.clicked.connect(lambda on: self._change(reverse=on))
-        self._mode.chosen.connect(lambda key: self._on_mode(RangeMode(key)))
-        self._neutral.clicked.connect(self.neutral_changed)
+        self._range.chosen.connect(self._on_range)
+        self._neutral.clicked.connect(lambda on: self._change(neutral=on))
         self._shading.clicked.connect(self.shading_changed)
         for box in (self._low, self._high):
             box.changed.connect(lambda box=box: self._on_number(box))
@@ -95,12 +96,12 @@ class ColourPanel(QWidget):
 
     def _lay_out(self) -> None:
         grid = form_grid(self)
-        for row, (text, widget) in enumerate((("Colours", self._metric), ("Map", self._map))):
+        for row, (text, widget) in enumerate(((tr("Colours"), self._metric), (tr("Map"), self._map))):
             label = QLabel(text)
             label.setBuddy(widget)
             grid.addWidget(label, row, 0)
             grid.addWidget(widget, row, 1, 1, 1 if widget is self._map else 2)
-        grid.addWidget(self._mode, 2, 0, 1, 3)  # four texts need the whole width
+        grid.addWidget(self._range, 2, 0, 1, 3)  # four texts need the whole width
         grid.addWidget(self._reverse, 1, 2)
         self.setTabOrder(self._map, self._reverse)
         numbers = QHBoxLayout()
@@ -116,44 +117,47 @@ class ColourPanel(QWidget):
         grid.addLayout(options, 4, 0, 1, 3)
         grid.addWidget(self._problem, 5, 0, 1, 3)
 
-    def set_scale(self, scale: ColourScale) -> None:
-        """Show a scale; emits no signal."""
-        if scale != self._scale:
-            self._apply(scale)
+    def set_colours(self, colours: Colours) -> None:
+        """Show colours; emits no signal."""
+        if colours != self._colours:
+            self._apply(colours)
 
-    def set_options(self, neutral: bool, shading: bool) -> None:
-        """Show the options; emits no signal."""
-        self._neutral.setChecked(neutral)
-        self._shading.setChecked(shading)
+    def set_shading(self, on: bool) -> None:
+        """Show whether ambient occlusion is on; emits no signal."""
+        self._shading.setChecked(on)
 
-    def scale(self) -> ColourScale:
-        """Return the scale shown."""
-        return self._scale
+    def colours(self) -> Colours:
+        """Return the colours shown."""
+        return self._colours
 
     def set_ends(self, low: float, high: float) -> None:
         """Show the ends of the current range, computed from the values; emits no signal."""
         self._ends = (low, high)
-        if self._scale.mode is not RangeMode.PINNED:
+        if not self._is_pinned:
             self._show_ends()
+
+    @property
+    def _is_pinned(self) -> bool:
+        return isinstance(self._colours.range, tuple)
 
     def choose_metric(self, metric: str) -> None:
         """Select a metric as the user would."""
-        if metric == self._scale.metric:
+        if metric == self._colours.metric:
             return
-        pinned, mode = self._pinned.get(metric, self._scale.pinned), self._scale.mode
-        if (metric in DISPLACEMENT_QUANTITIES) != (self._scale.metric in DISPLACEMENT_QUANTITIES):
-            mode = RangeMode.FITTED if metric in DISPLACEMENT_QUANTITIES else RangeMode.FULL
-        if mode is RangeMode.PINNED and metric not in self._pinned:
-            mode = RangeMode.FULL  # limits of one metric mean nothing for another
-        if mode in (RangeMode.FULL, RangeMode.ACCEPTABLE) and declared_range(metric, mode) is None:
-            mode = RangeMode.FITTED
-        self._change(metric=metric, mode=mode, pinned=pinned)
+        range = self._colours.range
+        if (metric in DISPLACEMENT_QUANTITIES) != (self._colours.metric in DISPLACEMENT_QUANTITIES):
+            range = Range.FITTED if metric in DISPLACEMENT_QUANTITIES else Range.FULL
+        if isinstance(range, tuple):  # limits of one metric mean nothing for another
+            range = self._pinned.get(metric, Range.FULL)
+        if range in (Range.FULL, Range.ACCEPTABLE) and declared_range(metric, range) is None:
+            range = Range.FITTED
+        self._change(metric=metric, range=range)
 
-    def _on_mode(self, mode: RangeMode) -> None:
-        pinned = self._scale.pinned
-        if mode is RangeMode.PINNED and self._scale.mode is not mode:
-            pinned = self._pinned.get(self._scale.metric) or _rounded(*self._ends)
-        self._change(mode=mode, pinned=pinned)
+    def _on_range(self, key: str) -> None:
+        if key != _PINNED:
+            self._change(range=Range(key))
+        elif not self._is_pinned:
+            self._change(range=self._pinned.get(self._colours.metric) or _rounded(*self._ends))
 
     def _on_number(self, box: NumberBox) -> None:
         self._show_problem()
@@ -161,71 +165,77 @@ class ColourPanel(QWidget):
             self._on_numbers()
 
     def _on_numbers(self) -> None:
-        if self._scale.mode is not RangeMode.PINNED or self._show_problem():
+        if not self._is_pinned or self._show_problem():
             return
-        pinned = (float(self._low.value()), float(self._high.value()))
-        if pinned != self._scale.pinned:
-            self._pinned[self._scale.metric] = pinned
-            self._change(pinned=pinned)
+        range = (float(self._low.value()), float(self._high.value()))
+        if range != self._colours.range:
+            self._pinned[self._colours.metric] = range
+            self._change(range=range)
 
-    def _change(self, **fields: object) -> None:
-        scale = dataclasses.replace(self._scale, **fields)
-        if scale != self._scale:
-            self._apply(scale)
-            self.scale_changed.emit(scale)
+    def _change(self, **keys: object) -> None:
+        colours = dataclasses.replace(self._colours, **keys)
+        if colours != self._colours:
+            self._apply(colours)
+            self.colours_changed.emit(colours)
 
-    def _apply(self, scale: ColourScale) -> None:
-        before, self._scale = self._scale, scale
+    def _apply(self, colours: Colours) -> None:
+        before, self._colours = self._colours, colours
         self._refresh()
-        if (scale.mode, scale.pinned) != (before.mode, before.pinned):  # otherwise keep a number being typed
+        if colours.range != before.range:  # otherwise keep a number being typed
             self._show_ends()
 
     def _show_problem(self) -> bool:
         """Show the error in the limits, if any; return True if there is one."""
         text = ""
-        if self._scale.mode is RangeMode.PINNED:
+        if self._is_pinned:
             text = self._low.problem or self._high.problem
             if not text and not self._low.value() < self._high.value():
-                low, high = (short_number(end) for end in self._scale.pinned)
-                text = f"Expected the lower value first. The range {low} to {high} is used until this is corrected."
+                low, high = (short_number(end) for end in self._colours.range)
+                text = tr(
+                    "Expected the lower value first. The range {low} to {high} is used until this is corrected.",
+                    low=low,
+                    high=high,
+                )
         self._problem.setText(text)
         self._problem.setVisible(bool(text))
         return bool(text)
 
     def _show_ends(self) -> None:
-        ends = self._scale.pinned if self._scale.mode is RangeMode.PINNED else _rounded(*self._ends)
+        ends = self._colours.range if self._is_pinned else _rounded(*self._ends)
         for box, end in zip((self._low, self._high), ends, strict=True):
             if box.value() != end or box.problem:
                 box.set_value(end)
         self._show_problem()
 
     def _refresh(self) -> None:
-        scale = self._scale
-        self._metric.setCurrentIndex(self._metric.findData(scale.metric))
-        set_help(self._metric, tr("Metric"), _description(scale.metric))
-        self._map.show_map(scale.map, change=scale.metric == "q-change")
-        self._reverse.setChecked(scale.reverse)
-        self._mode.set_value(scale.mode.value)
-        for mode in (RangeMode.FULL, RangeMode.ACCEPTABLE):
-            text, help = _MODES[mode]
-            ends, button = declared_range(scale.metric, mode), self._mode.button(mode.value)
+        colours = self._colours
+        self._metric.setCurrentIndex(self._metric.findData(colours.metric))
+        set_help(self._metric, tr("Metric"), _description(colours.metric))
+        self._map.show_map(colours.map, change=colours.metric == "q-change")
+        self._reverse.setChecked(colours.reverse)
+        self._neutral.setChecked(colours.neutral)
+        self._range.set_value(_PINNED if self._is_pinned else colours.range.value)
+        for range in (Range.FULL, Range.ACCEPTABLE):
+            text, help = _RANGES[range]
+            ends, button = declared_range(colours.metric, range), self._range.button(range.value)
             button.setEnabled(ends is not None)
-            help = f"{help}: {_range_text(ends)}." if ends else f"{help}: unbounded for this metric."
+            suffix = _range_text(ends) if ends else tr("unbounded for this metric")
+            help = f"{tr(help)}: {suffix}."
             set_help(button, tr("Range: {text}", text=text), help)
         for box in (self._low, self._high):
-            box.setEnabled(scale.mode is RangeMode.PINNED)
+            box.setEnabled(self._is_pinned)
         self._show_problem()
 
 
 def _description(name: str) -> str:
     """Return the description of a metric as rich text."""
     metric = hex_quantity(name)
-    direction = {1: "Higher is better.", -1: "Lower is better.", 0: ""}[better(name)]
+    direction = {1: tr("Higher is better."), -1: tr("Lower is better."), 0: ""}[better(name)]
     full, acceptable = _range_text(metric.full_range), _range_text(metric.acceptable)
     lines = (
         f"<b>{escape(metric.title)}</b>",
         escape(metric.formula),
-        f"Full range {full}; acceptable {acceptable}. {direction}",
+        tr("Full range {full}; acceptable {acceptable}.", full=full, acceptable=acceptable) + f" {direction}",
         f"<i>{escape(metric.source)}</i>",
     )
     return f"<qt>{'<br>'.join(lines)}</qt>"

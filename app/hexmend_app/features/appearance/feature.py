@@ -10,6 +10,7 @@ from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.appearance.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.picture.appearance import Arrows, Look
+from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.run.run_controller import Phase
@@ -33,9 +34,8 @@ class FeatureAppearance(Feature):
         view = self._view = self.session.view
         self._seen = ChangeTracker()
         self.panel = ColourPanel()
-        self.panel.scale_changed.connect(lambda scale: view.change(scale=scale))
-        self.panel.neutral_changed.connect(lambda on: view.change(neutral=on))
-        self.panel.shading_changed.connect(lambda on: view.change(shading=on))
+        self.panel.colours_changed.connect(lambda colours: view.change(colours=colours))
+        self.panel.shading_changed.connect(self._shade)
         view.metric_wanted.connect(self.panel.choose_metric)
 
     def actions(self) -> Sequence[Action]:
@@ -51,26 +51,26 @@ class FeatureAppearance(Feature):
                 icon="grid",
                 help=tr("Show the edges of the hexes."),
                 tool=tr("Edges"),
-                handle=lambda on: view.change(edges=on),
-                checked=lambda: view.look.edges,
+                handle=lambda on: view.change(lines={"edges": None if on else 0.0}),
+                checked=lambda: view.look.lines.shown,
             ),
             Action(
                 id="shading",
                 text=tr("S&hading"),
                 menu="View",
                 part=1,
-                help=SHADING,
-                handle=lambda on: view.change(shading=on),
-                checked=lambda: view.look.shading,
+                help=tr(SHADING),
+                handle=self._shade,
+                checked=lambda: view.look.page.shading,
             ),
             Action(
                 id="neutral",
                 text=tr("&Neutral colours"),
                 menu="View",
                 part=1,
-                help=NEUTRAL,
-                handle=lambda on: view.change(neutral=on),
-                checked=lambda: view.look.neutral,
+                help=tr(NEUTRAL),
+                handle=lambda on: view.change(colours={"neutral": on}),
+                checked=lambda: view.look.colours.neutral,
             ),
         )
 
@@ -105,26 +105,29 @@ class FeatureAppearance(Feature):
 
     def _show_panel(self) -> None:
         self.panel.setEnabled(self.session.document.is_open)
-        self.panel.set_scale(self._view.look.scale)
-        self.panel.set_options(self._view.look.neutral, self._view.look.shading)
+        self.panel.set_colours(self._view.look.colours)
+        self.panel.set_shading(self._view.look.page.shading)
         if self.canvas is not None and self.canvas.colouring is not None:
             self.panel.set_ends(self.canvas.colouring.low, self.canvas.colouring.high)
 
     def _draw(self) -> None:
         session = self.session
         now, movement, look = session.document.now, self._movement, self._drawable
-        kinds = self._kinds if look.structure.kinds else None
-        original = session.document.start.mesh.points if look.structure.original else None
+        kinds = self._kinds if look.structure.is_on("kinds") else None
+        original = session.document.start.mesh.points if look.structure.is_on("original") else None
         if self._seen.changed("frame", now, movement, look, original, kinds):
             live = session.run.phase is Phase.RUNNING and session.run.following
             self.canvas.draw(Frame(now.mesh, now.figures, movement, look, original, kinds), live)
-        if self._seen.changed("handles", look.clip, self._view.handles, self._view.plane_at):
+        if self._seen.changed("handles", look.cut, self._view.handles, self._view.plane_at):
             self.canvas.show_handles(self._view.handles, self._view.plane_at)
         if self._seen.changed("phase", session.run.phase) and session.run.phase is Phase.PAUSED:
             self.canvas.rest()
         if self.canvas.isHidden():
             self.canvas.show()
             self.canvas.interactor.setFocus()  # for the keys of the view
+
+    def _shade(self, on: bool) -> None:
+        self._view.change(page={"shading": on})
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now
@@ -134,8 +137,8 @@ class FeatureAppearance(Feature):
     def _movement(self) -> Displacement | None:
         """Displacement shown by colours or arrows, or None."""
         look = self._view.look
-        needed = look.scale.metric in DISPLACEMENT_QUANTITIES or look.traces.arrows is not Arrows.NONE
-        return self.session.comparison_bases.displacement(look.traces.since) if needed else None
+        needed = look.colours.metric in DISPLACEMENT_QUANTITIES or look.movement.arrows is not Arrows.NONE
+        return self.session.comparison_bases.displacement(look.movement.since) if needed else None
 
     @property
     def _drawable(self) -> Look:
@@ -143,9 +146,9 @@ class FeatureAppearance(Feature):
         look = self._view.look
         structure = look.structure
         if self.session.structure_finder.structure is None:
-            structure = structure.without_edges()
+            structure = structure.without(*EDGE_LAYERS)
         if self._kinds is None:
-            structure = dataclasses.replace(structure, kinds=False)
+            structure = structure.without("kinds")
         return dataclasses.replace(look, structure=structure)
 
     @property

@@ -45,7 +45,7 @@ class MapBox(QComboBox):
                 self.setItemData(at, COLOUR_MAPS[key].help, Qt.ItemDataRole.ToolTipRole)
             self._paint_swatches()
         self.setCurrentIndex(max(self.findData(name), 0))
-        set_help(self, tr("Colour map"), COLOUR_MAPS[CHANGE_MAP].help if change else _VALUE_MAPS_HELP)
+        set_help(self, tr("Colour map"), COLOUR_MAPS[CHANGE_MAP].help if change else tr(_VALUE_MAPS_HELP))
 
     def _on_activated(self) -> None:
         if self.currentData() in value_maps():

@@ -49,7 +49,7 @@ class CamerasDialog(QDialog):
         self.list.setEditTriggers(QListWidget.EditTrigger.EditKeyPressed)
         self._problem = note("", WORSE)
         self._problem.setAccessibleName(tr("Error"))
-        self._buttons = [QPushButton(text) for text in ("&Go to", "&Rename", "&Delete")]
+        self._buttons = [QPushButton(text) for text in ("&Go to", tr("&Rename"), tr("&Delete"))]
         for button, act in zip(self._buttons, (self._go, self._edit, self._delete), strict=True):
             button.setAutoDefault(False)
             button.clicked.connect(act)
@@ -104,7 +104,9 @@ class CamerasDialog(QDialog):
         problem = ""
         try:
             if name != before and name in self._cameras.all:
-                problem = f"A camera “{name}” already exists. Choose another name, or delete that camera first."
+                problem = tr(
+                    "A camera “{name}” already exists. Choose another name, or delete that camera first.", name=name
+                )
             elif name != before:
                 self._cameras.rename(before, name)
                 return

@@ -25,7 +25,7 @@ class CamerasMenu(QMenu):
     chosen = Signal(str)
 
     def __init__(self, cameras: SavedCameras, parent: QWidget | None = None):
-        super().__init__("Go to c&amera", parent)
+        super().__init__(tr("Go to c&amera"), parent)
         self._cameras = cameras
         self.aboutToShow.connect(self._fill)
         cameras.changed.connect(self._enable)

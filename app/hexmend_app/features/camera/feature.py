@@ -12,7 +12,6 @@ from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
 from hexmend_app.features.camera.cameras_dialog import CamerasDialog
 from hexmend_app.features.camera.cameras_menu import CamerasMenu
 from hexmend_app.picture import Camera, camera_from, camera_text
-from hexmend_app.picture.cut_planes import PlaneClip
 from hexmend_app.state.view.camera_request import CameraData, PoseHistoryData
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_camera_name
@@ -64,15 +63,15 @@ class FeatureCamera(Feature):
                 in_view=True,
             ),
             *self._directions(),
-            self._move("face", "Face cutting pl&ane", "Shift+C", "Look along the normal of the plane.", self._face,
-                       lambda: self._plane is not None, in_view=True),
-            self._move("roll_left", "Roll &left", "Shift+[", f"Rotate the view by {_ROLL}° counter-clockwise.",
-                       lambda: self.canvas.roll(_ROLL)),
-            self._move("roll_right", "Roll ri&ght", "Shift+]", f"Rotate the view by {_ROLL}° clockwise.",
-                       lambda: self.canvas.roll(-_ROLL)),
-            self._move("view_back", "Previous &view", "Alt+Left", "Return to the previous camera position.",
+            self._move("face", tr("Face cutting pl&ane"), "Shift+C", tr("Look along the normal of the plane."),
+                       self._face, lambda: self._plane is not None, in_view=True),
+            self._move("roll_left", tr("Roll &left"), "Shift+[", tr("Rotate the view by {angle}° counter-clockwise.",
+                       angle=_ROLL), lambda: self.canvas.roll(_ROLL)),
+            self._move("roll_right", tr("Roll ri&ght"), "Shift+]", tr("Rotate the view by {angle}° clockwise.",
+                       angle=_ROLL), lambda: self.canvas.roll(-_ROLL)),
+            self._move("view_back", tr("Previous &view"), "Alt+Left", tr("Return to the previous camera position."),
                        lambda: self.canvas.back_view(), lambda: self.canvas.can_go_back, in_view=True),
-            self._move("view_forward", "Ne&xt view", "Alt+Right", "Go forward to the next camera position.",
+            self._move("view_forward", tr("Ne&xt view"), "Alt+Right", tr("Go forward to the next camera position."),
                        lambda: self.canvas.forward_view(), lambda: self.canvas.can_go_forward),
             *(
                 Action(
@@ -87,9 +86,9 @@ class FeatureCamera(Feature):
                 )
                 for axis in "xyz"
             ),
-            self._move("copy_camera", "&Copy camera", "", "Copy the camera to the clipboard, for another window "
-                       "or hexmend render.", self.copy, lambda: self._draws),
-            self._move("paste_camera", "&Paste camera", "", "Apply the camera from the clipboard.", self.paste),
+            self._move("copy_camera", tr("&Copy camera"), "", tr("Copy the camera to the clipboard, for another window "
+                       "or hexmend render."), self.copy, lambda: self._draws),
+            self._move("paste_camera", tr("&Paste camera"), "", tr("Apply the camera from the clipboard."), self.paste),
             *self._saved(),
             Action(
                 id="parallel",
@@ -109,14 +108,14 @@ class FeatureCamera(Feature):
         yield from (
             Action(
                 id=id,
-                text=text,
+                text=tr(text),
                 menu="View/Camera",
                 keys=keys,
                 icon=icon,
                 help=tr(
                     "Look at the mesh from {place}.", place="a corner" if name == "iso" else name.replace("-", "−")
                 ),
-                tool=tool,
+                tool=tr(tool),
                 handle=lambda name=name: self.canvas.look_along(name),
                 enabled=self._ready,
             )
@@ -162,7 +161,7 @@ class FeatureCamera(Feature):
         if self.session.camera_request.wanted is not None and self._draws:
             self._apply(self.session.camera_request.wanted, self.session.camera_request.pose_history)
             self.session.camera_request.wanted, self.session.camera_request.pose_history = None, PoseHistoryData()
-        isolated = self.session.view.look.isolation is not None
+        isolated = self.session.view.look.show.isolate is not None
         if self.canvas is not None and self._seen.changed("isolated", isolated):
             if isolated:
                 self.canvas.remember_pose()
@@ -215,7 +214,7 @@ class FeatureCamera(Feature):
     def keep(self, name: str) -> None:
         """Save the camera under a name, or show an error."""
         camera = Camera.at(self.canvas.pose)
-        success = f"Camera saved as “{name}”; apply it with View > Camera > Go to camera."
+        success = tr("Camera saved as “{name}”; apply it with View > Camera > Go to camera.", name=name)
         self.host.try_and_report(tr("Camera not saved"), lambda: self._cameras.add(name, camera), success)
 
     def go(self, name: str) -> None:
@@ -266,14 +265,14 @@ class FeatureCamera(Feature):
     @property
     def _plane(self) -> object:
         """Selected cutting plane; None if the cut is off or by a box."""
-        clip = self.session.view.look.clip
-        return clip.planes[self.session.view.plane_at] if isinstance(clip, PlaneClip) else None
+        planes = self.session.view.look.cut.planes
+        return planes[self.session.view.plane_at] if planes else None
 
     def _face(self) -> None:
         self.canvas.face(self._plane)
 
     def _fly(self, hexes: tuple[int, ...]) -> None:
         if self.canvas is not None and self.session.document.is_open:
-            if self.session.view.look.isolation is not None:
+            if self.session.view.look.show.isolate is not None:
                 self.canvas.remember_pose()
             self.canvas.fly_to(*hexes)

@@ -115,7 +115,7 @@ class ComparePanel(QWidget):
     def _make_table(self) -> QTableView:
         table = QTableView()
         table.setModel(self._model)
-        shape_table(table, "Comparison of methods", METHOD)
+        shape_table(table, tr("Comparison of methods"), METHOD)
         header = table.horizontalHeader()
         header.setSectionResizeMode(header.ResizeMode.Interactive)
         header.setSortIndicator(METHOD, Qt.SortOrder.AscendingOrder)
@@ -209,7 +209,7 @@ class ComparePanel(QWidget):
 
     def set_status(self, text: str = "") -> None:
         """Show the progress, or a hint if there is none."""
-        self._status.setText(text or _HINT)
+        self._status.setText(text or tr(_HINT))
         self._status.setToolTip(text)
 
     def run(self) -> None:

@@ -14,6 +14,7 @@ from hexmend.quantity import Quantity
 from hexmend.report.comparison import LINES, label
 from hexmend.smoothers import METHODS
 from hexmend_app.theme.style import BETTER, MUTED, WORSE, tabular
+from hexmend_app.translation import tr
 
 METHOD, VIEW, _FIRST = 0, 1, 2
 
@@ -178,7 +179,7 @@ class ComparisonModel(QAbstractTableModel):
             return _RIGHT if quantity and quantity.key != "outcome" else _LEFT
         if role == _Role.ToolTipRole:
             if column == VIEW and entry.has_mesh and self.full and not entry.shown:
-                return "Close a view first: at most four can be open."
+                return tr("Close a view first: at most four can be open.")
             return f"<qt>{entry.help}</qt>"
         if quantity is not None:
             return self._emphasis(entry, quantity, entry.name in self._best[column - _FIRST], role)
@@ -196,7 +197,7 @@ class ComparisonModel(QAbstractTableModel):
             return font
         regressed = quantity.key in {REGRESSION_KEYS.get(name, name) for name in entry.record.get("worse", ())}
         if role == _Role.AccessibleTextRole and (is_best or regressed):
-            return ", ".join([quantity.of(entry.record), *["best"] * is_best, *["worse than initial"] * regressed])
+            return ", ".join([quantity.of(entry.record), *["best"] * is_best, *[tr("worse than initial")] * regressed])
         if role == _Role.ForegroundRole:
             bad = regressed or (quantity.key == "inverted" and entry.record.get("inverted"))
             colour = WORSE if bad else BETTER if is_best else None
@@ -220,15 +221,19 @@ class ComparisonModel(QAbstractTableModel):
             return None
         quantity = LINES[section - _FIRST] if section >= _FIRST else None
         if role == _Role.DisplayRole:
-            return label(quantity, [one.record for one in self.entries]) if quantity else ("Method", "View")[section]
+            return (
+                label(quantity, [one.record for one in self.entries])
+                if quantity
+                else (tr("Method"), tr("View"))[section]
+            )
         if role == _Role.TextAlignmentRole:
             return _RIGHT if quantity and quantity.key != "outcome" else _LEFT
         if role == _Role.ForegroundRole:
             return QBrush(QColor(str(MUTED)))
         if role == _Role.ToolTipRole:
             help = quantity.help if quantity else (
-                "Select the methods to run. Click a column header to sort.",
-                "Select the results to show in views next to the current mesh.",
+                tr("Select the methods to run. Click a column header to sort."),
+                tr("Select the results to show in views next to the current mesh."),
             )[section]  # fmt: skip
             return f"<qt>{help}</qt>"
         return None

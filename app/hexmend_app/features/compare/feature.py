@@ -117,8 +117,8 @@ class FeatureCompare(Feature):
     def _initial(self, norm: ObjectiveNorm) -> ComparisonRow:
         state = self._comparison.initial
         if state is None:
-            return ComparisonRow(INITIAL, "The mesh from which the methods start.", {})
-        help = "The mesh from which the methods started."
+            return ComparisonRow(INITIAL, tr("The mesh from which the methods start."), {})
+        help = tr("The mesh from which the methods started.")
         return ComparisonRow(INITIAL, help, _mesh_values(state, norm), True, self._views.shows(state))
 
     def _entry(self, name: str, result: MethodResult | None, norm: ObjectiveNorm) -> ComparisonRow:
@@ -202,7 +202,9 @@ class FeatureCompare(Feature):
             return markdown(record_table(record, style.names, style.title))
 
         title = record_table(record).title
-        return TableDialog(text, "the table", file_name, _KINDS, self._style, title, names, self.host.dialog_parent)
+        return TableDialog(
+            text, tr("the table"), file_name, tr(_KINDS), self._style, title, names, self.host.dialog_parent
+        )
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; return True on success."""

@@ -147,7 +147,7 @@ class FeatureConsole(Feature):
         if task.error is not None:
             self.panel.print_error(f"{type(task.error).__name__}: {task.error}\n")
         elif task.result is not None and not self.session.commands.replace_mesh("console", task.result):
-            self.panel.print_error("Mesh not changed: a run, a repair or a file operation is in progress.\n")
+            self.panel.print_error(tr("Mesh not changed: a run, a repair or a file operation is in progress.\n"))
         self.panel.set_running(False)
 
 
@@ -158,7 +158,9 @@ def _new_state(interpreter: Interpreter, mesh: Mesh | None) -> State | None:
         return None
     if not isinstance(new, Mesh):
         type_name = type(new).__name__
-        interpreter.write(f"Mesh not changed: expected mesh to be a hexmend Mesh, not {type_name}.\n", True)
+        interpreter.write(
+            tr("Mesh not changed: expected mesh to be a hexmend Mesh, not {type_name}.\n", type_name=type_name), True
+        )
         return None
     if mesh is None or new.hexes is not mesh.hexes:
         new = new.keeping_surface()

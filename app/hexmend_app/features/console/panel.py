@@ -72,7 +72,7 @@ class ConsolePanel(QWidget):
         self.completions = lambda text: []
         self.set_running(False)
         self._fit()
-        self.print_text(_WELCOME, MUTED)
+        self.print_text(tr(_WELCOME), MUTED)
 
     def _apply_theme(self) -> None:
         sheet = f"QPlainTextEdit {{ border: 1px solid {LINE}; }} QPlainTextEdit:focus {{ border-color: {BLUE}; }}"

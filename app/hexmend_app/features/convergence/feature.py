@@ -127,7 +127,7 @@ class FeatureConvergence(Feature):
         """Return the dialog that saves the charts, with the style used last."""
         event = self._report(Path())
         chart, file_name = figure(*event.arguments[1:], **event.options), f"{self.host.stem}-convergence.svg"
-        return ChartDialog(chart, "the charts", file_name, _KINDS, self._style, self.host.dialog_parent)
+        return ChartDialog(chart, tr("the charts"), file_name, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts, or the values of all runs if the suffix is .csv; return True on success."""

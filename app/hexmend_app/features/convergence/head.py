@@ -45,7 +45,7 @@ class ConvergenceHead(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.charts = {
-            key: self._action(chart.title, chart.help, key in DEFAULT_CHARTS) for key, chart in CHARTS.items()
+            key: self._action(tr(chart.title), tr(chart.help), key in DEFAULT_CHARTS) for key, chart in CHARTS.items()
         }
         for action in self.charts.values():
             action.toggled.connect(self.charts_changed)
@@ -53,11 +53,13 @@ class ConvergenceHead(QWidget):
         charts.setText(tr("Charts ▾"))
         charts.menu().addActions(list(self.charts.values()))
         charts.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.log = self._action("Logarithmic axes", _LOG, True)
+        self.log = self._action(tr("Logarithmic axes"), tr(_LOG), True)
         self.log.toggled.connect(self.axes_changed)
-        self.from_zero = self._action("Start branches at 0", _FROM_ZERO, False)
+        self.from_zero = self._action(tr("Start branches at 0"), tr(_FROM_ZERO), False)
         self.from_zero.toggled.connect(self.from_zero_changed)
-        self.save = self._action("Save…", "Save the charts as SVG, PDF or PNG, or the values of all runs as CSV.")
+        self.save = self._action(
+            tr("Save…"), tr("Save the charts as SVG, PDF or PNG, or the values of all runs as CSV.")
+        )
         self.save.triggered.connect(self.save_requested)
         options = MenuButton(tr("Chart options"), tr("Logarithmic axes, start of branches, save."))
         options.setIcon(icon("dots-vertical"))

@@ -18,6 +18,7 @@ from hexmend_app.features.convergence.run_legend import RunLegend
 from hexmend_app.scene.colour.ticks import nice_ticks
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.style import note
+from hexmend_app.translation import tr
 from hexmend_app.widgets.scrolled import scrolled
 
 _EMPTY = "No runs yet. Values of each iteration will appear here."
@@ -83,7 +84,7 @@ class ConvergencePanel(QWidget):
         charts.setSpacing(2)
         for plot in self.plots.values():
             charts.addWidget(plot, 1)
-        self._empty = note(_EMPTY)
+        self._empty = note(tr(_EMPTY))
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.plotting, self._runs = scrolled(stack), scrolled(self.legend)
         side = QVBoxLayout()
@@ -172,7 +173,7 @@ class ConvergencePanel(QWidget):
         margin = 0.012 * (high - low)
         ticks = [(tick, f"{tick:,.6g}") for tick in nice_ticks(low, high, 8) if self.by_time or tick == round(tick)]
         left_width = self.fontMetrics().horizontalAdvance("000,000")
-        label = "seconds in the method" if self.by_time else "iteration"
+        label = tr("seconds in the method") if self.by_time else "iteration"
         for plot in self.drawn:
             plot.set_x_range(low - margin, high + margin)
             plot.set_bottom_axis(label if plot is self.drawn[-1] else None, ticks, left_width)

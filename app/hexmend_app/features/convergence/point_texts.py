@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend_app.features.convergence.charts import Chart
 from hexmend_app.features.convergence.curves import Curve
+from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted, figure
 
 
@@ -22,17 +23,17 @@ def describe(chart: Chart, curves: Sequence[Curve], x: float, by_time: bool) -> 
 
 def titled(chart: Chart, curves: Sequence[Curve], dashes: Sequence[str]) -> str:
     """Return a chart's heading: quantities with their dashes if there are several, and the runs it omits."""
-    heading = chart.title
+    heading = tr(chart.title)
     if len(chart.quantities) > 1:
-        heading = ", ".join(f"{one.title} {dash}" for one, dash in zip(chart.quantities, dashes, strict=False))
+        heading = ", ".join(f"{tr(one.title)} {dash}" for one, dash in zip(chart.quantities, dashes, strict=False))
     omitted = [curve for curve in curves if curve.shown and not _reported(chart, curve)]
     infinite = [curve.record.name for curve in omitted if _infinite(chart, curve)]
     unreported = [curve.record.name for curve in omitted if not _infinite(chart, curve)]
     notes = []
     if infinite:
-        notes.append(f"infinite for {' and '.join(infinite)} while hexes are inverted")
+        notes.append(tr("infinite for {infinite} while hexes are inverted", infinite=" and ".join(infinite)))
     if unreported:
-        notes.append(f"not reported by {' and '.join(unreported)}")
+        notes.append(tr("not reported by {unreported}", unreported=" and ".join(unreported)))
     return f"{heading}: {'; '.join(notes)}" if notes else heading
 
 
@@ -40,13 +41,17 @@ def reason_if_blank(chart: Chart, curves: Sequence[Curve]) -> str:
     """Return the reason why a chart is empty; "" if it shows a curve, or if a run may still report a value."""
     shown = [curve for curve in curves if curve.shown]
     if not shown:
-        return "No run selected."
+        return tr("No run selected.")
     if any(_reported(chart, curve) for curve in shown):
         return ""
     inverted = [int(curve.columns.of("inverted")[-1]) for curve in shown if _infinite(chart, curve)]
     if inverted:
-        return f"The objective is infinite: {counted(inverted[-1], 'inverted hex')}."
-    return f"The method does not report its {chart.title}." if len(shown) == 1 else f"No run reports its {chart.title}."
+        return tr("The objective is infinite: {hexes}.", hexes=counted(inverted[-1], "inverted hex"))
+    return (
+        tr("The method does not report its {title}.", title=tr(chart.title))
+        if len(shown) == 1
+        else tr("No run reports its {title}.", title=tr(chart.title))
+    )
 
 
 def _reported(chart: Chart, curve: Curve) -> bool:
@@ -77,12 +82,12 @@ def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
         if np.isfinite(value):
             text = figure(int(value)) if quantity.whole else _significant(float(value))
         else:
-            text = "infinite" if quantity.key == "objective" else "not reported"
+            text = "infinite" if quantity.key == "objective" else tr("not reported")
         formula = curve.record.rows[number].get("objective_formula") if quantity.key == "objective" else None
-        values.append(f"{quantity.title} {formula} {text}" if formula else f"{quantity.title} {text}")
+        values.append(f"{tr(quantity.title)} {formula} {text}" if formula else f"{tr(quantity.title)} {text}")
     stored = curve.stored()
     nearest = int(stored[np.abs(stored - number).argmin()])
-    thinned = "" if nearest == number else f" (nearest stored: {nearest})"
+    thinned = "" if nearest == number else tr(" (nearest stored: {nearest})", nearest=nearest)
     seconds = f" at {curve.columns.seconds[number]:.3g} s" if by_time else ""
     pause = curve.record.pauses.get(number)
     paused = f"\n    paused: {pause}" if pause else ""

@@ -31,13 +31,13 @@ class BoxPage(QWidget):
         self._bounds = np.array([[0.0] * 3, [1.0] * 3])
         self._corners = self._bounds.copy()  # low, high
         self._sliders, self._texts = [], []
-        grid = form_grid(self, "Position")
+        grid = form_grid(self, tr("Position"))
         for axis, name in enumerate("XYZ"):
             slider = QRangeSlider(Qt.Orientation.Horizontal)
             slider.setRange(0, _TICKS)
             slider.setPageStep(_TICKS // 20)
             slider.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            help = f"Extent of the box along {name}. Drag an end, or drag between the ends to move both."
+            help = tr("Extent of the box along {name}. Drag an end, or drag between the ends to move both.", name=name)
             set_help(slider, tr("{name} extent of the box", name=name), help)
             slider.valueChanged.connect(lambda ticks, axis=axis: self._on_slider(axis, ticks))
             text = QLabel()

@@ -12,7 +12,8 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QWidget
 from hexmend_app.features.cut.box_page import BoxPage
 from hexmend_app.features.cut.plane_page import PlanePage
 from hexmend_app.features.cut.plane_row import PlaneRow
-from hexmend_app.picture.cut_planes import BoxClip, Clip, ClipPlane, PlaneClip
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box, Plane
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
@@ -23,11 +24,15 @@ _MAX_PLANES = 6
 
 @dataclass(frozen=True)
 class CutPanelSettings:
-    """The current or proposed planes and box, and which of the two cuts."""
+    """The current or proposed cuts by planes and by a box, and which of the two is selected."""
 
-    planes: PlaneClip
-    box: BoxClip
+    planes: Cut
+    box: Cut
     boxed: bool
+
+    def __post_init__(self) -> None:
+        if not (self.planes.planes and self.planes.absolute and self.box.box is not None and self.box.absolute):
+            raise ValueError("the proposed cuts have no planes or no box")
 
 
 class CutPanel(QWidget):
@@ -35,8 +40,8 @@ class CutPanel(QWidget):
 
     Signals
     -------
-    clip_changed(PlaneClip | BoxClip | None)
-        The user changed the cut; None if it is off.
+    cut_changed(Cut)
+        The user changed the cut; without planes and box if it is off.
     plane_chosen(int)
         The user selected the plane to edit here and in the view.
     handles_changed(bool)
@@ -45,7 +50,7 @@ class CutPanel(QWidget):
         The user switched snapping to the axes, for planes that are rotated in the view.
     """
 
-    clip_changed = Signal(object)
+    cut_changed = Signal(object)
     plane_chosen = Signal(int)
     handles_changed = Signal(bool)
     snap_changed = Signal(bool)
@@ -53,8 +58,7 @@ class CutPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._bounds: np.ndarray | None = None  # (2, 3): lowest and highest corner
-        self._planes = PlaneClip()
-        self._box = BoxClip((0, 0, 0), (1, 1, 1))
+        self._planes, self._box = Cut.at((1.0, 0.0, 0.0), (0.0, 0.0, 0.0)), Cut(box=Box())
         self._selected = 0
         self._switch = QCheckBox(tr("Cut"))
         set_help(self._switch, tr("Cut"), tr("Cut the mesh open (C)."))
@@ -103,7 +107,7 @@ class CutPanel(QWidget):
         head.addWidget(self._kind)
         head.addStretch()
         head.addWidget(self._handles)
-        grid = form_grid(self, "Position")
+        grid = form_grid(self, tr("Position"))
         grid.addLayout(head, 0, 0, 1, 2)
         for row, widget in enumerate((self._plane_row, self._plane_page, self._box_page), start=1):
             grid.addWidget(widget, row, 0, 1, 2)
@@ -126,7 +130,7 @@ class CutPanel(QWidget):
         self._box_page.changed.connect(self._on_box)
         for choice in (self._hide_planes, self._hide_box):
             choice.chosen.connect(lambda key: self._change(notch=key == "all"))
-        self._cut_mode.chosen.connect(lambda key: self._change(crinkle=key == "crinkle"))
+        self._cut_mode.chosen.connect(lambda key: self._change(style=CutStyle(key)))
 
     # Called by the feature
 
@@ -146,28 +150,29 @@ class CutPanel(QWidget):
             self._box_page.set_bounds(bounds)
             if not self._switch.isChecked():
                 middle, half = bounds.mean(axis=0), np.ptp(bounds, axis=0) / 4
-                self._planes = PlaneClip((ClipPlane(self._planes.planes[0].normal, tuple(middle)),))
-                self._box = BoxClip(tuple(middle - half), tuple(middle + half))
+                self._planes = Cut.at(self._planes.planes[0].normal, tuple(middle.tolist()))
+                self._box = Cut(box=Box(tuple((middle - half).tolist()), tuple((middle + half).tolist())))
                 self._selected = 0
         self._refresh()
 
-    def set_clip(self, clip: Clip | None, at: int = 0) -> None:
+    def set_cut(self, cut: Cut, at: int = 0) -> None:
         """Show a cut; emits no signal.
 
         Parameters
         ----------
-        clip : PlaneClip or BoxClip, optional
-            None if the cut is off.
+        cut : Cut
+            Without planes and box if it is off.
         at : int
             Index of the selected plane.
         """
-        self._switch.setChecked(clip is not None)
-        if clip is not None:
-            self._kind.set_value("box" if isinstance(clip, BoxClip) else "planes")
-            if isinstance(clip, BoxClip):
-                self._box = clip
+        self._switch.setChecked(cut.active)
+        if cut.active:
+            cut = cut.with_hexes(None)
+            self._kind.set_value("planes" if cut.box is None else "box")
+            if cut.box is not None:
+                self._box = cut
             else:
-                self._planes, self._selected = clip, at
+                self._planes, self._selected = cut, at
         self._refresh()
 
     def set_handles(self, shown: bool) -> None:
@@ -189,11 +194,11 @@ class CutPanel(QWidget):
             self._kind.set_value("box" if settings.boxed else "planes")
         self._refresh()
 
-    def clip(self) -> Clip | None:
-        """Return the cut, or None if it is off."""
-        return self.proposal() if self._switch.isChecked() and self._bounds is not None else None
+    def cut(self) -> Cut:
+        """Return the cut, without planes and box if it is off."""
+        return self.proposal() if self._switch.isChecked() and self._bounds is not None else Cut()
 
-    def proposal(self) -> Clip:
+    def proposal(self) -> Cut:
         """Return the cut, or if it is off, the cut that switching on would make."""
         return self._box if self._kind.value() == "box" else self._planes
 
@@ -208,7 +213,7 @@ class CutPanel(QWidget):
         """Add a plane normal to the axis with the fewest planes."""
         counts = np.sum([np.abs(plane.normal) for plane in self._planes.planes], axis=0)
         normal = np.eye(3)[int(counts.round(6).argmin())]
-        plane = ClipPlane(tuple(normal), tuple(self._bounds.mean(axis=0)))
+        plane = Plane(tuple(normal), point=tuple(self._bounds.mean(axis=0)))
         self._planes = dataclasses.replace(self._planes, planes=(*self._planes.planes, plane))
         self._select(len(self._planes.planes) - 1)
 
@@ -222,32 +227,29 @@ class CutPanel(QWidget):
         self._emit()
         self.plane_chosen.emit(at)
 
-    def _on_plane(self, plane: ClipPlane) -> None:
+    def _on_plane(self, plane: Plane) -> None:
         self._planes = self._planes.with_plane(self._selected, plane)
         self._emit()
 
     def _on_box(self, low: tuple, high: tuple) -> None:
-        self._box = dataclasses.replace(self._box, low=low, high=high)
+        self._box = dataclasses.replace(self._box, box=Box(low, high))
         self._emit()
 
-    def _change(self, **fields: bool) -> None:
-        """Change the hidden side of the planes or the box, or `crinkle` of both."""
-        if "crinkle" in fields:
-            self._planes = dataclasses.replace(self._planes, **fields)
-            self._box = dataclasses.replace(self._box, **fields)
-        elif self._kind.value() == "box":
-            self._box = dataclasses.replace(self._box, **fields)
-        else:
-            self._planes = dataclasses.replace(self._planes, **fields)
+    def _change(self, **keys: object) -> None:
+        """Change the hidden side of the planes or the box, or the style of both."""
+        if "style" in keys or self._kind.value() == "box":
+            self._box = dataclasses.replace(self._box, **keys)
+        if "style" in keys or self._kind.value() == "planes":
+            self._planes = dataclasses.replace(self._planes, **keys)
         self._emit()
 
     def _emit(self) -> None:
         self._refresh()
-        self.clip_changed.emit(self.clip())
+        self.cut_changed.emit(self.cut())
 
     def _refresh(self) -> None:
         on, box = self._bounds is not None and self._switch.isChecked(), self._kind.value() == "box"
-        planes, clip = self._planes.planes, self.proposal()
+        planes, cut = self._planes.planes, self.proposal()
         self._switch.setEnabled(self._bounds is not None)
         several = len(planes) > 1
         visible = {  # little while the cut is off, to save space
@@ -265,6 +267,6 @@ class CutPanel(QWidget):
             widget.setVisible(shown)
         self._plane_row.set_planes(len(planes), self._selected)
         self._plane_page.set_plane(planes[self._selected])
-        self._box_page.set_corners(self._box.low, self._box.high)
-        (self._hide_box if box else self._hide_planes).set_value("all" if clip.notch else "any")
-        self._cut_mode.set_value("crinkle" if clip.crinkle else "smooth")
+        self._box_page.set_corners(self._box.box.low, self._box.box.high)
+        (self._hide_box if box else self._hide_planes).set_value("all" if cut.notch else "any")
+        self._cut_mode.set_value(cut.style.value)

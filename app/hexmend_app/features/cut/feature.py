@@ -10,7 +10,7 @@ import numpy as np
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.cut.cut_panel import CutPanel, CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
-from hexmend_app.picture.cut_planes import CutLeft
+from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.translation import tr
 
@@ -27,18 +27,18 @@ class FeatureCut(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view
-        self.session.about_to_save.connect(lambda: view.store_remaining_hexes(self._left()))
+        self.session.about_to_save.connect(self._store_remaining_hexes)
         self._seen = ChangeTracker()
         self.panel = CutPanel()
-        self.panel.clip_changed.connect(view.set_clip)
+        self.panel.cut_changed.connect(view.set_cut)
         self.panel.plane_chosen.connect(view.choose_plane)
         self.panel.handles_changed.connect(view.set_handles)
         self.panel.snap_changed.connect(view.set_snap)
         self._proposed: CutPanelSettings | None = None  # by a session; shown after its mesh, which resets the proposal
         self.inside = InsidePanel()
-        self.inside.peel_changed.connect(lambda layers: view.change(peel=layers))
-        self.inside.shrink_changed.connect(lambda share: view.change(shrink=share))
-        self.inside.outline_changed.connect(lambda on: view.change(outline=on))
+        self.inside.peel_changed.connect(lambda layers: view.change(show={"peel": layers}))
+        self.inside.shrink_changed.connect(lambda share: view.change(show={"shrink": share}))
+        self.inside.outline_changed.connect(lambda on: view.change(show={"outline": on}))
         self.inside.rings_changed.connect(view.set_rings)
         self.inside.all_requested.connect(view.end_isolation)
         self.inside.undo_requested.connect(view.undig_last)
@@ -58,7 +58,7 @@ class FeatureCut(Feature):
                 help=tr("Cut the mesh open along planes or a box."),
                 tool=tr("Cut"),
                 handle=self._switch,
-                checked=lambda: view.look.clip is not None,
+                checked=lambda: view.look.cut.active,
                 in_view=True,
             ),
             Action(
@@ -91,7 +91,7 @@ class FeatureCut(Feature):
                 keys="Backspace",
                 help=tr("Restore the hex that was dug away last."),
                 handle=view.undig_last,
-                enabled=lambda: bool(view.look.dug),
+                enabled=lambda: bool(view.look.show.hidden),
                 in_view=True,
             ),
         )
@@ -137,9 +137,10 @@ class FeatureCut(Feature):
         if not document.is_open:
             return
         # Before set_bounds, which resets the proposal if the cut is off.
-        changed = self._seen.changed("cut", document.start, view.look.clip, view.plane_at, view.handles)
-        if changed or self.panel.clip() != view.look.clip:  # or switched off and on again between two refreshes
-            self.panel.set_clip(view.look.clip, view.plane_at)
+        cut = view.look.cut.with_hexes(None)
+        changed = self._seen.changed("cut", document.start, cut, view.plane_at, view.handles)
+        if changed or self.panel.cut() != cut:  # or switched off and on again between two refreshes
+            self.panel.set_cut(cut, view.plane_at)
             self.panel.set_handles(view.handles)
         if self._seen.changed("mesh", document.start):
             mesh = document.now.mesh
@@ -153,20 +154,20 @@ class FeatureCut(Feature):
         if self.canvas is not None:
             self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)
 
-    def _left(self) -> CutLeft | None:
-        """Return the hexes kept by a cut by whole hexes, so that they stay the same while nodes move."""
-        document, look = self.session.document, self._view.look
+    def _store_remaining_hexes(self) -> None:
+        """Store the hexes that a cut by whole hexes has left, as far as the view has drawn the mesh."""
+        document = self.session.document
         filters = None if self.canvas is None else self.canvas.viewport.filters
-        if filters is None or not document.is_open or not filters.matches(document.now.mesh):
-            return look.left
-        return filters.cut_left(Frame(document.now.mesh, document.now.figures, look=look))
+        if filters is not None and document.is_open and filters.matches(document.now.mesh):
+            frame = Frame(document.now.mesh, document.now.figures, look=self._view.look)
+            self._view.store_remaining_hexes(filters.cut_left(frame))
 
     def _propose(self, choices: CutPanelSettings) -> None:
         self._proposed = choices
 
     def _switch(self, on: bool) -> None:
-        if on != (self._view.look.clip is not None):
-            self._view.set_clip(self.panel.proposal() if on else None)
+        if on != self._view.look.cut.active:
+            self._view.set_cut(self.panel.proposal() if on else Cut())
             if on:
                 self.host.show_panel("cut")
 

@@ -23,7 +23,7 @@ _PEEL = (
 _NO_LAYERS = "No layers to peel: every hex has a face on the boundary."
 _SHRINK = (
     "Shrink each hex towards its centre to see its shape and the hexes behind it. In meshes of more than "
-    f"{WHOLE:,} hexes, only hexes with a visible face are shrunk; their sides appear when the view is still."
+    "{count:,} hexes, only hexes with a visible face are shrunk; their sides appear when the view is still."
 )
 _CUT_SMOOTHLY = "Hexes cannot be shrunk with a smooth cut: select <i>Whole hexes</i> for the cut."
 _RINGS = (
@@ -60,8 +60,8 @@ class InsidePanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._peel = SliderBox("Peel layers", _PEEL, 0)
-        self._shrink = SliderBox("Shrink hexes", _SHRINK, _MAX_SHRINK, " %")
+        self._peel = SliderBox(tr("Peel layers"), tr(_PEEL), 0)
+        self._shrink = SliderBox(tr("Shrink hexes"), tr(_SHRINK, count=WHOLE), _MAX_SHRINK, " %")
         width = max(self._peel.box_width(), self._shrink.box_width())
         self._peel.set_box_width(width)
         self._shrink.set_box_width(width)
@@ -69,7 +69,7 @@ class InsidePanel(QWidget):
         self._rings.setRange(0, _MAX_RINGS)
         self._rings.setFont(tabular(self._rings.font()))
         self._rings.setFixedWidth(width)
-        set_help(self._rings, tr("Rings around isolated hexes"), _RINGS)
+        set_help(self._rings, tr("Rings around isolated hexes"), tr(_RINGS))
         self.isolated = QLabel()
         self._all = QPushButton(tr("All"))
         self._all.setFixedWidth(44)  # the style's minimum of 80 pixels is too wide
@@ -114,7 +114,9 @@ class InsidePanel(QWidget):
             line.setSpacing(8)
             for widget in widgets:
                 line.addWidget(widget, isinstance(widget, QLabel))
-        for row, (text, widget) in enumerate((("Peel", self._peel), ("Shrink", self._shrink), ("Rings", self._rings))):
+        for row, (text, widget) in enumerate(
+            ((tr("Peel"), self._peel), (tr("Shrink"), self._shrink), (tr("Rings"), self._rings))
+        ):
             label = QLabel(text)
             label.setBuddy(widget)
             grid.addWidget(label, row, 0)
@@ -127,30 +129,31 @@ class InsidePanel(QWidget):
     def set_layers(self, layers: int) -> None:
         """Set the number of layers that can be peeled; emits no signal."""
         self._peel.set_most(layers)
-        self._peel.set_help(_PEEL if layers else _NO_LAYERS)
+        self._peel.set_help(tr(_PEEL) if layers else tr(_NO_LAYERS))
         self._peel.setEnabled(layers > 0)
 
     def set_look(self, look: Look, rings: int) -> None:
         """Show the settings of a look and the number of rings; emits no signal."""
-        self._peel.set_value(look.peel)
-        self._cut_smoothly = look.clip is not None and not look.clip.crinkle
-        self._shrink.set_value(round(100 * look.shrink))
+        show, isolate = look.show, look.show.isolate
+        self._peel.set_value(show.peel)
+        self._cut_smoothly = look.cut.smooth
+        self._shrink.set_value(round(100 * show.shrink))
         self._shrink.setEnabled(not self._cut_smoothly)
-        self._shrink.set_help(_CUT_SMOOTHLY if self._cut_smoothly else _SHRINK)
+        self._shrink.set_help(tr(_CUT_SMOOTHLY) if self._cut_smoothly else tr(_SHRINK, count=WHOLE))
         if self._rings.value() != rings:  # setValue would overwrite text being typed
             with QSignalBlocker(self._rings):
                 self._rings.setValue(rings)
-        isolated = len(look.isolation.hexes) if look.isolation is not None else 0
+        isolated = 0 if isolate is None else len(isolate.hexes)
         self.isolated.setText(
             tr("{count} isolated", count=counted(isolated, "hex")) if isolated else tr("No hexes isolated")
         )
-        self._all.setEnabled(look.isolation is not None)
+        self._all.setEnabled(isolate is not None)
         self.dug.setText(
-            tr("{count} dug away", count=counted(len(look.dug), "hex")) if look.dug else tr("No hexes dug away")
+            tr("{count} dug away", count=counted(len(show.hidden), "hex")) if show.hidden else tr("No hexes dug away")
         )
         for button in (self._undo, self._restore):
-            button.setEnabled(bool(look.dug))
-        self._outline.setChecked(look.outline)
+            button.setEnabled(bool(show.hidden))
+        self._outline.setChecked(show.outline)
 
     def set_shown(self, shown: int, total: int) -> None:
         """Show the number of hexes drawn, whole or in part, out of `total`; 0 of 0 without a mesh."""

@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QSlider, QWidget
 
-from hexmend_app.picture.cut_planes import ClipPlane
+from hexmend_app.picture.cut_planes import Plane
 from hexmend_app.theme.style import icon, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
@@ -26,7 +26,7 @@ class PlanePage(QWidget):
 
     Signals
     -------
-    changed(ClipPlane)
+    changed(Plane)
         The user changed the plane.
     """
 
@@ -35,7 +35,7 @@ class PlanePage(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._bounds = np.array([[0.0] * 3, [1.0] * 3])  # lowest and highest corner
-        self._plane = ClipPlane()
+        self._plane = Plane(point=(0.0, 0.0, 0.0))
         self._axis = Segmented(
             tr("Axis"),
             [(key, key.upper(), tr("A plane normal to the {axis} axis.", axis=key.upper())) for key in _AXES]
@@ -63,9 +63,9 @@ class PlanePage(QWidget):
         self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.000"))
         set_help(self._value, tr("Position in mesh units"), tr("Position along the plane's normal, in mesh units."))
-        grid = form_grid(self, "Position")
+        grid = form_grid(self, tr("Position"))
         for row, (text, widget, companion) in enumerate(
-            (("Axis", self._axis, self._flip), ("Position", self._slider, self._value))
+            ((tr("Axis"), self._axis, self._flip), (tr("Position"), self._slider, self._value))
         ):
             label = QLabel(text)
             label.setBuddy(widget)
@@ -82,7 +82,7 @@ class PlanePage(QWidget):
         self._bounds = bounds
         self._refresh()
 
-    def set_plane(self, plane: ClipPlane) -> None:
+    def set_plane(self, plane: Plane) -> None:
         """Show a plane; emits no signal."""
         self._plane = plane
         self._refresh()
@@ -100,16 +100,16 @@ class PlanePage(QWidget):
 
     def _on_axis(self, key: str) -> None:
         if key != "free":  # free is a state, not a command
-            self._change(ClipPlane(_AXES[key], tuple(self._bounds.mean(axis=0))))
+            self._change(Plane(_AXES[key], point=tuple(self._bounds.mean(axis=0))))
 
     def _on_slider(self, tick: int) -> None:
         low, high = self._span()
         direction, centre = self._direction(), self._bounds.mean(axis=0)
         coordinate = low + (high - low) * tick / _TICKS
-        origin = centre + direction * (coordinate - centre @ direction)
-        self._change(dataclasses.replace(self._plane, origin=tuple(origin)))
+        point = centre + direction * (coordinate - centre @ direction)
+        self._change(dataclasses.replace(self._plane, point=tuple(point)))
 
-    def _change(self, plane: ClipPlane) -> None:
+    def _change(self, plane: Plane) -> None:
         self.set_plane(plane)
         self.changed.emit(plane)
 
@@ -119,7 +119,7 @@ class PlanePage(QWidget):
         self._axis.set_value(aligned[0] if aligned else "free")
         self._axis.button("free").setEnabled(not aligned)
         low, high = self._span()
-        coordinate = float(self._direction() @ self._plane.origin)
+        coordinate = float(self._direction() @ self._plane.point)
         with QSignalBlocker(self._slider):
             # A plane of the previous mesh may be farther away than an int of Qt can hold.
             fraction = min(max((coordinate - low) / (high - low), 0.0), 1.0) if high > low else 0.0

@@ -50,7 +50,7 @@ class PlaneRow(QWidget):
         set_help(self._remove, tr("Remove plane"), tr("Remove this cutting plane."))
         self._snap = QCheckBox(tr("Snap"))
         self._snap.setChecked(True)
-        set_help(self._snap, tr("Snap to axes"), _SNAP)
+        set_help(self._snap, tr("Snap to axes"), tr(_SNAP))
         label = QLabel(tr("Plane"))
         label.setBuddy(self._tabs)
         row = QHBoxLayout(self)

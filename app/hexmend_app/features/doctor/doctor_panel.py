@@ -41,7 +41,7 @@ class DoctorPanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._head = note(_CHECKING)
+        self._head = note(tr(_CHECKING))
         self._all = QPushButton(icon("bandage"), tr("Repair all"))
         set_help(self._all, tr("Repair all"), tr("Repair all problems that can be repaired. Can be undone."))
         self._all.clicked.connect(lambda: self.repair_requested.emit([]))
@@ -70,10 +70,10 @@ class DoctorPanel(QWidget):
             item.widget().deleteLater()
         self._repair_buttons = []
         if findings is None:
-            self._head.setText(problem or _CHECKING)
+            self._head.setText(problem or tr(_CHECKING))
         else:
             count = len(findings)
-            self._head.setText(tr("{findings}:", findings=counted(count, "finding")) if count else _HEALTHY)
+            self._head.setText(tr("{findings}:", findings=counted(count, "finding")) if count else tr(_HEALTHY))
         for row, finding in enumerate(findings or ()):
             self._add(row, finding)
         self._all.setVisible(len(self._repair_buttons) > 1)
@@ -95,7 +95,7 @@ class DoctorPanel(QWidget):
         self._rows.addWidget(text, row, 0)
         if location:
             show = QPushButton(icon("eye-outline"), tr("Show"))
-            help = "Show only these hexes and their neighbours. Press Esc to show all."
+            help = tr("Show only these hexes and their neighbours. Press Esc to show all.")
             set_help(show, tr("Show: {title}", title=problem.title), help)
             show.clicked.connect(lambda: self.show_requested.emit(row))
             self._rows.addWidget(show, row, 1, Qt.AlignmentFlag.AlignTop)

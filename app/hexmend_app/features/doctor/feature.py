@@ -79,7 +79,9 @@ class FeatureDoctor(Feature):
         findings, error = session.mesh_checker.of(mesh), session.mesh_checker.error
         if self._seen.changed("findings", findings, error, mesh):
             self._listed = findings or ()
-            self.panel.show_findings(findings, f"The mesh could not be checked: {error}" if error else "")
+            self.panel.show_findings(
+                findings, tr("The mesh could not be checked: {error}", error=error) if error else ""
+            )
             self.panel.set_busy(not session.editable)
 
     def _show(self, row: int) -> None:
@@ -97,7 +99,7 @@ class FeatureDoctor(Feature):
         self.session.commands.repair(kinds)
 
     def _on_began(self) -> None:
-        help = "Cancel the repair. The mesh does not change."
+        help = tr("Cancel the repair. The mesh does not change.")
         self.host.busy.show_work("repair", tr("Repairing mesh…"), tr("Cancel"), help, self.session.repairer.cancel)
         self.host.refresh_soon()
 

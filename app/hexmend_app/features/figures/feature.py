@@ -24,7 +24,7 @@ class FeatureFigures(Feature):
         self._folder = Path()
         self._event: FileExported | None = None
         self._drawing = IncrementalTask(
-            host.busy, "figures", "Cancel the export; files already written are kept.", self
+            host.busy, "figures", tr("Cancel the export; files already written are kept."), self
         )
         self._drawing.finished.connect(self._on_drawn)
         self._drawing.failed.connect(self._on_failed)
@@ -103,4 +103,4 @@ def _progress_text(drawn: int) -> str:
     from hexmend_app.report.figure_set import PARTS
 
     at = min(drawn, len(PARTS) - 1)
-    return f"Drawing figure {at + 1} of {len(PARTS)}: {list(PARTS)[at]}…"
+    return tr("Drawing figure {at} of {count}: {part}…", at=at + 1, count=len(PARTS), part=list(PARTS)[at])

@@ -34,7 +34,7 @@ class FeatureFilm(Feature):
         self._rate = 0
         self._record: RunRecord | None = None
         self._event: FileExported | None = None
-        self._drawing = IncrementalTask(host.busy, "film", "Cancel the film; no file is written.", self)
+        self._drawing = IncrementalTask(host.busy, "film", tr("Cancel the film; no file is written."), self)
         self._drawing.finished.connect(self._write)
         self._drawing.failed.connect(self._on_failed)
         self.session.document.mesh_replaced.connect(self.cancel)
@@ -143,4 +143,8 @@ class FeatureFilm(Feature):
 
 def _progress_text(drawn: int, count: int, path: Path) -> str:
     """Return the progress text after a number of frames."""
-    return f"Drawing frame {drawn + 1} of {count}…" if drawn < count else f"Writing {path.name}…"
+    return (
+        tr("Drawing frame {drawn} of {count}…", drawn=drawn + 1, count=count)
+        if drawn < count
+        else tr("Writing {name}…", name=path.name)
+    )

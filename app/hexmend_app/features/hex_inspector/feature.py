@@ -119,7 +119,7 @@ class FeatureHexInspector(Feature):
                     "Pin all nodes except those of the isolated hexes and the rings around them; undo reverts this."
                 ),
                 handle=self._free_isolated,
-                enabled=lambda: session.editable and self._view.look.isolation is not None,
+                enabled=lambda: session.editable and self._view.look.show.isolate is not None,
             ),
             Action(
                 id="back",
@@ -132,7 +132,7 @@ class FeatureHexInspector(Feature):
                 enabled=lambda: (
                     self.host.messages.isHidden()
                     and not self.session.opener.busy
-                    and (self._selection.hex is not None or self._view.look.isolation is not None)
+                    and (self._selection.hex is not None or self._view.look.show.isolate is not None)
                 ),
             ),
         )
@@ -220,7 +220,7 @@ class FeatureHexInspector(Feature):
     def _boundary_class(self, node: int | None) -> str:
         """Describe the class of a boundary node; "" for other nodes and while the classes are unknown."""
         classes = self.session.boundary_classifier.of(self._document.now.mesh)
-        return "" if node is None or classes is None else _BOUNDARY_CLASSES.get(int(classes.kinds[node]), "")
+        return "" if node is None or classes is None else tr(_BOUNDARY_CLASSES.get(int(classes.kinds[node]), ""))
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))
@@ -234,12 +234,12 @@ class FeatureHexInspector(Feature):
         self.worst_list.set_selected(h)  # before the refresh: the next step through the list begins at this hex
 
     def _free_isolated(self) -> None:
-        isolation = self._view.look.isolation
+        isolation = self._view.look.show.isolate
         self.session.commands.free_only(isolation.hexes, isolation.rings)
 
     def _back(self) -> None:
         """End the isolation, or clear the selection if nothing is isolated."""
-        if self._view.look.isolation is not None:
+        if self._view.look.show.isolate is not None:
             self._view.end_isolation()
         else:
             self._selection.choose(None)

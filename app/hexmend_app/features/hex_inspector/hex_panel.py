@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 )
 from superqt import QFlowLayout
 
-from hexmend.quality import METRICS, HexDetails, NodeDetails
+from hexmend.quality import METRICS, HexDetails, Metric, NodeDetails
 from hexmend_app.theme.style import (
     INVERTED_TEXT,
     MUTED,
@@ -38,6 +38,9 @@ from hexmend_app.widgets.wording import counted, figure
 
 _FACES = ("x−", "x+", "y−", "y+", "z−", "z+")
 _HINT = "Click a hex in the view, or press N for the worst hex, to see its metrics, nodes, corners and neighbours."
+
+#: Columns of metrics; a narrow panel shows them one below the other.
+_METRIC_COLUMNS = 3
 
 #: Width of the column with the wrapped texts, in pixels.
 _TEXT_WIDTH = 270
@@ -69,7 +72,7 @@ class HexPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._stack = QStackedLayout(self)
-        hint = note(_HINT)
+        hint = note(tr(_HINT))
         hint.setAlignment(Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop)
         hint.setMargin(24)
         self._stack.addWidget(hint)
@@ -129,21 +132,13 @@ class HexPanel(QWidget):
         head = QHBoxLayout()
         head.addWidget(self._title, 1)
         head.addWidget(self._zoom)
-        values = QGridLayout()
-        values.setVerticalSpacing(2)
         metrics = metrics_offered()
-        rows = -(-len(metrics) // 2)
-        values.setColumnMinimumWidth(2, 18)
-        for index, metric in enumerate(metrics):
-            row, column = index % rows, 3 * (index // rows)
-            title = QLabel(metric.title)
-            set_help(title, metric.title, described(metric).removeprefix("<qt>").removesuffix("</qt>"))
-            values.addWidget(title, row, column)
-            values.addWidget(self._values[metric.name], row, column + 1)
+        rows = -(-len(metrics) // _METRIC_COLUMNS)
+        values = [self._metric_grid(metrics[first : first + rows]) for first in range(0, len(metrics), rows)]
         corners = QGridLayout()
         corners.setVerticalSpacing(2)
         corners.setHorizontalSpacing(14)
-        for column, text in enumerate(("Node", "", "q(T)")):
+        for column, text in enumerate((tr("Node"), "", "q(T)")):
             title = QLabel(text)
             title.setAlignment(Qt.AlignmentFlag.AlignRight)
             tint(title, MUTED)
@@ -159,15 +154,26 @@ class HexPanel(QWidget):
             texts.addWidget(widget)
         columns = QFlowLayout(page)
         columns.setContentsMargins(8, 6, 8, 6)
-        columns.setHorizontalSpacing(36)
+        columns.setHorizontalSpacing(20)
         columns.setVerticalSpacing(8)
-        for layout in (texts, corners, values):
+        for layout in (texts, corners, *values):
             layout.setContentsMargins(0, 0, 0, 0)
             column = QWidget()
             column.setLayout(layout)
             columns.addWidget(column)
             if layout is texts:
                 column.setFixedWidth(_TEXT_WIDTH)
+
+    def _metric_grid(self, metrics: Sequence[Metric]) -> QGridLayout:
+        """Lay out titles and values of metrics, one below the other."""
+        grid = QGridLayout()
+        grid.setVerticalSpacing(2)
+        for row, metric in enumerate(metrics):
+            title = QLabel(metric.title)
+            set_help(title, metric.title, described(metric).removeprefix("<qt>").removesuffix("</qt>"))
+            grid.addWidget(title, row, 0)
+            grid.addWidget(self._values[metric.name], row, 1)
+        return grid
 
     @property
     def corners_in_view(self) -> bool:
@@ -183,8 +189,8 @@ class HexPanel(QWidget):
         self._stack.setCurrentIndex(0 if details is None else 1)
         if details is None:
             return
-        self._title.setText(f"Hex {details.number:,}" + (f": {', '.join(tags)}" if tags else ""))
-        locked = "inverted, locked by its fixed nodes"
+        self._title.setText(tr("Hex {number:,}", number=details.number) + (f": {', '.join(tags)}" if tags else ""))
+        locked = tr("inverted, locked by its fixed nodes")
         self._state.setText(locked if details.locked else tr("inverted") if details.inverted else "")
         for name, label in self._values.items():
             value = details.values[name]
@@ -220,12 +226,16 @@ class HexPanel(QWidget):
             self._about_node.setText(tr("Click near a corner or on a node number to select a node."))
             return
         kind = f"{details.kind}, pinned" if details.pinned and details.kind == "boundary" else details.kind
-        parts = [f"Node {details.number:,}: {kind}", boundary_class, counted(details.ring.size, "hex")]
+        parts = [
+            tr("Node {number:,}: {kind}", number=details.number, kind=kind),
+            boundary_class,
+            counted(details.ring.size, "hex"),
+        ]
         if np.isfinite(details.energy):
             gradient = float(np.linalg.norm(details.downhill))
             parts.append(f"energy {figure(details.energy)}, gradient {figure(gradient)}")
         else:
-            parts.append("infinite energy (inverted hex)")
+            parts.append(tr("infinite energy (inverted hex)"))
         self._about_node.setText(", ".join(filter(None, parts)))
         self._pin.setChecked(details.pinned)
         self._pin.setEnabled(details.kind != "unused" and not busy)

@@ -102,8 +102,8 @@ class WorstList(QWidget):
     def _make_table(self) -> QTableView:
         table = QTableView()
         table.setModel(self._model)
-        shape_table(table, "Worst hexes", STATE)
-        for column, widest in ((HEX, "000,000,000"), (VALUE, "Scaled Jacobian"), (JACOBIAN, "Scaled Jacobian")):
+        shape_table(table, tr("Worst hexes"), STATE)
+        for column, widest in ((HEX, "000,000,000"), (VALUE, tr("Scaled Jacobian")), (JACOBIAN, tr("Scaled Jacobian"))):
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
         # Not currentChanged: the first row becomes current when the table gets the focus.
         table.selectionModel().selectionChanged.connect(self._on_selected)

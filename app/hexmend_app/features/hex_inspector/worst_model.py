@@ -9,6 +9,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
 from PySide6.QtGui import QBrush, QColor
 
 from hexmend_app.theme.style import INVERTED_TEXT, MUTED
+from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import figure
 
 _TITLES = ("Hex", "", "Scaled Jacobian", "State")
@@ -75,7 +76,7 @@ class WorstModel(QAbstractTableModel):
         if orientation != Qt.Orientation.Horizontal:
             return None
         if role == Qt.ItemDataRole.DisplayRole:
-            return self.title if section == VALUE else _TITLES[section]
+            return self.title if section == VALUE else tr(_TITLES[section])
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _LEFT if section == STATE else _RIGHT
         if role == Qt.ItemDataRole.ForegroundRole:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.quality import METRICS
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.colouring import range_label
 
 #: Left and right ends of the separate bars on the plot, on which the bins span 0 to 1.
@@ -79,7 +79,7 @@ class Axis:
             return (self.above or (1.0, 1.0))[1]
         return (value - self.low) / (self.high - self.low)
 
-    def span(self, range: ValueRange) -> tuple[float, float]:
+    def span(self, range: Show) -> tuple[float, float]:
         """Return left and right end of a range on the plot, with the bar of inverted hexes if it adjoins the range."""
         joined = range.inverted and range.low <= METRICS[self.metric].full_range[0]
         left = self.inverted[0] if joined else self.position(range.low)

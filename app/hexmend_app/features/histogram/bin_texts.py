@@ -9,7 +9,8 @@ from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import Distribution
 from hexmend_app.features.histogram.outline import Series
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
+from hexmend_app.translation import tr
 from hexmend_app.widgets.metric_texts import in_sentence
 from hexmend_app.widgets.wording import counted
 
@@ -47,7 +48,7 @@ def _bin_at(shown: Distribution, x: float, cumulative: bool) -> tuple[str, Calla
     axis = shown.axis
     metric = in_sentence(METRICS[axis.metric])
     low, high = axis.text(axis.low), axis.text(axis.high)
-    below = f"inverted, or {metric} < {low}" if cumulative else f"{metric} < {low}"
+    below = tr("inverted, or {metric} < {low}", metric=metric, low=low) if cumulative else f"{metric} < {low}"
     for bar, title, count in (
         (axis.inverted, "inverted", lambda distribution: distribution.inverted),
         (axis.below, below, lambda distribution: distribution.below),
@@ -59,7 +60,9 @@ def _bin_at(shown: Distribution, x: float, cumulative: bool) -> tuple[str, Calla
         return None
     index = int(x * len(shown.counts))
     low, high = _bin_ends(shown, index)
-    title = f"inverted, or {metric} up to {high}" if cumulative else f"{metric} {low} – {high}"
+    title = (
+        tr("inverted, or {metric} up to {high}", metric=metric, high=high) if cumulative else f"{metric} {low} – {high}"
+    )
     return title, lambda distribution: int(distribution.counts[index])
 
 
@@ -74,27 +77,31 @@ def _bin_ends(shown: Distribution, index: int) -> tuple[str, str]:
     return tuple(f"{end:.{decimals}f}" for end in ends)
 
 
-def range_summary(now: Distribution | None, range: ValueRange | None) -> str:
+def range_summary(now: Distribution | None, range: Show | None) -> str:
     """Describe the number of hexes in a range of their metric, or of all hexes if the range is None."""
     if now is None:
-        return "No mesh is open."
+        return tr("No mesh is open.")
     if range is None:
         return f"{counted(now.total, 'hex')}, {now.inverted:,} inverted"
     return f"{now.within(range):,} of {counted(now.total, 'hex')}{_description(now, range)}"
 
 
-def _description(now: Distribution, range: ValueRange) -> str:
+def _description(now: Distribution, range: Show) -> str:
     if range.high == -math.inf:
-        return ", inverted only"
+        return tr(", inverted only")
     values = _values(now.axis, range)
     if not now.inverted:
         return values
     if not values:
-        return ", inverted hidden"
-    return f"{values}, and the {now.inverted:,} inverted" if range.inverted else values
+        return tr(", inverted hidden")
+    return (
+        tr("{values}, and the {inverted:,} inverted", values=values, inverted=now.inverted)
+        if range.inverted
+        else values
+    )
 
 
-def _values(axis: Axis, range: ValueRange) -> str:
+def _values(axis: Axis, range: Show) -> str:
     """Describe the bounds of a range; "" if it has none."""
     minimum, maximum = METRICS[axis.metric].full_range
     low, high = axis.end_text(range.low), axis.end_text(range.high)

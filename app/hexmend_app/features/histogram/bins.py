@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.quality.binning import bin_counts
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.cells import Cells
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
 
 #: Default, minimum and maximum number of bins.
@@ -63,7 +63,7 @@ class Distribution:
         counts = below + np.cumsum(self.counts)
         return Distribution(self.values, self.is_inverted, self.axis, counts, self.inverted, below, self.total)
 
-    def within(self, range: ValueRange) -> int:
+    def within(self, range: Show) -> int:
         """Return the number of hexes in a range of the axis' metric."""
         return int(np.count_nonzero(within(self.values, self.is_inverted, range)))
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Cells:
             first = last = min(range(len(self)), key=lambda cell: abs(sum(spans[cell]) - left - right))
         return first, last
 
-    def range(self, first: int, last: int) -> ValueRange | None:
+    def range(self, first: int, last: int) -> Show | None:
         """Return the range of exactly the hexes that are counted in cells `first` to `last`; None for all cells.
 
         Raises
@@ -57,21 +57,21 @@ class Cells:
 
         Examples
         --------
-        >>> Cells(Axis("q"), 50).range(1, 25)
-        ValueRange(metric='q', low=0.0, high=0.49999999999999994, inverted=False)
+        >>> Cells(Axis("q"), 50).range(1, 25).quality
+        (0.0, 0.49999999999999994)
         """
         if not 0 <= first <= last < len(self):
             raise ValueError(f"cells {first} to {last}: expected two of 0 to {len(self) - 1}, the lower first")
         if (first, last) == (0, len(self) - 1):
             return None
         if last == 0:
-            return ValueRange(self.axis.metric, -math.inf, -math.inf, inverted=True)
+            return Show((-math.inf, -math.inf), self.axis.metric, inverted=True)
         low, high = METRICS[self.axis.metric].full_range  # unbounded
         if first > 1:
             low = self._smallest_value(first)
         if last < len(self) - 1:
             high = math.nextafter(self._smallest_value(last + 1), -math.inf)
-        return ValueRange(self.axis.metric, low, high, inverted=first == 0)
+        return Show((low, high), self.axis.metric, inverted=first == 0)
 
     @property
     def _first_bin(self) -> int:

@@ -11,6 +11,7 @@ from hexmend_app.features.histogram.bins import DEFAULT_BINS, Distribution, dist
 from hexmend_app.features.histogram.outline import Series
 from hexmend_app.theme.palette import KEPT
 from hexmend_app.theme.style import BLUE, GREY
+from hexmend_app.translation import tr
 
 
 class Distributions:
@@ -81,7 +82,7 @@ class Distributions:
         """Return the distributions as they are drawn, in the order of the legend."""
         series = []
         if self._initial is not None:
-            series.append(Series("start", "at the start", GREY, self._initial, filled=True))
+            series.append(Series("start", tr("at the start"), GREY, self._initial, filled=True))
         if self.current is not None:
             series.append(Series("now", "now", BLUE, self.current, filled=True, current=True))
         return series + [Series(str(slot), name, KEPT[slot], counts) for slot, name, counts in self.snapshots]

@@ -14,6 +14,7 @@ from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace,
 from hexmend_app.features.histogram.head import HistogramSettings
 from hexmend_app.features.histogram.histogram_file import figure, write_histogram
 from hexmend_app.features.histogram.panel import QualityHistogram
+from hexmend_app.picture.visibility import Show
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.mesh.metric_cache import metric_values
@@ -38,7 +39,7 @@ class FeatureHistogram(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        view = self._view = self.session.view
+        self._view = self.session.view
         self._document, self._snapshots = self.session.document, self.session.snapshots
         self._seen = ChangeTracker()
         self._style = ChartStyle()  # of the last export
@@ -46,7 +47,7 @@ class FeatureHistogram(Feature):
         self._snapshot_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
         panel = self.panel = QualityHistogram()
         panel.metric_chosen.connect(self._on_metric)
-        panel.range_changed.connect(lambda range: view.change(quality_range=range))
+        panel.range_changed.connect(self._filter)
         panel.keep_requested.connect(self._keep)
         panel.renamed.connect(self._snapshots.rename)
         panel.removed.connect(self._snapshots.remove)
@@ -80,20 +81,21 @@ class FeatureHistogram(Feature):
     @property
     def metric(self) -> str:
         """Metric of the histogram; q if the colours show a displacement, which is not a metric of one mesh."""
-        coloured = self._view.look.scale.metric
+        coloured = self._view.look.colours.metric
         return self._view.counted or ("q" if coloured in DISPLACEMENT_QUANTITIES else coloured)
 
     def refresh(self) -> None:
         """Show the present distribution, the snapshots and the range."""
         self.panel.setEnabled(self._document.is_open)
         look = self._view.look
-        if self._view.counted is None and look.quality_range and look.quality_range.metric != look.scale.metric:
-            self._view.counted = look.quality_range.metric
-        self.session.run.request_metrics({look.scale.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
-        self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.scale.metric)
+        range = look.show.by_quality
+        if self._view.counted is None and range is not None and range.metric != look.colours.metric:
+            self._view.counted = range.metric
+        self.session.run.request_metrics({look.colours.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
+        self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.colours.metric)
         if self._document.is_open and self.panel.isVisible():
             self._count()
-        self.panel.set_range(look.quality_range)
+        self.panel.set_range(range)
 
     def _count(self) -> None:
         start, now = self._document.start, self._document.now
@@ -110,10 +112,15 @@ class FeatureHistogram(Feature):
 
     def _on_metric(self, name: str) -> None:
         self._view.counted = name or None
-        range = self._view.look.quality_range
+        range = self._view.look.show.by_quality
         if range is not None and range.metric != self.metric:
-            self._view.change(quality_range=None)  # the plot cannot show a range of another metric
+            self._filter(None)  # the plot cannot show a range of another metric
         self.host.refresh_soon()
+
+    def _filter(self, range: Show | None) -> None:
+        """Show the hexes of a range, or of all values."""
+        range = Show() if range is None else range
+        self._view.change(show={"quality": range.quality, "metric": range.metric, "inverted": range.inverted})
 
     def _isolate_inverted(self) -> None:
         now = self._document.now
@@ -152,7 +159,7 @@ class FeatureHistogram(Feature):
         """Return the export dialog, with the sizes and names of the last export."""
         event = self._export_event(Path())
         chart, proposed = figure(*event.arguments[1:], **event.options), f"{self.host.stem}-histogram.svg"
-        return ChartDialog(chart, "the histogram", proposed, _KINDS, self._style, self.host.dialog_parent)
+        return ChartDialog(chart, tr("the histogram"), proposed, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
@@ -164,7 +171,7 @@ class FeatureHistogram(Feature):
 
     def _export_event(self, path: Path, style: ChartStyle | None = None) -> FileExported:
         panel, document = self.panel, self._document
-        drawn = [("at the start", GREY.light, True, document.start), ("now", BLUE.light, True, document.now)]
+        drawn = [(tr("at the start"), GREY.light, True, document.start), ("now", BLUE.light, True, document.now)]
         for snapshot in self._snapshots.all:
             state = self.session.state_at(snapshot.points)
             mesh = document.now.mesh.with_points(snapshot.points) if state is None else state

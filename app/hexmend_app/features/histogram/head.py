@@ -79,12 +79,12 @@ class HistogramHead(QWidget):
         )
         self.scale.setFont(smaller(self.font()))
         self.scale.chosen.connect(self.scale_changed)
-        self.cumulative = self._action("Cumulative", _CUMULATIVE)
+        self.cumulative = self._action(tr("Cumulative"), tr(_CUMULATIVE))
         self.cumulative.setCheckable(True)
         self.cumulative.toggled.connect(self.scale_changed)
-        self.keep = self._action("Keep", _KEEP)
+        self.keep = self._action(tr("Keep"), tr(_KEEP))
         self.keep.triggered.connect(self.keep_requested)
-        self.save = self._action("Save…", _SAVE)
+        self.save = self._action(tr("Save…"), tr(_SAVE))
         self.save.triggered.connect(self.save_requested)
         self._make_bins()
         self._lay_out()
@@ -105,7 +105,7 @@ class HistogramHead(QWidget):
         self.bins.setFont(tabular(smaller(self.font())))
         self.bins.setKeyboardTracking(False)
         self.bins.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        set_help(self.bins, tr("Bins"), _BINS)
+        set_help(self.bins, tr("Bins"), tr(_BINS))
         self.bins.valueChanged.connect(self._on_bins)
         self._bin_actions = QActionGroup(self)
         for number in (MIN_BINS, 20, DEFAULT_BINS, 100, MAX_BINS):
@@ -158,8 +158,10 @@ class HistogramHead(QWidget):
     def show_metric(self, name: str, as_colours: bool) -> None:
         """Show a metric, without emitting a signal; `as_colours` if it follows the metric of the colours."""
         metric = METRICS[name]
-        self.metric_box.setItemText(0, f"{metric.title} (as colours)" if as_colours else "As colours")
-        self.metric_box.setItemData(0, "Use the metric of the colours.", Qt.ItemDataRole.ToolTipRole)
+        self.metric_box.setItemText(
+            0, tr("{title} (as colours)", title=metric.title) if as_colours else tr("As colours")
+        )
+        self.metric_box.setItemData(0, tr("Use the metric of the colours."), Qt.ItemDataRole.ToolTipRole)
         self.metric_box.setCurrentIndex(0 if as_colours else self.metric_box.findData(name))
         set_help(self.metric_box, tr("Metric of the histogram"), described(metric))
         self.metric_box.setToolTip(described(metric))
@@ -168,7 +170,7 @@ class HistogramHead(QWidget):
         """Enable saving if there is a distribution, and keeping unless the legend is `full`."""
         self.save.setEnabled(has_distribution)
         self.keep.setEnabled(has_distribution and not full)
-        self.keep.setToolTip(f"<qt>{_FULL if full else _KEEP}</qt>")
+        self.keep.setToolTip(f"<qt>{tr(_FULL) if full else tr(_KEEP)}</qt>")
 
     def minimumSizeHint(self) -> QSize:
         """Return the size without the optional controls."""

@@ -18,6 +18,7 @@ from hexmend.report.histogram import Histogram, Outline
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, Distribution, distribute
 from hexmend_app.state.mesh.metric_cache import metric_values
+from hexmend_app.translation import tr
 
 #: Suffixes of the files that can be written.
 SUFFIXES = (*FIGURE_SUFFIXES, ".csv")
@@ -103,7 +104,7 @@ def figure(
                 f"{counted.inverted:,} inverted",
             )
         )
-    label = "% of hexes up to x, inverted first" if cumulative else "hexes"
+    label = tr("% of hexes up to x, inverted first") if cumulative else "hexes"
     return Histogram(outlines, title, axis.title, label, axis.ticks(), axis.extent, log)
 
 
@@ -122,7 +123,7 @@ def _count(metric: str, drawn: Sequence[tuple[str, str, bool, Mesh]], bins: int,
 def _csv_text(lines: Sequence[_Line], cumulative: bool, names: Mapping[str, str]) -> str:
     """Write counts, or shares in percent, as CSV with a row per bar or bin; `names` replaces names of lines."""
     columns, axis = [line.distribution for line in lines], lines[0].distribution.axis
-    prefix = "% of hexes up to: " if cumulative else ""
+    prefix = tr("% of hexes up to: ") if cumulative else ""
     titles = [prefix + (names.get(line.name) or line.name) for line in lines]
     rows: list[list] = [
         [f"{axis.metric} from", f"{axis.metric} to", *titles],

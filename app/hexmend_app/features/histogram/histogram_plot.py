@@ -16,6 +16,7 @@ from hexmend_app.features.histogram.brush import BrushView
 from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import BROKEN_TOP, Heights, Outline, Series
 from hexmend_app.theme.style import BLUE, INVERTED_TEXT, MUTED, on_theme_change, smaller, tabular
+from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot
 
 #: Maximum fraction of the plot's height for the legend and the numbers on bars.
@@ -174,7 +175,7 @@ class HistogramPlot(QWidget):
         else:
             ticks = [(n, f"{n:,.0f}") for n in np.linspace(0, high, 5) if n == round(n)]
         left.setTicks([ticks])
-        left.setLabel("% of hexes" if self.cumulative else "hexes")
+        left.setLabel(tr("% of hexes") if self.cumulative else "hexes")
         left.resizeEvent()  # centres the label, which pyqtgraph does only when the plot is resized
         widest = max((self.fontMetrics().horizontalAdvance(text) for _, text in ticks), default=0)
         left.setWidth(max(widest, self.fontMetrics().horizontalAdvance("00,000")) + 26)

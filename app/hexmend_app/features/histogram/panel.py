@@ -20,7 +20,7 @@ from hexmend_app.features.histogram.histogram_plot import HistogramPlot
 from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import Series
 from hexmend_app.features.histogram.range_row import RangeRow
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 from hexmend_app.theme.palette import KEPT
 from hexmend_app.theme.style import MUTED, smaller, tabular, tint
 from hexmend_app.translation import tr
@@ -42,7 +42,7 @@ class QualityHistogram(QWidget):
     -------
     metric_chosen(str)
         The user selected a metric, or "" for that of the colours.
-    range_changed(ValueRange or None)
+    range_changed(Show or None)
         The user brushed or typed a range, or cleared it; at most thirty times a second.
     keep_requested
         The user asked to keep the present distribution.
@@ -65,7 +65,7 @@ class QualityHistogram(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._distributions = Distributions()
-        self._range: ValueRange | None = None
+        self._range: Show | None = None
         self._announcer = Announcer(self)
         self._announcer.announced.connect(self.range_changed)
         self._make_widgets()
@@ -83,7 +83,7 @@ class QualityHistogram(QWidget):
         self._refresh()
 
     def _make_widgets(self) -> None:
-        self.head, self.legend = HistogramHead(), HistogramLegend(_HELP)
+        self.head, self.legend = HistogramHead(), HistogramLegend(tr(_HELP))
         self.plot, self.range_row = HistogramPlot(self.legend), RangeRow()
         self.head.metric_chosen.connect(self.metric_chosen)
         self.head.scale_changed.connect(self._on_scale)
@@ -96,8 +96,8 @@ class QualityHistogram(QWidget):
         self.range_row.cleared.connect(lambda: self._choose(None))
         # The tooltip of the plot shows counts; the help is the tooltip of the legend.
         self.plot.plot.setAccessibleName(tr("Histogram of hex quality"))
-        self.plot.plot.setAccessibleDescription(_HELP)
-        self.plot.plot.setWhatsThis(_HELP)
+        self.plot.plot.setAccessibleDescription(tr(_HELP))
+        self.plot.plot.setWhatsThis(tr(_HELP))
         self.plot.view.brushed.connect(self._on_brushed)
         self.plot.view.cleared.connect(lambda: self._choose(None))
         self.plot.view.bar_clicked.connect(self.inverted_requested)
@@ -187,11 +187,11 @@ class QualityHistogram(QWidget):
 
     # Range
 
-    def range(self) -> ValueRange | None:
+    def range(self) -> Show | None:
         """Return the range of the hexes shown; None for all hexes."""
         return self._range
 
-    def set_range(self, range: ValueRange | None) -> None:
+    def set_range(self, range: Show | None) -> None:
         """Show a range of the histogram's metric, or None for all hexes, without emitting a signal.
 
         A range that was announced before the user brushed another one is ignored.
@@ -206,14 +206,14 @@ class QualityHistogram(QWidget):
     def _on_typed(self, low: float, high: float, inverted: bool) -> None:
         minimum, maximum = METRICS[self.axis.metric].full_range
         unbounded = low <= minimum and high >= maximum and inverted
-        self._choose(None if unbounded else ValueRange(self.axis.metric, low, high, inverted))
+        self._choose(None if unbounded else Show((low, high), self.axis.metric, inverted))
 
-    def _choose(self, range: ValueRange | None) -> None:
+    def _choose(self, range: Show | None) -> None:
         if range != self._range:
             self._show_range(range)
             self._announcer.send(range)
 
-    def _show_range(self, range: ValueRange | None) -> None:
+    def _show_range(self, range: Show | None) -> None:
         self._range = range
         self.plot.show_range(range and self.axis.span(range), range is not None and range.inverted)
         self.range_row.show_range(range)

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QWi
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.end_box import EndBox
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 from hexmend_app.theme.style import INVERTED, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.metric_texts import in_sentence
@@ -35,7 +35,7 @@ class RangeRow(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._axis = Axis("q")
-        self._shown: ValueRange | None = None
+        self._shown: Show | None = None
         #: Ends of the range; a brushed end has more digits than its box.
         self._ends: dict[EndBox, float] = {}
         self.low, self.high, self.all = EndBox(), EndBox(), QPushButton(tr("All"))
@@ -47,7 +47,7 @@ class RangeRow(QWidget):
         self.inverted.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.inverted.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
         self.inverted.setIconSize(QSize(_SWATCH, _SWATCH))
-        set_help(self.inverted, tr("Show inverted"), _INVERTED)
+        set_help(self.inverted, tr("Show inverted"), tr(_INVERTED))
         self.inverted.clicked.connect(self._choose)
         self.inverted.setIcon(_swatch())
         self._label, to = QLabel(tr("Show")), QLabel(tr("to"))
@@ -67,7 +67,7 @@ class RangeRow(QWidget):
         """Change the metric and the range of its values."""
         self._axis = axis
         metric = in_sentence(METRICS[axis.metric])
-        for box, end in ((self.low, "Lowest"), (self.high, "Highest")):
+        for box, end in ((self.low, tr("Lowest")), (self.high, tr("Highest"))):
             with QSignalBlocker(box):
                 box.set_axis(axis)
             box.updateGeometry()
@@ -78,7 +78,7 @@ class RangeRow(QWidget):
                 tr("{name}; hexes beyond it are hidden. Dragging over the plot sets the same range.", name=name),
             )
 
-    def show_range(self, range: ValueRange | None) -> None:
+    def show_range(self, range: Show | None) -> None:
         """Show a range, or None for all hexes, without emitting a signal."""
         self.all.setEnabled(range is not None)
         self.inverted.setChecked(range is None or range.inverted)
@@ -110,7 +110,7 @@ class RangeRow(QWidget):
 
     def _choose(self) -> None:
         low, high = sorted(self._ends.values())
-        self._shown = ValueRange(self._axis.metric, low, high, self.inverted.isChecked())
+        self._shown = Show((low, high), self._axis.metric, self.inverted.isChecked())
         self.chosen.emit(low, high, self._shown.inverted)
 
 

@@ -21,10 +21,10 @@ class FeatureMovement(Feature):
         super().__init__(host)
         self._document, view = self.session.document, self.session.view
         self._view = view
-        self._metric = view.look.scale.metric  # the last one that is not a displacement
+        self._metric = view.look.colours.metric  # the last one that is not a displacement
         self._seen = ChangeTracker()
         panel = self.panel = MovementPanel()
-        panel.traces_changed.connect(lambda traces: view.change(traces=traces))
+        panel.traces_changed.connect(lambda traces: view.change(movement=traces))
         panel.colours_chosen.connect(lambda name: view.colour_by(name or self._metric))
         panel.newly_inverted_requested.connect(self._show_newly_inverted)
 
@@ -46,11 +46,11 @@ class FeatureMovement(Feature):
         """Show the settings of the view, the counts of moved nodes and the number of arrows."""
         self.panel.setEnabled(self._document.is_open)
         look = self._view.look
-        coloured = look.scale.metric in DISPLACEMENT_QUANTITIES
+        coloured = look.colours.metric in DISPLACEMENT_QUANTITIES
         if not coloured:
-            self._metric = look.scale.metric
-        self.panel.set_traces(look.traces)
-        self.panel.set_colours(look.scale.metric if coloured else "")
+            self._metric = look.colours.metric
+        self.panel.set_traces(look.movement)
+        self.panel.set_colours(look.colours.metric if coloured else "")
         if not (self.panel.isVisible() and self._document.is_open):
             return
         displacement = self._displacement
@@ -63,7 +63,7 @@ class FeatureMovement(Feature):
 
     @property
     def _displacement(self) -> Displacement:
-        return self.session.comparison_bases.displacement(self._view.look.traces.since)
+        return self.session.comparison_bases.displacement(self._view.look.movement.since)
 
     def _show_newly_inverted(self) -> None:
         now = self._document.now

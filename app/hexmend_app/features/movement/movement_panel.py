@@ -89,10 +89,10 @@ class MovementPanel(QWidget):
         self.factor.setPrefix("× ")
         self.factor.setKeyboardTracking(False)
         self.factor.setFont(tabular(self.factor.font()))
-        set_help(self.factor, tr("Length of arrows"), _FACTOR)
+        set_help(self.factor, tr("Length of arrows"), tr(_FACTOR))
         self.show_newly = QPushButton(tr("Show newly inverted"))
         self._drawn = note()
-        set_help(self._drawn, tr("Number of arrows"), _DRAWN)
+        set_help(self._drawn, tr("Number of arrows"), tr(_DRAWN))
         self._figures = {name: _figure_label() for name in _FIGURES}
         self._lay_out()
         self.since.chosen.connect(lambda key: self._change(since=Since(key)))
@@ -114,7 +114,7 @@ class MovementPanel(QWidget):
         lengths.setSpacing(8)
         lengths.addWidget(self.factor)
         lengths.addWidget(self._drawn, 1)
-        rows = (("Since", self.since), ("Colours", self.colours), ("Arrows", self.arrows))
+        rows = ((tr("Since"), self.since), (tr("Colours"), self.colours), (tr("Arrows"), self.arrows))
         for row, (text, buttons) in enumerate(rows):
             label = QLabel(text)
             grid.addWidget(label, row, 0)
@@ -126,8 +126,8 @@ class MovementPanel(QWidget):
         inverted.addWidget(self._figures["Inverted"], 1)
         inverted.addWidget(self.show_newly)
         for row, (text, label) in enumerate(self._figures.items(), start=4):
-            grid.addWidget(QLabel(text), row, 0)
-            set_help(label, text, _FIGURES[text])
+            grid.addWidget(QLabel(tr(text)), row, 0)
+            set_help(label, tr(text), tr(_FIGURES[text]))
             if text == "Inverted":
                 grid.addLayout(inverted, row, 1)
             else:
@@ -168,9 +168,9 @@ class MovementPanel(QWidget):
         """
         enabled = counts is not None and counts.newly_inverted > 0
         self.show_newly.setEnabled(enabled)
-        help = "Show only the hexes that became inverted since the reference state; Esc shows all hexes again."
+        help = tr("Show only the hexes that became inverted since the reference state; Esc shows all hexes again.")
         set_help(self.show_newly, tr("Show newly inverted"), help if enabled else tr("No hex is newly inverted."))
-        texts = ("No mesh is open.", "", "", "") if counts is None else _count_texts(counts, name, free)
+        texts = (tr("No mesh is open."), "", "", "") if counts is None else _count_texts(counts, name, free)
         for label, text in zip(self._figures.values(), texts, strict=True):
             label.setText(text)
 
@@ -190,22 +190,36 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
     '1 arrow, true length.'
     """
     if traces.arrows is Arrows.NONE:
-        return f"At most the {MAX_ARROWS:,} longest are drawn."
+        return tr("At most the {max_arrows:,} longest are drawn.", max_arrows=MAX_ARROWS)
     if not drawn:
-        return f"No {'visible' if traces.arrows is Arrows.SIGHT else 'shown'} node has moved."
-    number = f"The {drawn:,} longest of {moved:,} arrows" if drawn < moved else counted(drawn, "arrow")
+        return tr("No visible node has moved.") if traces.arrows is Arrows.SIGHT else tr("No shown node has moved.")
+    number = (
+        tr("The {drawn:,} longest of {moved:,} arrows", drawn=drawn, moved=moved)
+        if drawn < moved
+        else counted(drawn, "arrow")
+    )
     factor = "" if traces.factor == 1 else f"{short_number(traces.factor)} × "
-    return f"{number}, {factor}true length."
+    return tr("{number}, {factor}true length.", number=number, factor=factor)
 
 
 def _count_texts(counts: DisplacementCounts, name: str, free: int) -> tuple[str, str, str, str]:
     distance = f"mean {figure(counts.mean)}, max {figure(counts.largest)}" if counts.moved else "–"
     slid = f" and {counts.slid:,} boundary" if counts.slid else ""
     return (
-        f"{counts.moved - counts.slid:,} of {free:,} free{slid} nodes moved since {name}",
+        tr(
+            "{moved:,} of {free:,} free{slid} nodes moved since {name}",
+            moved=counts.moved - counts.slid,
+            free=free,
+            slid=slid,
+            name=name,
+        ),
         distance,
         f"{counts.better:,} better, {counts.worse:,} worse",
-        f"{counts.newly_inverted:,} newly inverted, {counts.mended:,} repaired",
+        tr(
+            "{newly_inverted:,} newly inverted, {mended:,} repaired",
+            newly_inverted=counts.newly_inverted,
+            mended=counts.mended,
+        ),
     )
 
 

@@ -13,7 +13,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.feature import Action, ActionFace, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.node_step.panel import SWEEP, NodePanel
 from hexmend_app.features.node_step.reasons import reason_for_no_step, reason_for_no_sweep, worst_free_node
-from hexmend_app.picture.appearance import Isolation
+from hexmend_app.picture.visibility import Isolate
 from hexmend_app.translation import tr
 
 #: Milliseconds until the panel reports that the step is being computed.
@@ -43,7 +43,7 @@ class FeatureNodeStep(Feature):
         self._task, self._node_sweep, self._view = session.node_step_task, session.node_sweep, session.view
         self._request: tuple | None = None
         self._shown: NodeStep | None = None
-        self._isolation: Isolation | None = None
+        self._isolation: Isolate | None = None
         panel = self.panel = NodePanel()
         self._computing_timer = QTimer(panel, singleShot=True, interval=_COMPUTING_DELAY)
         self._computing_timer.timeout.connect(
@@ -110,7 +110,7 @@ class FeatureNodeStep(Feature):
         """Show the step of the selected node, or the reason why it has none."""
         sweep = self._node_sweep.sweep
         self.panel.set_sweep(*((sweep.done, sweep.nodes.size) if sweep else ()))
-        if self._view.look.isolation != self._isolation:
+        if self._view.look.show.isolate != self._isolation:
             self._isolation = None
             self.panel.set_patch(False)
         if not self.panel.isVisible():
@@ -197,12 +197,13 @@ class FeatureNodeStep(Feature):
 
     def _take_patch(self, on: bool) -> None:
         """Restore from a session file whether the isolated hexes are the node's patch."""
-        self._isolation = self._view.look.isolation if on else None
+        self._isolation = self._view.look.show.isolate if on else None
         self.panel.set_patch(on)
 
     def _isolate(self, step: NodeStep) -> None:
         self._isolation = _isolation(step)
-        self._view.change(isolation=self._isolation, quality_range=None, peel=0)  # these could hide hexes of the patch
+        # A range and peeled layers could hide hexes of the patch.
+        self._view.change(show={"isolate": self._isolation, "quality": None, "peel": 0})
         self._selection.visit(*step.hexes.tolist())
 
     # Sweep
@@ -226,5 +227,5 @@ class FeatureNodeStep(Feature):
         return reason_for_no_sweep(self.session, self.session.run_setup.smoother)
 
 
-def _isolation(step: NodeStep) -> Isolation:
-    return Isolation(tuple(step.hexes.tolist()), 0)
+def _isolation(step: NodeStep) -> Isolate:
+    return Isolate(tuple(step.hexes.tolist()), 0)

@@ -54,7 +54,7 @@ class NodePlot(QWidget):
         self._plot.addItem(self._dots)
         self.numbers: list[pg.TextItem] = []
         self._step: NodeStep | None = None
-        set_help(self._plot, tr("Energy along the direction"), _HELP)
+        set_help(self._plot, tr("Energy along the direction"), tr(_HELP))
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._plot)

@@ -133,7 +133,8 @@ class FeatureOpen(Feature):
     def _on_mesh_missing(self, missing: MissingMesh) -> None:
         self.host.busy.done("open")
         self.host.messages.show_offer(
-            *missing_mesh_message(missing), (("Locate mesh…", lambda: self._locate(missing)), ("Dismiss", lambda: None))
+            *missing_mesh_message(missing),
+            ((tr("Locate mesh…"), lambda: self._locate(missing)), (tr("Dismiss"), lambda: None)),
         )
         self.host.refresh_soon()
 
@@ -157,7 +158,7 @@ class FeatureOpen(Feature):
         )
 
     def _open_mesh_note(self) -> str:
-        return f" {self._document.name} stays open." if self._document.is_open else ""
+        return tr(" {name} stays open.", name=self._document.name) if self._document.is_open else ""
 
 
 def _dragged_file(event: QDropEvent) -> str:

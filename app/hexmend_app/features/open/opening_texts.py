@@ -6,6 +6,7 @@ from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredMesh, RestoredPicture, RestoreProblem
 from hexmend_app.state.tasks.mesh_opener import LoadProgress, LoadStage
 from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS
+from hexmend_app.translation import tr
 
 
 def stage_text(progress: LoadProgress) -> str:
@@ -17,9 +18,9 @@ def stage_text(progress: LoadProgress) -> str:
     """
     name = progress.path.name
     return {
-        LoadStage.READING: f"Reading {name}…",
-        LoadStage.MEASURING: f"Measuring {name}, {progress.hexes:,} hexes…",
-        LoadStage.PREPARING: f"Preparing the view of {name}…",
+        LoadStage.READING: tr("Reading {name}…", name=name),
+        LoadStage.MEASURING: tr("Measuring {name}, {hexes:,} hexes…", name=name, hexes=progress.hexes),
+        LoadStage.PREPARING: tr("Preparing the view of {name}…", name=name),
     }[progress.stage]
 
 
@@ -28,18 +29,22 @@ def restored_message(restored: RestoredPicture) -> tuple[str, ...]:
     name, picture, metadata = restored.path.name, restored.picture.name, restored.metadata
     others = _other_meshes(restored)
     if restored.digest not in (metadata.first.opened, metadata.first.shown):
-        text = f"{name} has other hexes or node positions than the mesh in {picture}."
-        return f"The mesh differs from {picture}", text + others
-    text = f"{name} is shown with the camera and appearance of {picture}"
+        text = tr("{name} has other hexes or node positions than the mesh in {picture}.", name=name, picture=picture)
+        return tr("The mesh differs from {picture}", picture=picture), text + others
+    text = tr("{name} is shown with the camera and appearance of {picture}", name=name, picture=picture)
     if restored.digest == metadata.first.shown:
         text += "."
     elif metadata.recipe is not None:
-        text += f", in which it was smoothed by “{metadata.recipe.title}”; see the Recipe panel."
+        text += tr(", in which it was smoothed by “{title}”; see the Recipe panel.", title=metadata.recipe.title)
     else:
-        text += ", in which it was changed."
+        text += tr(", in which it was changed.")
     if restored.path.suffix.lower() == SUFFIX:
-        text += f" To restore its runs, open {name}."
-    return (text + others,) if restored.matches else (f"Not all of {picture} was restored", text + others)
+        text += tr(" To restore its runs, open {name}.", name=name)
+    return (
+        (text + others,)
+        if restored.matches
+        else (tr("Not all of {picture} was restored", picture=picture), text + others)
+    )
 
 
 def _other_meshes(restored: RestoredPicture) -> str:
@@ -47,9 +52,9 @@ def _other_meshes(restored: RestoredPicture) -> str:
     shown = [f"“{mesh.name}”" for mesh in restored.others if mesh.state is not None]
     names = " and ".join(filter(None, (", ".join(shown[:-1]), *shown[-1:])))
     if restored.wipe_position is not None:
-        layout = "is shown with a wipe"
+        layout = tr("is shown with a wipe")
     else:
-        layout = f"{'are' if len(shown) > 1 else 'is'} shown next to it"
+        layout = tr("are shown next to it") if len(shown) > 1 else tr("is shown next to it")
     sentences = [f"{names} {layout}."] if shown else []
     sentences += [_problem(mesh) for mesh in restored.others if mesh.problem is not None]
     return "".join(f" {sentence}" for sentence in sentences)
@@ -58,19 +63,31 @@ def _other_meshes(restored: RestoredPicture) -> str:
 def _problem(mesh: RestoredMesh) -> str:
     """Explain why another mesh of a picture is not shown, or how it differs."""
     if mesh.problem is RestoreProblem.PLACES:
-        return f"“{mesh.name}” differs from the picture: {mesh.file} has other node positions."
+        return tr("“{name}” differs from the picture: {file} has other node positions.", name=mesh.name, file=mesh.file)
     reason = {
-        RestoreProblem.NO_SPACE: f"the window shows at most {MAX_SIDE_VIEWS + 1} views",
-        RestoreProblem.FILE: f"{mesh.file} was not found" if mesh.file else "the picture does not name its file",
+        RestoreProblem.NO_SPACE: tr(
+            "the window shows at most {max_side_views} views", max_side_views=MAX_SIDE_VIEWS + 1
+        ),
+        RestoreProblem.FILE: tr("{file} was not found", file=mesh.file)
+        if mesh.file
+        else tr("the picture does not name its file"),
         RestoreProblem.READING: str(mesh.error).rstrip("."),
-        RestoreProblem.RUN: f"it is an iteration or a result of a run on {mesh.file}, which is not stored in that file",
-        RestoreProblem.HEXES: f"{mesh.file} has other hexes; side views must have the hexes of the main view",
+        RestoreProblem.RUN: tr(
+            "it is an iteration or a result of a run on {file}, which is not stored in that file", file=mesh.file
+        ),
+        RestoreProblem.HEXES: tr(
+            "{file} has other hexes; side views must have the hexes of the main view", file=mesh.file
+        ),
     }[mesh.problem]
-    return f"“{mesh.name}” is not shown: {reason}."
+    return tr("“{name}” is not shown: {reason}.", name=mesh.name, reason=reason)
 
 
 def missing_mesh_message(missing: MissingMesh) -> tuple[str, str]:
     """Return title and text for a picture whose mesh file is missing."""
     file = missing.metadata.first.file
-    reason = f"{file} is neither at its path nor next to the picture." if file else "The picture names no mesh file."
-    return f"The mesh of {missing.picture.name} was not found", reason
+    reason = (
+        tr("{file} is neither at its path nor next to the picture.", file=file)
+        if file
+        else tr("The picture names no mesh file.")
+    )
+    return tr("The mesh of {name} was not found", name=missing.picture.name), reason

@@ -26,7 +26,7 @@ class RecentMenu(QMenu):
     chosen = Signal(object)
 
     def __init__(self, recent: RecentFiles, parent: QWidget | None = None):
-        super().__init__("Open &recent", parent)
+        super().__init__(tr("Open &recent"), parent)
         self._recent = recent
         self.setToolTipsVisible(True)
         self.aboutToShow.connect(self._fill)
@@ -43,7 +43,7 @@ class RecentMenu(QMenu):
         for number, path in enumerate(files, start=1):
             exists = path.exists()
             name = f"{path.name}  ({short_folder(path)})".replace("&", "&&")
-            action = self.addAction(f"&{number % 10}  {name}" + ("" if exists else ": not found"))
+            action = self.addAction(f"&{number % 10}  {name}" + ("" if exists else tr(": not found")))
             action.setEnabled(exists)
             action.setToolTip(str(path) if exists else tr("{path} was moved, renamed or deleted.", path=path))
             action.setStatusTip(tr("Open {path}.", path=path))

@@ -66,9 +66,9 @@ class FeatureOutcome(Feature):
         """Explain the run of the timeline."""
         name, advice = self._explanation()
         if advice is not None and advice is not self._shown:
-            self.panel.show_advice(f"Why {name} stopped", advice)
+            self.panel.show_advice(tr("Why {name} stopped", name=name), advice)
         elif advice is None and self.session.run.busy:
-            self.panel.show_hint(_RUNNING)
+            self.panel.show_hint(tr(_RUNNING))
         elif advice is None:
             self.panel.show_hint()
         self._shown = advice
@@ -99,12 +99,12 @@ class FeatureOutcome(Feature):
         if self._empty_run is not None or record is None or record.result is None:
             return ""
         if moment is None:
-            return "The view shows a mesh that is not from this run."
+            return tr("The view shows a mesh that is not from this run.")
         if moment.record is record and moment.number == record.result:
             return ""
         if not moment.number:
-            return "The view shows the mesh before the run."
-        return f"The view shows the mesh at {moment.name}."
+            return tr("The view shows the mesh before the run.")
+        return tr("The view shows the mesh at {name}.", name=moment.name)
 
     def _isolate(self, hexes: list[int]) -> None:
         self.session.view.isolate(hexes)
@@ -127,4 +127,4 @@ class FeatureOutcome(Feature):
         if suggestion.unpin.size:
             self.session.commands.pin(suggestion.unpin, False)
         stage = Stage(suggestion.smoother, suggestion.stop)
-        self.session.run_setup.choose(stage, f"Selected: {suggestion.title}. Press Run to start.")
+        self.session.run_setup.choose(stage, tr("Selected: {title}. Press Run to start.", title=suggestion.title))

@@ -53,21 +53,21 @@ class OutcomePanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._busy = False
-        self._hint = note(_HINT)
+        self._hint = note(tr(_HINT))
         self._hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._hint.setMargin(24)
         self._title, self._reason, self._state, self._regressions = QLabel(), *(self._text() for _ in range(3))
         font = QFont(self._title.font())
         font.setBold(True)
         self._title.setFont(font)
-        self._locked = _HexList("Locked", "kept inverted by fixed nodes alone")
-        self._unlocked = _HexList("Inverted", "that are inverted but not locked")
+        self._locked = _HexList(tr("Locked"), tr("kept inverted by fixed nodes alone"))
+        self._unlocked = _HexList(tr("Inverted"), tr("that are inverted but not locked"))
         self._surface = self._text()
-        self._limiting = _HexList("Limiting", "that limit the minimum scaled Jacobian")
+        self._limiting = _HexList(tr("Limiting"), tr("that limit the minimum scaled Jacobian"))
         self._locked_below = _HexList(
-            "Locked lower",
-            "whose worst corner has only fixed nodes",
-            "the hexes limited by fixed corners",
+            tr("Locked lower"),
+            tr("whose worst corner has only fixed nodes"),
+            tr("the hexes limited by fixed corners"),
         )
         self._hex_lists = (self._locked, self._unlocked, self._limiting, self._locked_below)
         for hex_list in self._hex_lists:
@@ -105,7 +105,7 @@ class OutcomePanel(QWidget):
         column.addStretch()
         return scrolled(page)
 
-    def show_hint(self, hint: str = _HINT) -> None:
+    def show_hint(self, hint: str = tr(_HINT)) -> None:
         """Show a hint instead of an outcome."""
         self._hint.setText(hint)
         self._stack.setCurrentIndex(0)
@@ -209,8 +209,8 @@ class _HexList(QWidget):
 def _selection_help(suggestion: Suggestion) -> str:
     effects = []
     if suggestion.undo:
-        effects.append("go back to the mesh before the run")
+        effects.append(tr("go back to the mesh before the run"))
     if suggestion.unpin.size:
         effects.append(f"unpin {counted(int(suggestion.unpin.size), 'node')}")
-    effects.append("set the method and its parameters")
-    return f"{', '.join(effects).capitalize()}. Run (F5) starts it."
+    effects.append(tr("set the method and its parameters"))
+    return tr("{effects}. Run (F5) starts it.", effects=", ".join(effects).capitalize())

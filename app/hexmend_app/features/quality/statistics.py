@@ -87,7 +87,7 @@ class StatisticsTable(QWidget):
         self._measured_width = ("", 0)  # key of the font, and width of the longest title in it
         self._table = table = LinkTable(len(ROWS), len(_COLUMNS))
         table.link_activated.connect(self.isolate_requested)
-        table.setHorizontalHeaderLabels(_COLUMNS)
+        table.setHorizontalHeaderLabels([tr(text) if text else "" for text in _COLUMNS])
         table.setAccessibleName(tr("Statistics of the mesh"))
         table.setFont(tabular(smaller(table.font())))
         table.setShowGrid(False)

@@ -18,9 +18,9 @@ from hexmend_app.widgets.dialogs.questions import ask_recipe, ask_recipe_target
 from hexmend_app.widgets.wording import name_in_words, short_number
 
 _LIMITS = {
-    "max_iterations": "at most {} iterations",
-    "tolerance": "tolerance {}",
-    "max_seconds": "at most {} s",
+    "max_iterations": "at most {value} iterations",
+    "tolerance": "tolerance {value}",
+    "max_seconds": "at most {value} s",
     "keep_last": "keep the last iteration",
 }
 
@@ -168,10 +168,15 @@ def _text(stage: Stage) -> tuple[str, str]:
     return title, f"{title}: {stage.smoother.help}"
 
 
+def _value_text(name: str, template: str | None, value: str) -> str:
+    """Return the text of a value, by a template or with the name before it."""
+    return tr(template, value=value) if template else f"{tr(name_in_words(name))} {value}"
+
+
 def _changed_values(part: Parametrised, templates: Mapping[str, str] | None = None) -> list[str]:
     """Return the texts of values that differ from the defaults, by templates or names."""
     return [
-        (templates or {}).get(parameter.name, f"{name_in_words(parameter.name)} {{}}").format(_value(value))
+        _value_text(parameter.name, (templates or {}).get(parameter.name), _value(value))
         for parameter in declared(part)
         if (value := getattr(part, parameter.name)) != parameter.default
     ]

@@ -72,20 +72,22 @@ class RecipePanel(QWidget):
         )
         self._list.itemActivated.connect(lambda item: self.edit_requested.emit(self._list.row(item)))
         self._list.currentRowChanged.connect(self._enable)
-        self._empty = note(_EMPTY)
+        self._empty = note(tr(_EMPTY))
         self._add = self._button(
-            "plus", "Add", "Add the method above, with its parameters and limits, as the last stage."
+            "plus", tr("Add"), tr("Add the method above, with its parameters and limits, as the last stage.")
         )
         self._replace = self._button(
-            "swap-horizontal", "", "Replace the selected stage by the method above.", "Replace the stage"
+            "swap-horizontal", "", tr("Replace the selected stage by the method above."), tr("Replace the stage")
         )
-        self._up = self._button("chevron-up", "", "Move the selected stage up.", "Move up")
-        self._down = self._button("chevron-down", "", "Move the selected stage down.", "Move down")
-        self._remove = self._button("delete-outline", "", "Remove the selected stage.", "Remove the stage")
-        self._run = self._button("play", "Run", "Run the stages in sequence, as one run.", "Run recipe")
-        self._load = self._button("folder-open-outline", "Load", "Load a recipe from a file or a built-in recipe.")
+        self._up = self._button("chevron-up", "", tr("Move the selected stage up."), tr("Move up"))
+        self._down = self._button("chevron-down", "", tr("Move the selected stage down."), tr("Move down"))
+        self._remove = self._button("delete-outline", "", tr("Remove the selected stage."), tr("Remove the stage"))
+        self._run = self._button("play", tr("Run"), tr("Run the stages in sequence, as one run."), tr("Run recipe"))
+        self._load = self._button(
+            "folder-open-outline", tr("Load"), tr("Load a recipe from a file or a built-in recipe.")
+        )
         self._save = self._button(
-            "content-save-outline", "", "Save the recipe as a TOML file, for hexmend smooth.", "Save"
+            "content-save-outline", "", tr("Save the recipe as a TOML file, for hexmend smooth."), tr("Save")
         )
         self._menu = QMenu(self._load)
         self._menu.setToolTipsVisible(True)

@@ -105,10 +105,11 @@ class FeatureSave(Feature):
     def _on_ended(self, saving: SaveTask) -> None:
         self.host.busy.done("save")
         self.host.messages.show_info(
-            tr("Saved to {path}", path=saving.path)
-            if saving.data is None
-            else tr("Session saved to {path}", path=saving.path)
+            self._saved_words(saving) if saving.data is None else tr("Session saved to {path}", path=saving.path)
         )
+        if saving.written is not None:
+            for note in saving.written.notes:
+                self.host.messages.show_warning(tr("Saved with a note"), note)
         if saving.omitted:
             self.host.messages.show_warning(
                 tr("Some data was not saved"),
@@ -118,6 +119,12 @@ class FeatureSave(Feature):
                     count=", ".join(saving.omitted),
                 ),
             )
+
+    def _saved_words(self, saving: SaveTask) -> str:
+        """Tell whether the file is written anew, or keeps all but its coordinates."""
+        if saving.written is None or not saving.written.replaced:
+            return tr("Saved to {path}", path=saving.path)
+        return tr("Coordinates replaced in {path}; everything else is as it was", path=saving.path)
 
     def _on_failed(self, saving: SaveTask) -> None:
         self.host.busy.done("save")

@@ -86,7 +86,7 @@ class PictureDialog(SaveDialog):
         views: Sequence[str] = (),
         parent: QWidget | None = None,
     ):
-        super().__init__("the picture", name, _KINDS, parent)
+        super().__init__(tr("the picture"), name, tr(_KINDS), parent)
         self._view_scene = self._base = scene
         self.preview = Preview(draw)
         self._page_size = QLabel()
@@ -120,11 +120,11 @@ class PictureDialog(SaveDialog):
         rows = QFormLayout(captions)
         rows.setContentsMargins(0, 0, 0, 0)
         for number, line in enumerate(self.captions, 1):
-            title = f"Caption {number}" if len(self.captions) > 1 else "Caption"
+            title = tr("Caption {number}", number=number) if len(self.captions) > 1 else tr("Caption")
             set_help(line, title, tr("Text above the picture."))
             rows.addRow(title, line)
-        groups = [("Size", self.size_form), ("Camera", self.camera)]
-        groups += [(title, form) for (title, _, _), (_, form) in zip(_GROUPS, self.forms, strict=True)]
+        groups = [(tr("Size"), self.size_form), (tr("Camera"), self.camera)]
+        groups += [(tr(title), form) for (title, _, _), (_, form) in zip(_GROUPS, self.forms, strict=True)]
         for title, group in groups:
             column.addWidget(QLabel(f"<b>{title}</b>"))
             column.addWidget(group)
@@ -215,7 +215,7 @@ class PictureDialog(SaveDialog):
             self.camera.addItem(name, camera)
         up = self._view_scene.camera.up
         for name in DIRECTIONS:
-            title = "From a corner" if name == "iso" else f"From {name.upper().replace('-', '−')}"
+            title = tr("From a corner") if name == "iso" else tr("From {axis}", axis=name.upper().replace("-", "−"))
             self.camera.addItem(title, Camera(name, up=up, parallel=self._view_scene.camera.parallel))
 
     def _on_changed(self) -> None:
@@ -231,8 +231,15 @@ class PictureDialog(SaveDialog):
         page = scene.page
         width, height = (side * 25.4 / page.resolution for side in page.size)
         self._page_size.setText(
-            f"{width:.4g} × {height:.4g} mm at {page.resolution:.0f} dpi: {page.size[0]:,} × {page.size[1]:,} pixels"
-            + (", before cropping" if page.crop else "")
+            tr(
+                "{width:.4g} × {height:.4g} mm at {resolution:.0f} dpi: {size:,} × {size2:,} pixels",
+                width=width,
+                height=height,
+                resolution=page.resolution,
+                size=page.size[0],
+                size2=page.size[1],
+            )
+            + (tr(", before cropping") if page.crop else "")
         )
         self.preview.show_scene(scene)
 

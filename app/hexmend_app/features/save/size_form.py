@@ -50,7 +50,7 @@ class SizeForm(QWidget):
         size = view.width(), view.height()
         self.preset.addItem(tr("Current view, {width} × {height} pixels", width=size[0], height=size[1]), (size, None))
         for title, pixels, mm in _PRESETS:
-            self.preset.addItem(title, (pixels, mm))
+            self.preset.addItem(tr(title), (pixels, mm))
         self.preset.addItem(tr("Custom"), None)
         set_help(self.preset, tr("Preset"), tr("Common picture sizes."))
         self.unit.addItems([_MM, _PIXELS])

@@ -141,7 +141,8 @@ class Script(QObject):
                 names.update_session(event.path, event.data)
                 put(f"the session was saved as {event.path}")
             case MeshSaved():
-                source = f"hx.write({str(event.path.absolute())!r}, {names.mesh(event.now)})"
+                like = "" if event.like is None else f", like={str(event.like.absolute())!r}"
+                source = f"hx.write({str(event.path.absolute())!r}, {names.mesh(event.now)}{like})"
                 self._lines.mark_overwritten(event.path)
                 put("save", source)
                 names.register_written(event.path, event.now)

@@ -48,7 +48,7 @@ class ScriptPanel(QWidget):
         set_help(save, tr("Save the script"), tr("Save the script as a Python file: python FILE repeats the actions."))
         save.clicked.connect(self.save_requested)
         head = QHBoxLayout()
-        head.addWidget(note(_HELP), 1)
+        head.addWidget(note(tr(_HELP)), 1)
         head.addWidget(restart)
         head.addWidget(copy)
         head.addWidget(save)

@@ -83,7 +83,7 @@ class FeatureSession(Feature):
             self.session.commands.save_in_background(path)
 
     def _offer(self, crashed: RecoveredSession) -> None:
-        buttons = (("Recover", lambda: self._recover(crashed)), ("Discard", lambda: self._discard(crashed)))
+        buttons = ((tr("Recover"), lambda: self._recover(crashed)), (tr("Discard"), lambda: self._discard(crashed)))
         self.host.messages.show_offer(*recovery_offer(crashed), buttons)
 
     def _recover(self, crashed: RecoveredSession) -> None:

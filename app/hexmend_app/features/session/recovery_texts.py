@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from hexmend_app.state.session.recovery import RecoveredSession
+from hexmend_app.translation import tr
 
 
 def recovery_offer(crashed: RecoveredSession) -> tuple[str, str]:
@@ -17,6 +18,10 @@ def recovery_offer(crashed: RecoveredSession) -> tuple[str, str]:
     runs = "" if not crashed.runs else f", with {crashed.runs} run{'s' * (crashed.runs != 1)}"
     when = f"{crashed.when:%H:%M} on {crashed.when.day} {crashed.when:%B %Y}"
     return (
-        f"{crashed.name or 'A mesh'} can be recovered",
-        f"Hexmend ended unexpectedly while this mesh was open. It was last autosaved at {when}{runs}.",
+        tr("{name} can be recovered", name=crashed.name or tr("A mesh")),
+        tr(
+            "Hexmend ended unexpectedly while this mesh was open. It was last autosaved at {when}{runs}.",
+            when=when,
+            runs=runs,
+        ),
     )

@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QGridLayout, QHBoxLayou
 
 from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.theme.style import set_help, tabular
+from hexmend_app.translation import tr
 
 _INVERTS = "Pause after an iteration that inverts a valid hex, and select that hex."
 _FALLS = "Pause after an iteration that lowers the minimum quality, and select the worst hex."
@@ -43,15 +44,19 @@ class BreakpointForm(QWidget):
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(6)
         grid.setVerticalSpacing(4)
-        self._inverts = self._check(grid, 0, "A hex inverts", _INVERTS)
-        self._falls = self._check(grid, 1, "Minimum q drops", _FALLS)
-        self._node, self._node_box, self._move = self._watch(grid, 2, "Node", "moves", _NODE, " edge")
-        self._hex, self._hex_box, self._change = self._watch(grid, 4, "Hex", "changes", _HEX, " q")
-        self._backtracks = self._check(grid, 6, "Line search backtracks", _BACKTRACKS)
-        self._backtracks_box = self._number(QSpinBox(), "Maximum backtracks of the line search", _BACKTRACKS)
+        self._inverts = self._check(grid, 0, tr("A hex inverts"), tr(_INVERTS))
+        self._falls = self._check(grid, 1, tr("Minimum q drops"), tr(_FALLS))
+        self._node, self._node_box, self._move = self._watch(
+            grid, 2, ("Node moves", "Node number", "Node moves by more than"), tr(_NODE), " edge"
+        )
+        self._hex, self._hex_box, self._change = self._watch(
+            grid, 4, ("Hex changes", "Hex number", "Hex changes by more than"), tr(_HEX), " q"
+        )
+        self._backtracks = self._check(grid, 6, tr("Line search backtracks"), tr(_BACKTRACKS))
+        self._backtracks_box = self._number(QSpinBox(), tr("Maximum backtracks of the line search"), tr(_BACKTRACKS))
         self._backtracks_box.setRange(0, 99)
         self._backtracks_box.setValue(3)
-        self._add_limit(grid, 7, "more often than", self._backtracks_box)
+        self._add_limit(grid, 7, tr("more often than"), self._backtracks_box)
         grid.setColumnStretch(0, 1)
         self._node.clicked.connect(lambda on: self._use_selected(self._node_box, self._selected_node, on))
         self._hex.clicked.connect(lambda on: self._use_selected(self._hex_box, self._selected_hex, on))
@@ -113,19 +118,19 @@ class BreakpointForm(QWidget):
         return check
 
     def _watch(
-        self, grid: QGridLayout, row: int, kind: str, verb: str, help: str, suffix: str
+        self, grid: QGridLayout, row: int, names: tuple[str, str, str], help: str, suffix: str
     ) -> tuple[QCheckBox, QSpinBox, QDoubleSpinBox]:
-        """Add two rows for a hex or node: its number, and the limit of its change."""
-        check = self._check(grid, row, f"{kind} {verb}", help, span=1)
-        number = self._number(QSpinBox(), f"{kind} number", help)
-        amount = self._number(QDoubleSpinBox(), f"{kind} {verb} by more than", help)
+        """Add two rows for a hex or node: a check box, its number, and the limit of its change, with these names."""
+        check = self._check(grid, row, tr(names[0]), help, span=1)
+        number = self._number(QSpinBox(), tr(names[1]), help)
+        amount = self._number(QDoubleSpinBox(), tr(names[2]), help)
         amount.setRange(0, 10)
         amount.setDecimals(3)
         amount.setSingleStep(0.01)
         amount.setValue(0.1)
         amount.setSuffix(suffix)
         grid.addWidget(number, row, 1)
-        self._add_limit(grid, row + 1, "by more than", amount)
+        self._add_limit(grid, row + 1, tr("by more than"), amount)
         return check, number, amount
 
     @staticmethod

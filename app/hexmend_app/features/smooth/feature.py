@@ -159,10 +159,14 @@ class FeatureSmooth(Feature):
         phase, record = self._smoothing.phase, self._smoothing.record
         if phase is Phase.STOPPING:
             started = self._smoothing.record.newest > 0
-            when = "after this iteration" if started else "as soon as the method is ready, before its first iteration"
-            return None, None, f"Stopping: the run ends {when}."
+            when = (
+                tr("after this iteration")
+                if started
+                else tr("as soon as the method is ready, before its first iteration")
+            )
+            return None, None, tr("Stopping: the run ends {when}.", when=when)
         if phase is Phase.PREPARING:
-            return None, None, "Preparing the method."
+            return None, None, tr("Preparing the method.")
         if phase in (Phase.RUNNING, Phase.PAUSED):
             row = record.rows[-1]
             return row["iteration"], row["seconds"], self._stage(row)
@@ -181,10 +185,15 @@ class FeatureSmooth(Feature):
 
     def _stage(self, row: dict) -> str:
         if self._hit is not None:
-            return f"Paused at a breakpoint: {self._hit.hit.sentence}."
+            return tr("Paused at a breakpoint: {sentence}.", sentence=self._hit.hit.sentence)
         work = self._smoothing.work
         if isinstance(work, Recipe) and "stage" in row:
-            return f"Stage {row['stage']} of {len(work.stages)}: {METHODS[row['method']].title}."
+            return tr(
+                "Stage {row} of {count}: {title}.",
+                row=row["stage"],
+                count=len(work.stages),
+                title=METHODS[row["method"]].title,
+            )
         return ""
 
     def _show_busy(self) -> None:
@@ -194,7 +203,7 @@ class FeatureSmooth(Feature):
         if phase is Phase.STOPPING:
             self.host.busy.show_work("run", tr("Stopping…"))
         elif phase is Phase.PREPARING:
-            help = "Stop the run before its first iteration (Shift+F5)."
+            help = tr("Stop the run before its first iteration (Shift+F5).")
             self.host.busy.show_work("run", tr("Preparing the method…"), tr("Stop"), help, self._smoothing.stop)
         else:
             self.host.busy.done("run")  # a busy animation would slow down a run that is visible anyway

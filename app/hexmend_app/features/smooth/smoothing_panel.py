@@ -127,7 +127,7 @@ class SmoothingPanel(QWidget):
             digits = 2 - min(len(str(int(seconds))) - 1, 2)  # three digits in all
             parts.append(f"{seconds:.{digits}f} s")
         text = " · ".join(parts)
-        self._progress.setText(text or "Not run yet")
+        self._progress.setText(text or tr("Not run yet"))
         self._progress.setToolTip(text)
         if not self._refused:
             self._show_sentence(sentence, MUTED)
@@ -181,7 +181,7 @@ class SmoothingPanel(QWidget):
             self._sections[(self.stage.parameters, self.stage.stop).index(form)].expand()
             form.show_problem()
             self._refused = True
-            self._show_sentence("Correct the marked value first.", WORSE)
+            self._show_sentence(tr("Correct the marked value first."), WORSE)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Expand the sections that fit when the panel is first shown."""

@@ -52,8 +52,9 @@ class StageForm(QObject):
         let_shrink(self.method, 14)
         set_help(self.method, tr("Method"), tr("Smoothing method; it is described below."))
         for at, method in enumerate(METHODS.values()):
-            self.method.addItem(method.title, method.name)
-            about = f"<b>{escape(method.title)}</b> ({escape(method.name)})<br>{escape(method.help)}"
+            self.method.addItem(tr(method.title), method.name)
+            title, help = tr(method.title), tr(method.help)
+            about = f"<b>{escape(title)}</b> ({escape(method.name)})<br>{escape(help)}"
             tip = f"<qt>{about}<br><i>{escape(method.source)}</i></qt>"
             self.method.setItemData(at, tip, Qt.ItemDataRole.ToolTipRole)
         self.help = note()

@@ -67,7 +67,7 @@ class FeatureStructure(Feature):
         if self._seen.changed("found", session.structure_finder.structure, session.document.start):
             self.panel.set_found(session.structure_finder.structure)
         now = session.document.now
-        if self._seen.changed("legends", session.document.start, now.mesh.cells):
+        if self._seen.changed("legends", session.document.start, now.mesh.cells, now.mesh.materials):
             for layer in ordered_layers():
                 if layer.drawn_by is not None:
                     self.panel.set_legend(layer.name, layer.drawn_by.legend(now.mesh))
@@ -76,13 +76,16 @@ class FeatureStructure(Feature):
         if self._seen.changed("counts", session.document.start, *counted):
             mesh, boundary = now.mesh, now.mesh.topology.boundary
             pinned = 0 if mesh.pinned is None else np.count_nonzero(mesh.pinned & mesh.topology.used & ~boundary)
-            self.panel.set_nodes(np.count_nonzero(boundary), pinned, summary.free_nodes, summary.locked_inverted)
+            interfaces = mesh.interfaces
+            between = 0 if interfaces is None else np.count_nonzero(interfaces.interface_nodes & ~boundary)
+            counts = np.count_nonzero(boundary), pinned, summary.free_nodes, summary.locked_inverted
+            self.panel.set_nodes(*counts, between)
 
     def _classify_boundary(self) -> None:
         """Classify the boundary nodes for the next run if the result is visible."""
         session = self.session
         now, smoother = session.document.now, session.run_setup.smoother
-        visible = self.panel.isVisible() or self._view.look.structure.kinds
+        visible = self.panel.isVisible() or self._view.look.structure.is_on("kinds")
         if visible and smoother is not None and not session.run.busy:
             session.boundary_classifier.ask(
                 now.mesh, now.figures, smoother.values().get("feature_angle", FEATURE_ANGLE)

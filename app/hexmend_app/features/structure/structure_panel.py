@@ -10,7 +10,7 @@ from hexmend.boundary import NodeClass
 from hexmend.mesh.structure import Structure as MeshStructure
 from hexmend_app.features.structure.layer_row import Entry, LayerRow
 from hexmend_app.picture.appearance import Structure
-from hexmend_app.picture.layer_switch import ordered_layers
+from hexmend_app.picture.layer_switch import EDGE_LAYERS, ordered_layers
 from hexmend_app.scene.layers.optional.structure import (
     BOUNDARY,
     FREE,
@@ -26,7 +26,6 @@ from hexmend_app.state.tasks.boundary_classifier import PIN, WHISKER, BoundaryCl
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted
 
-_EDGES = ("irregular", "boundary", "sharp")
 #: Texts of the classes of boundary nodes.
 _KIND_TEXT = {
     NodeClass.CORNER: "corners", NodeClass.CURVE: "on curves", NodeClass.PATCH: "on patches",
@@ -54,6 +53,7 @@ class StructurePanel(QWidget):
         super().__init__(parent)
         self._structure = Structure()
         self._counts: tuple[int, ...] = ()
+        self._between = 0
         self._classes: BoundaryClasses | None = None
         self.layers = {
             switch.name: LayerRow(
@@ -85,7 +85,7 @@ class StructurePanel(QWidget):
     def set_found(self, found: MeshStructure | None) -> None:
         """Show the counts of edges; None while they are being found."""
         if found is None:
-            for name in _EDGES:
+            for name in EDGE_LAYERS:
                 self.layers[name].set_entries(None)
             return
         nodes: list[Entry] = []
@@ -95,13 +95,16 @@ class StructurePanel(QWidget):
         self.layers["boundary"].set_entries(_by_valence(found.boundary_valence))
         self.layers["sharp"].set_entries([(SHARP, True, f"{len(found.sharp):,}")] if len(found.sharp) else [])
 
-    def set_nodes(self, boundary: int, pinned: int, free: int, locked: int) -> None:
-        """Show the numbers of boundary, pinned and free nodes, and of locked hexes."""
+    def set_nodes(self, boundary: int, pinned: int, free: int, locked: int, between: int = 0) -> None:
+        """Show the numbers of boundary, pinned and free nodes, of locked hexes, and of nodes between materials."""
         counts = (boundary, pinned, free, locked)
-        if counts == self._counts:
+        if (counts, between) == (self._counts, self._between):
             return
+        self._between = between
         self._counts = counts
         fixed = [(BOUNDARY, False, f"{boundary:,} boundary")] if boundary else []
+        if between:
+            fixed.append((BOUNDARY, False, f"{between:,} between"))
         if pinned:
             fixed.append((PINNED, False, f"{pinned:,} pinned"))
         self.layers["fixed"].set_entries(fixed)
@@ -118,7 +121,9 @@ class StructurePanel(QWidget):
         entries: list[Entry] | None = None
         if classes is not None:
             counts = {kind: classes.count(kind) for kind in _KIND_TEXT}
-            entries = [(KINDS[kind], False, f"{count:,} {_KIND_TEXT[kind]}") for kind, count in counts.items() if count]
+            entries = [
+                (KINDS[kind], False, f"{count:,} {tr(_KIND_TEXT[kind])}") for kind, count in counts.items() if count
+            ]
         self.layers["kinds"].set_entries(entries, error)
         self._show_locked()
 
@@ -127,7 +132,7 @@ class StructurePanel(QWidget):
         locked, classes = self._counts[-1] if self._counts else 0, self._classes
         entries = [(LOCKED, False, f"of {counted(locked, 'hex')}")] if locked else []
         if locked and classes is not None and classes.locked == locked:
-            entries.append((None, False, f"{classes.freed:,} freed by sliding"))
+            entries.append((None, False, tr("{freed:,} freed by sliding", freed=classes.freed)))
         self.layers["locked"].set_entries(entries)
 
     def _switch(self, name: str, on: bool) -> None:

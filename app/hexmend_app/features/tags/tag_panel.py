@@ -77,13 +77,13 @@ class TagPanel(QWidget):
         self._name.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseSensitive)
         self._name.setCurrentText("tagged")
         set_help(self._name, tr("Tag as"), tr("Name of the tag to add."))
-        self._hex = self._button("Hex", "Tag or untag the selected hex (T).")
-        self._shown = self._button("Shown", "Tag all hexes shown in the view, except hidden ones.")
-        self._listed = self._button("Worst", "Tag all hexes in the list of the worst.")
-        self._isolate = self._button("Isolate", "Show only the hexes with this tag and their neighbours.")
-        self._remove = self._button("Remove", "Remove this tag from all hexes.")
+        self._hex = self._button(tr("Hex"), tr("Tag or untag the selected hex (T)."))
+        self._shown = self._button(tr("Shown"), tr("Tag all hexes shown in the view, except hidden ones."))
+        self._listed = self._button(tr("Worst"), tr("Tag all hexes in the list of the worst."))
+        self._isolate = self._button(tr("Isolate"), tr("Show only the hexes with this tag and their neighbours."))
+        self._remove = self._button(tr("Remove"), tr("Remove this tag from all hexes."))
         self._table = self._make_table()
-        self._hint = note(_HINT)
+        self._hint = note(tr(_HINT))
         self._lay_out()
         self._hex.clicked.connect(self.toggle)
         self._shown.clicked.connect(lambda: self.shown_requested.emit(self.name))
@@ -102,8 +102,8 @@ class TagPanel(QWidget):
 
     def _make_table(self) -> QTableWidget:
         table = QTableWidget(0, len(_TITLES))
-        table.setHorizontalHeaderLabels(_TITLES)
-        shape_table(table, "Tags", 0)
+        table.setHorizontalHeaderLabels([tr(title) for title in _TITLES])
+        shape_table(table, tr("Tags"), 0)
         table.horizontalHeaderItem(0).setTextAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         for column in range(1, len(_TITLES)):
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance("0,000,000") + 14)
@@ -145,10 +145,10 @@ class TagPanel(QWidget):
     def obstacle(self) -> str:
         """Reason why the selected hex cannot be tagged, as a sentence; "" if it can."""
         if self._busy:
-            return _BUSY
+            return tr(_BUSY)
         if not self.name:
-            return _NAMELESS
-        return "" if self._hex_selected else _NONE_SELECTED
+            return tr(_NAMELESS)
+        return "" if self._hex_selected else tr(_NONE_SELECTED)
 
     def toggle(self) -> None:
         """Request to tag or untag the selected hex, or report why that is not possible."""
@@ -211,6 +211,6 @@ class TagPanel(QWidget):
         self._isolate.setEnabled(bool(self._selected()))
         self._remove.setEnabled(bool(self._selected()) and not self._busy)
         self._table.setEditTriggers(_Trigger.NoEditTriggers if self._busy else _RENAMING)
-        hint = _NONE_SELECTED if self._rows else _HINT
+        hint = tr(_NONE_SELECTED) if self._rows else tr(_HINT)
         reason = self.obstacle
-        self._hint.setText(hint if reason == _NONE_SELECTED else reason)
+        self._hint.setText(hint if reason == tr(_NONE_SELECTED) else reason)

@@ -9,6 +9,7 @@ from PySide6.QtGui import QGuiApplication
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.theme import theme_choice
 from hexmend_app.theme.theme_choice import ThemeChoice
+from hexmend_app.translation import tr
 
 _TEXTS = {
     ThemeChoice.LIGHT: ("&Light", "Use the light theme."),
@@ -31,9 +32,9 @@ class FeatureTheme(Feature):
         return [
             Action(
                 id=f"theme_{choice.value}",
-                text=text,
+                text=tr(text),
                 menu="View/Theme",
-                help=help,
+                help=tr(help),
                 handle=lambda on, choice=choice: self._choose(choice, on),
                 checked=lambda choice=choice: theme_choice.chosen() is choice,
                 needs_mesh=False,

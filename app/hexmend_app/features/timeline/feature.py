@@ -146,5 +146,9 @@ class FeatureTimeline(Feature):
 def _text(record: RunRecord) -> tuple[str, str]:
     """Return the name of a run and its tooltip."""
     parent = record.parent
-    origin = f", started at iteration {parent.number} of {parent.record.name}" if parent and parent.number else ""
+    origin = (
+        tr(", started at iteration {number} of {name}", number=parent.number, name=parent.record.name)
+        if parent and parent.number
+        else ""
+    )
     return record.name, f"{record.title}{origin}"

@@ -113,7 +113,11 @@ class TimelineBar(QWidget):
             Memory of all runs in bytes.
         """
         self._slider.set_track(newest, kept, marks)
-        stored = "" if len(kept) == newest + 1 else f" {len(kept)} of them are stored, as marked below the slider."
+        stored = (
+            ""
+            if len(kept) == newest + 1
+            else tr(" {count} of them are stored, as marked below the slider.", count=len(kept))
+        )
         pauses = "".join(f"<br>{number}: {sentence}" for number, sentence in marks.items())
         tip = f"<qt>{counted(newest, 'iteration')}.{stored}{pauses}</qt>"
         if tip != self._slider.toolTip():
@@ -160,7 +164,7 @@ class TimelineBar(QWidget):
         self._used = menu.addAction("")
         self._used.setEnabled(False)
         menu.addSection(tr("Playback speed"))
-        self._speeds = self._options(menu, SPEEDS, lambda n: f"{n} iterations per second", self.speed_changed)
+        self._speeds = self._options(menu, SPEEDS, lambda n: tr("{n} iterations per second", n=n), self.speed_changed)
         menu.addSeparator()
         self._delete = menu.addAction(tr("Delete this run"), self.delete_requested.emit)
         return menu

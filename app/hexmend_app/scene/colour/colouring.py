@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, ROUNDING, hex_quantity
-from hexmend_app.picture.appearance import ColourScale, RangeMode
 from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS
+from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.palette import INVERTED as MAGENTA
 
@@ -43,7 +43,7 @@ _MIN_WIDTH = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Colouring:
-    """A `ColourScale` with its resolved range, for views, pictures and colour bars.
+    """`Colours` with their resolved range, for views, pictures and colour bars.
 
     Parameters
     ----------
@@ -101,17 +101,17 @@ class Colouring:
 
 
 def resolve(
-    scale: ColourScale,
+    colours: Colours,
     values: np.ndarray,
     inverted: np.ndarray,
     ends_of_views: tuple[float, float] | None = None,
     title: str = "",
 ) -> Colouring:
-    """Resolve the range of a scale; views, pictures and colour bars all use this function.
+    """Resolve the range of colours; views, pictures and colour bars all use this function.
 
     Parameters
     ----------
-    scale : ColourScale
+    colours : Colours
     values : (m,) float64
         Values of all hexes, hidden ones too, so that colours do not change with a cut.
     inverted : (m,) bool
@@ -121,25 +121,25 @@ def resolve(
     title : str
         Title of the colours; by default that of the metric.
     """
-    ends, change = declared_ends(scale), scale.metric == "q-change"
+    ends, change = declared_ends(colours), colours.metric == "q-change"
     if ends is None:
         low, high = fitted(values, inverted)
         ends = (low, high) if ends_of_views is None else (min(low, ends_of_views[0]), max(high, ends_of_views[1]))
-        if scale.metric in DISPLACEMENT_QUANTITIES:
+        if colours.metric in DISPLACEMENT_QUANTITIES:
             largest = max(abs(end) for end in ends)
             largest = largest if largest > ROUNDING else 1.0
             ends = (-largest if change else 0.0, largest)
-    colours = COLOUR_MAPS[CHANGE_MAP if change else scale.map].table
-    if scale.reverse != (better(scale.metric) < 0):
-        colours = colours[::-1]
-    return Colouring(title or hex_quantity(scale.metric).title, *ends, colours, _CHANGED if change else _INVERTED)
+    table = COLOUR_MAPS[CHANGE_MAP if change else colours.map].table
+    if colours.reverse != (better(colours.metric) < 0):
+        table = table[::-1]
+    return Colouring(title or hex_quantity(colours.metric).title, *ends, table, _CHANGED if change else _INVERTED)
 
 
-def declared_ends(scale: ColourScale) -> tuple[float, float] | None:
-    """Return the range of a scale; None if it is fitted to the values."""
-    if scale.mode is RangeMode.PINNED:
-        return scale.pinned
-    return None if scale.mode is RangeMode.FITTED else declared_range(scale.metric, scale.mode)
+def declared_ends(colours: Colours) -> tuple[float, float] | None:
+    """Return the range of colours; None if it is fitted to the values."""
+    if isinstance(colours.range, tuple):
+        return colours.range
+    return None if colours.range is Range.FITTED else declared_range(colours.metric, colours.range)
 
 
 def fitted(values: np.ndarray, inverted: np.ndarray) -> tuple[float, float]:

@@ -31,17 +31,17 @@ class HexColours:
     def measure(self, frame: Frame) -> None:
         """Compute the values and the colouring of a frame."""
         self._frame = frame
-        mesh, figures, scale, movement = frame.mesh, frame.figures, frame.look.scale, frame.movement
+        mesh, figures, colours, movement = frame.mesh, frame.figures, frame.look.colours, frame.movement
         self.kinds, title = figures.inverted, ""
-        if scale.metric not in DISPLACEMENT_QUANTITIES:
-            self.values = metric_values(scale.metric, mesh, figures)
+        if colours.metric not in DISPLACEMENT_QUANTITIES:
+            self.values = metric_values(colours.metric, mesh, figures)
         elif movement is None:
             self.values = np.zeros(mesh.n_hexes)
         else:
-            self.values = movement.values(scale.metric)
-            self.kinds = movement.inversion_changes if scale.metric == "q-change" else figures.inverted
-            title = movement.title(scale.metric)
-        self.colouring = resolve(scale, self.values, figures.inverted, self._ends_of_views, title)
+            self.values = movement.values(colours.metric)
+            self.kinds = movement.inversion_changes if colours.metric == "q-change" else figures.inverted
+            title = movement.title(colours.metric)
+        self.colouring = resolve(colours, self.values, figures.inverted, self._ends_of_views, title)
 
     def extend_range(self, ends: tuple[float, float] | None) -> bool:
         """Extend a fitted range to that of all views; return True if it changes."""
@@ -61,7 +61,7 @@ class HexColours:
             True for faces inside the mesh, for neutral looks; None for all.
         """
         kinds = self.kinds[hexes]
-        if not self._frame.look.neutral:
+        if not self._frame.look.colours.neutral:
             return self.colouring.colours(self.values[hexes], kinds)
         return self.colouring.neutral(np.ones(len(kinds), bool) if opened is None else opened, kinds)
 

@@ -6,27 +6,32 @@ import numpy as np
 
 from hexmend.boundary.displacement import hex_quantity
 from hexmend.quality import METRICS
-from hexmend_app.picture.appearance import RangeMode, ValueRange
+from hexmend_app.picture.colours import Range
+from hexmend_app.picture.visibility import Show
 
 
-def within(values: np.ndarray, inverted: np.ndarray, chosen: ValueRange) -> np.ndarray:
+def within(values: np.ndarray, inverted: np.ndarray, show: Show) -> np.ndarray:
     """Return True for the hexes in a range, (m,) bool, which are exactly those that the histogram counts in it.
+
+    An end of the full range of the metric is no bound, because rounding can make q slightly larger than 1. A range that
+    ends at -inf contains no value.
 
     Parameters
     ----------
     values : (m,) float64
         Values of the metric of the range; nan is treated as inverted.
     inverted : (m,) bool
-    chosen : ValueRange
+    show : Show
+        Filter by quality; its other filters are ignored.
     """
-    least, most = METRICS[chosen.metric].full_range
+    least, most = METRICS[show.metric].full_range
     special = inverted | np.isnan(values)
-    inside = ~special if chosen.high > -np.inf else np.zeros(len(values), dtype=bool)
-    if chosen.low > least:
-        inside &= values >= chosen.low
-    if chosen.high < most:
-        inside &= values <= chosen.high
-    return inside | special if chosen.inverted else inside
+    inside = ~special if show.high > -np.inf else np.zeros(len(values), dtype=bool)
+    if show.low > least:
+        inside &= values >= show.low
+    if show.high < most:
+        inside &= values <= show.high
+    return inside | special if show.inverted else inside
 
 
 def better(metric: str) -> int:
@@ -34,7 +39,7 @@ def better(metric: str) -> int:
     return hex_quantity(metric).better
 
 
-def declared_range(metric: str, mode: RangeMode) -> tuple[float, float] | None:
-    """Return the range of a metric in the mode FULL or ACCEPTABLE; None if it is infinite."""
-    declared = hex_quantity(metric).full_range if mode is RangeMode.FULL else hex_quantity(metric).acceptable
+def declared_range(metric: str, range: Range) -> tuple[float, float] | None:
+    """Return the FULL or ACCEPTABLE range of a metric; None if it is infinite."""
+    declared = hex_quantity(metric).full_range if range is Range.FULL else hex_quantity(metric).acceptable
     return tuple(map(float, declared)) if np.isfinite(declared).all() else None

@@ -8,7 +8,7 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
 
-from hexmend_app.picture.cut_planes import BoxClip
+from hexmend_app.picture.cut_planes import Box
 from hexmend_app.scene.cutting.handles import Handles
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import PLANE_ACTIVE, PLANE_EDGE, rgb
@@ -51,11 +51,11 @@ class BoxWidget(Handles):
         """Set the bounds of the mesh, which limit the box."""
         self._bounds = np.array(bounds).reshape(3, 2)
 
-    def set(self, clip: BoxClip | None, shown: bool = True) -> None:
+    def set(self, box: Box | None, shown: bool = True) -> None:
         """Show a box, or hide it if it is None or not `shown`."""
-        on = clip is not None and shown and self._bounds is not None
+        on = box is not None and shown and self._bounds is not None
         if on and not self._dragging:
-            self._shape.PlaceWidget([end for pair in zip(clip.low, clip.high, strict=True) for end in pair])
+            self._shape.PlaceWidget([end for pair in zip(box.low, box.high, strict=True) for end in pair])
         self._switch(on)
 
     @property

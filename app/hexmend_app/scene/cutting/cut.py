@@ -9,7 +9,8 @@ import pyvista as pv
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkPlaneCutter
 
-from hexmend_app.picture.cut_planes import Clip, ClipPlane
+from hexmend_app.picture.cut import Cut
+from hexmend_app.picture.cut_planes import Plane
 from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
 from hexmend_app.scene.geometry import plane_sides
 from hexmend_app.scene.layers.surface import coloured, colours_of, hexes_of
@@ -19,7 +20,7 @@ _TOLERANCE = 1e-8
 
 
 def sections(
-    points: np.ndarray, hexes: np.ndarray, keep: np.ndarray | None, clip: Clip, colours: np.ndarray
+    points: np.ndarray, hexes: np.ndarray, keep: np.ndarray | None, cut: Cut, colours: np.ndarray
 ) -> pv.PolyData:
     """Return the sections of hexes by planes, as polygons in the colours of the hexes.
 
@@ -33,11 +34,12 @@ def sections(
     hexes : (m, 8) int32
     keep : (m,) bool, optional
         True for shown hexes; None for all.
-    clip : PlaneClip or BoxClip
+    cut : Cut
+        A cut with planes or a box.
     colours : (m, 3) uint8
     """
-    planes = clip.planes
-    touched = plane_sides.touched(points, hexes, *_half_spaces(planes), clip.notch)
+    planes = cut.sides
+    touched = plane_sides.touched(points, hexes, *_half_spaces(planes), cut.notch)
     if keep is not None:
         touched &= keep[:, None]
     parts, owners = [], []
@@ -45,7 +47,7 @@ def sections(
         crossing = np.flatnonzero(touched[:, i])
         if len(crossing):
             section, owner = _section(points, hexes, crossing, plane)
-            visible = section.before(*_half_spaces((*planes[:i], *planes[i + 1 :]), beyond=clip.notch))
+            visible = section.before(*_half_spaces((*planes[:i], *planes[i + 1 :]), beyond=cut.notch))
             parts.append(visible.facing(np.array(plane.normal)))
             owners.append(owner[visible.owner])
     if not sum(map(len, parts)):
@@ -54,19 +56,17 @@ def sections(
     return coloured(merge_polygons(parts).data(), colours[owner], owner)
 
 
-def remaining_hexes(points: np.ndarray, hexes: np.ndarray, clip: Clip) -> np.ndarray:
+def remaining_hexes(points: np.ndarray, hexes: np.ndarray, cut: Cut) -> np.ndarray:
     """Return True for hexes of which a cut leaves more than nodes on its planes, (m,) bool.
 
     Parameters are those of `sections`.
     """
     tolerance = _TOLERANCE * float(np.ptp(points, axis=0).max())
-    beyond = [(plane.signed_distance(points) > -tolerance)[hexes].all(axis=1) for plane in clip.planes]
-    return ~(np.all(beyond, axis=0) if clip.notch else np.any(beyond, axis=0))
+    beyond = [(plane.signed_distance(points) > -tolerance)[hexes].all(axis=1) for plane in cut.sides]
+    return ~(np.all(beyond, axis=0) if cut.notch else np.any(beyond, axis=0))
 
 
-def _section(
-    points: np.ndarray, hexes: np.ndarray, crossing: np.ndarray, plane: ClipPlane
-) -> tuple[Polygons, np.ndarray]:
+def _section(points: np.ndarray, hexes: np.ndarray, crossing: np.ndarray, plane: Plane) -> tuple[Polygons, np.ndarray]:
     """Return the polygons in which a plane cuts the hexes `crossing`, (j,) int, and the hex of each polygon."""
     nodes, cells = np.unique(hexes[crossing], return_inverse=True)
     grid = pv.UnstructuredGrid({pv.CellType.HEXAHEDRON: cells.reshape(-1, 8)}, points[nodes])
@@ -76,18 +76,18 @@ def _section(
     cutter.SetPlane(_vtk(plane))
     cutter.ComputeNormalsOff()
     cutter.Update()
-    cut = pv.wrap(cutter.GetOutput())
-    if not cut.n_cells:
+    found = pv.wrap(cutter.GetOutput())
+    if not found.n_cells:
         return Polygons.of(pv.PolyData()), crossing[:0]
-    return Polygons.of(cut), np.asarray(cut.cell_data["hex"])
+    return Polygons.of(found), np.asarray(found.cell_data["hex"])
 
 
-def remaining_skin(skin: pv.PolyData, clip: Clip) -> pv.PolyData:
+def remaining_skin(skin: pv.PolyData, cut: Cut) -> pv.PolyData:
     """Return the part of a skin that is not cut away, with its colours."""
     if not skin.GetNumberOfCells():
         return skin
-    whole, planes = Polygons.of(skin), clip.planes
-    if clip.notch:  # before the first plane; beyond the first and before the second; and so on
+    whole, planes = Polygons.of(skin), cut.sides
+    if cut.notch:  # before the first plane; beyond the first and before the second; and so on
         cells = [
             [np.concatenate(both) for both in zip(_half_spaces(planes[:i], True), _half_spaces((plane,)), strict=True)]
             for i, plane in enumerate(planes)
@@ -98,15 +98,15 @@ def remaining_skin(skin: pv.PolyData, clip: Clip) -> pv.PolyData:
     return coloured(left.data(), colours_of(skin)[left.owner], hexes_of(skin)[left.owner])
 
 
-def _half_spaces(planes: Sequence[ClipPlane], beyond: bool = False) -> tuple[np.ndarray, np.ndarray]:
+def _half_spaces(planes: Sequence[Plane], beyond: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """Return normals, (k, 3), and offsets, (k,), of the half-spaces in front of planes, or beyond them."""
     sign = -1.0 if beyond else 1.0
     normals = np.array([plane.normal for plane in planes]).reshape(-1, 3)
     return sign * normals, sign * np.array([plane.equation[1] for plane in planes])
 
 
-def _vtk(plane: ClipPlane) -> vtkPlane:
+def _vtk(plane: Plane) -> vtkPlane:
     vtk_plane = vtkPlane()
     vtk_plane.SetNormal(plane.normal)
-    vtk_plane.SetOrigin(plane.origin)
+    vtk_plane.SetOrigin(plane.point)
     return vtk_plane

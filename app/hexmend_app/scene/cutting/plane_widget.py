@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
 
-from hexmend_app.picture.cut_planes import ClipPlane
+from hexmend_app.picture.cut_planes import Plane
 from hexmend_app.scene.cutting.handles import Handles
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import PLANE, PLANE_ACTIVE, PLANE_EDGE, rgb
@@ -19,13 +19,13 @@ class PlaneWidget(Handles):
     ----------
     pane : Pane
     moved : callable
-        Called with the ClipPlane while the user drags; not called by `set`.
+        Called with the Plane while the user drags; not called by `set`.
     """
 
-    def __init__(self, pane: Pane, moved: Callable[[ClipPlane], None]):
+    def __init__(self, pane: Pane, moved: Callable[[Plane], None]):
         self._moved = moved
         self._placed = False
-        self._plane: ClipPlane | None = None
+        self._plane: Plane | None = None
         shape = vtkImplicitPlaneRepresentation()
         shape.SetPlaceFactor(1.08)
         shape.OutlineTranslationOff()
@@ -55,7 +55,7 @@ class PlaneWidget(Handles):
         self._shape.PlaceWidget(bounds)
         self._placed = True
 
-    def set(self, plane: ClipPlane | None, shown: bool = True) -> None:
+    def set(self, plane: Plane | None, shown: bool = True) -> None:
         """Show a plane, or hide it if it is None or not `shown`.
 
         The position of the widget is not changed during a drag; otherwise a plane that snaps to an axis could not be
@@ -65,7 +65,7 @@ class PlaneWidget(Handles):
         on = plane is not None and shown and self._placed
         if on and not self._dragging:
             self._shape.SetNormal(plane.normal)
-            self._shape.SetOrigin(plane.origin)
+            self._shape.SetOrigin(plane.point)
         self._switch(on)
 
     def _drag(self, on: bool) -> None:
@@ -74,4 +74,4 @@ class PlaneWidget(Handles):
             self.set(self._plane)
 
     def _announce(self, *_: object) -> None:
-        self._moved(ClipPlane(self._shape.GetNormal(), self._shape.GetOrigin()))
+        self._moved(Plane(self._shape.GetNormal(), point=self._shape.GetOrigin()))

@@ -70,9 +70,9 @@ def pictures(
     """
     width, height = size
     strip = strip_height(size)
-    chart = chart and strip > 0 and not look.neutral
+    chart = chart and strip > 0 and not look.colours.neutral
     chart_width = round(_CHART * width) if chart else 0
-    with Stage((width - chart_width, height - (1 if look.neutral else 2) * strip)) as stage:
+    with Stage((width - chart_width, height - (1 if look.colours.neutral else 2) * strip)) as stage:
         viewport = Viewport(Pane(stage.window), pixel_ratio=pixel_ratio_of(size))
         for prop in () if props is None else props(pixel_ratio_of(size)):
             viewport.layers[0].AddViewProp(prop)
@@ -80,7 +80,7 @@ def pictures(
         for film_frame in film_frames:
             mesh, figures = film_frame.state.mesh, film_frame.state.figures
             if movement is not None:
-                before = last if look.traces.since is Since.ITERATION else movement.before
+                before = last if look.movement.since is Since.ITERATION else movement.before
                 current = ReferenceState(mesh.points, figures, "the last frame")
                 movement = Displacement(movement.mesh, before or current, mesh.points, figures)
                 last = current
@@ -109,7 +109,7 @@ def _compose(picture: Image.Image, caption: str, viewport: Viewport, size: tuple
     if strip:
         position = (round(0.3 * strip), strip / 2)
         ImageDraw.Draw(whole).text(position, caption, INK, letters(0.42 * strip), anchor="lm")
-    if strip and not viewport.frame.look.neutral:
+    if strip and not viewport.frame.look.colours.neutral:
         bar = colour_bar(viewport.colouring, colours.special_counts, (size[0], strip), picture.mode)
         whole.paste(bar, (0, size[1] - strip))
     return whole

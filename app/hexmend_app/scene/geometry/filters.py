@@ -8,9 +8,9 @@ from functools import reduce
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.picture.cut_planes import Clip, CutLeft
+from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.colour.value_range import within
-from hexmend_app.scene.cutting import cut
+from hexmend_app.scene.cutting.cut import remaining_hexes
 from hexmend_app.scene.geometry import plane_sides
 from hexmend_app.scene.views.frame import Frame, same_hexes
 from hexmend_app.state.mesh.metric_cache import metric_values
@@ -38,45 +38,42 @@ class Filters:
         A cut by whole hexes is evaluated when its planes change, not when nodes move, so that hexes do not flicker; a
         result stored in the look takes precedence.
         """
-        look, points, figures = frame.look, frame.mesh.points, frame.figures
-        clip, quality_range, topology = look.clip, look.quality_range, self._mesh.topology
-        crinkled = clip is not None and clip.crinkle
-        left = look.left if look.left is not None and look.left.clip == clip else None
+        points, figures, topology, m = frame.mesh.points, frame.figures, self._mesh.topology, self._mesh.n_hexes
+        cut, show, quality = frame.look.cut, frame.look.show, frame.look.show.by_quality
         filters = (
             self._mask(
-                "clip",
-                (clip, left) if crinkled else None,
-                lambda: self.hexes_kept_by_cut(points, clip) if left is None else left.mask(self._mesh.n_hexes),
+                "cut",
+                cut if cut.crinkled else None,
+                lambda: cut.listed(m) if cut.hexes else self.hexes_kept_by_cut(points, cut),
             ),
-            self._mask("peel", look.peel or None, lambda: topology.layers >= look.peel),
-            self._mask("isolation", look.isolation, lambda: topology.hexes_around(look.isolation.hexes, 0)),
-            self._mask("dug", look.dug or None, lambda: _all_but(look.dug, self._mesh.n_hexes)),
+            self._mask("peel", show.peel or None, lambda: topology.layers >= show.peel),
+            self._mask("isolate", show.isolate, lambda: topology.hexes_around(show.isolate.hexes, 0)),
+            self._mask("hidden", show.hidden or None, lambda: _all_but(show.hidden, m)),
             self._mask(
                 "quality",
-                quality_range and (quality_range, figures),
-                lambda: within(
-                    metric_values(quality_range.metric, frame.mesh, figures),
-                    figures.inverted,
-                    quality_range,
-                ),
+                quality and (quality, figures),
+                lambda: within(metric_values(quality.metric, frame.mesh, figures), figures.inverted, quality),
             ),
         )
         masks = [mask for mask in filters if mask is not None]
         return reduce(np.logical_and, masks) if masks else None
 
-    def hexes_kept_by_cut(self, points: np.ndarray, clip: Clip) -> np.ndarray:
+    def hexes_kept_by_cut(self, points: np.ndarray, cut: Cut) -> np.ndarray:
         """Return True for hexes that a cut by whole hexes leaves at the given positions, (m,) bool."""
-        normals, offsets = zip(*(plane.equation for plane in clip.planes), strict=True)
-        return plane_sides.centres_kept(points, self._mesh.hexes, np.array(normals), np.array(offsets), clip.notch)
+        normals, offsets = zip(*(plane.equation for plane in cut.sides), strict=True)
+        return plane_sides.centres_kept(points, self._mesh.hexes, np.array(normals), np.array(offsets), cut.notch)
 
-    def cut_left(self, frame: Frame) -> CutLeft | None:
-        """Return the result of the cut by whole hexes if a cut at current positions would differ; else None."""
-        clip = frame.look.clip
-        if clip is None or not clip.crinkle:
+    def cut_left(self, frame: Frame) -> np.ndarray | None:
+        """Return True for the hexes that the cut by whole hexes has left, (m,) bool.
+
+        None if a cut at current positions would leave the same hexes.
+        """
+        cut = frame.look.cut
+        if not cut.crinkled:
             return None
         self.kept(frame)
-        left = self._known["clip"][1]
-        return None if np.array_equal(left, self.hexes_kept_by_cut(frame.mesh.points, clip)) else CutLeft.of(clip, left)
+        left = self._known["cut"][1]
+        return None if np.array_equal(left, self.hexes_kept_by_cut(frame.mesh.points, cut)) else left
 
     def copied(self) -> Filters:
         """Return a copy for a view with another look."""
@@ -89,25 +86,25 @@ class Filters:
 
         Ghosts exclude the isolated hexes and hexes that are cut away or dug out.
         """
-        around = frame.look.isolation
+        around = frame.look.show.isolate
         if around is None or not around.rings:
             self._known.pop("ghosts", None)
             return None
         topology = self._mesh.topology
         near = self._mask("ghosts", around, lambda: topology.hexes_around(around.hexes, around.rings))
-        masks = [near, ~self._known["isolation"][1]]
-        masks += [self._known[name][1] for name in ("clip", "dug") if name in self._known]
-        clip = frame.look.clip
-        if clip is not None and not clip.crinkle:
-            masks.append(cut.remaining_hexes(frame.mesh.points, frame.mesh.hexes, clip))
+        masks = [near, ~self._known["isolate"][1]]
+        masks += [self._known[name][1] for name in ("cut", "hidden") if name in self._known]
+        cut = frame.look.cut
+        if cut.smooth:
+            masks.append(remaining_hexes(frame.mesh.points, frame.mesh.hexes, cut))
         return reduce(np.logical_and, masks)
 
     def remaining_after_cut(self, frame: Frame) -> np.ndarray | None:
         """Return True for shown hexes that a smooth cut leaves at least in part, (m,) bool; None for all."""
-        keep, clip, mesh = self.kept(frame), frame.look.clip, frame.mesh
-        if clip is None or clip.crinkle:
+        keep, cut, mesh = self.kept(frame), frame.look.cut, frame.mesh
+        if not cut.smooth:
             return keep
-        left = cut.remaining_hexes(mesh.points, mesh.hexes, clip)
+        left = remaining_hexes(mesh.points, mesh.hexes, cut)
         return left if keep is None else left & keep
 
     def _mask(self, name: str, key: Hashable | None, compute: Callable[[], np.ndarray]) -> np.ndarray | None:
@@ -120,9 +117,9 @@ class Filters:
         return self._known[name][1]
 
 
-def _all_but(dug: frozenset[int], m: int) -> np.ndarray:
+def _all_but(hidden: frozenset[int], m: int) -> np.ndarray:
     mask = np.ones(m, dtype=bool)
-    mask[list(dug)] = False
+    mask[np.fromiter(hidden, np.int64, len(hidden))] = False
     return mask
 
 

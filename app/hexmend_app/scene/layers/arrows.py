@@ -82,7 +82,7 @@ class ArrowLayer:
         mesh_layer : MeshLayer
             Layer of the drawn hexes, which determines the visible nodes.
         """
-        mesh, traces = frame.mesh, frame.look.traces
+        mesh, traces = frame.mesh, frame.look.movement
         if traces.arrows is Arrows.NONE or frame.movement is None:
             self.hide()
             return

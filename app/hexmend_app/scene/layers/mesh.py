@@ -7,7 +7,7 @@ import pyvista as pv
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.scene.colour.hex_colours import HexColours
-from hexmend_app.scene.cutting import cut
+from hexmend_app.scene.cutting.cut import remaining_skin, sections
 from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
 from hexmend_app.scene.geometry.decimated_surface import MANY, decimated
 from hexmend_app.scene.geometry.shaded_surface import shaded, shaded_surface
@@ -76,9 +76,9 @@ class MeshLayer:
             Colours of the hexes of the frame.
         """
         for surface in (self.skin, self.section):
-            surface.show_edges(frame.look.edges)
+            surface.show_edges(frame.look.lines.shown)
         faces = self.faces = self._visible(frame, keep)
-        self._opened = self._skin.opened(faces, keep) if frame.look.neutral else None
+        self._opened = self._skin.opened(faces, keep) if frame.look.colours.neutral else None
         face_colours = colours.of(faces.hexes, self._opened)
         self.whole = quads(faces.places(frame.mesh.points), faces.quads, face_colours, faces.hexes)
         self._draw(frame, keep, colours)
@@ -91,13 +91,13 @@ class MeshLayer:
 
     def _visible(self, frame: Frame, keep: np.ndarray | None) -> Faces:
         look = frame.look
-        if look.shrink and (look.clip is None or look.clip.crinkle):
-            return self._skin.shrunk(look.shrink, keep, fine=not self.fast)
+        if look.show.shrink and not look.cut.smooth:
+            return self._skin.shrunk(look.show.shrink, keep, fine=not self.fast)
         return self._skin.visible(keep)
 
     def _draw(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
         self._steady, self._coarse, self._scene = False, None, None
-        self._shading = frame.look.shading
+        self._shading = frame.look.page.shading
         for surface in (self.skin, self.section):
             surface.show_proxy(None)
         # Back faces take a third of the frame time, but inverted hexes may turn them towards the viewer.
@@ -107,15 +107,14 @@ class MeshLayer:
         self.outline_inverted()
 
     def _replace(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
-        clip = frame.look.clip
-        if clip is None or clip.crinkle:
+        if not frame.look.cut.smooth:
             if self.skin.poly is not self.whole:
                 self.skin.replace(self.whole)
             self.section.hide()
             return
-        self.skin.replace(cut.remaining_skin(self.whole, clip))
+        self.skin.replace(remaining_skin(self.whole, frame.look.cut))
         mesh = frame.mesh
-        self.section.replace(cut.sections(mesh.points, mesh.hexes, keep, clip, colours.of(slice(None))))
+        self.section.replace(sections(mesh.points, mesh.hexes, keep, frame.look.cut, colours.of(slice(None))))
 
     def outline_inverted(self) -> None:
         """Outline inverted hexes; many of them only in fine frames, as outlines take half of a fast frame."""

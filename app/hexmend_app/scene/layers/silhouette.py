@@ -91,8 +91,8 @@ class Silhouette:
             True for hexes shown whole or in part; None for all.
         """
         self.move(points)
-        shown = self._shown(look, points, keep) if look.outline and self._lines else np.zeros(0, bool)
-        self.actor.SetVisibility(look.outline and (keep is not None or look.clip is not None))
+        shown = self._shown(look, points, keep) if look.show.outline and self._lines else np.zeros(0, bool)
+        self.actor.SetVisibility(look.show.outline and (keep is not None or look.cut.active))
         self._sharp.SetVisibility(bool(shown.any()))
         if shown.any():
             lines = _lines(self._poly.points, self._cells[shown])
@@ -102,7 +102,7 @@ class Silhouette:
     def _shown(self, look: Look, points: np.ndarray, keep: np.ndarray | None) -> np.ndarray:
         """Return True for sharp edges of shown hexes that a smooth cut leaves, (e,) bool."""
         mask = np.ones(len(self._edges), bool)
-        if look.shrink:
+        if look.show.shrink:
             return ~mask  # the drawn hexes do not touch them
         if keep is not None:
             rows = self._mesh.topology.node_corners

@@ -65,7 +65,7 @@ def write_picture(
     page_meshes[0] = replace(
         page_meshes[0],
         movement=_movement(scene, page_meshes, opened or first, since, since_name),
-        original=None if opened is None or not scene.structure.original else opened.points,
+        original=None if opened is None or not scene.structure.is_on("original") else opened.points,
     )
     page = draw_page(scene, page_meshes)
     pictured = [

@@ -25,13 +25,19 @@ def scene_of(
     names : sequence of str
         Names in the captions of several views.
     page : Page, optional
+        Its shading is that of the views.
     cameras : mapping, optional
         Additional cameras of the scene, by name.
     """
     pose = pose_of(panes.first.camera, panes.camera_controller.up)
-    tables = {"page": page or Page(), "panels": _panels(panes, names), "cameras": dict(cameras or {})}
     frame = panes.first.frame
-    return Scene.of(replace(frame.look, left=panes.first.filters.cut_left(frame)), pose, **tables)
+    tables = {
+        "cut": frame.look.cut.with_hexes(panes.first.filters.cut_left(frame)),
+        "page": replace(page or Page(), shading=frame.look.page.shading),
+        "panels": _panels(panes, names),
+        "cameras": dict(cameras or {}),
+    }
+    return Scene.of(frame.look, pose, **tables)
 
 
 def page_meshes(panes: Panes, names: Sequence[str] = ()) -> list[PageMesh]:

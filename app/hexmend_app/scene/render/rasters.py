@@ -130,7 +130,7 @@ class _Views:
 
     def _share_colour_range(self, look: Look) -> None:
         """Extend a fitted colour range to the values of all views."""
-        if declared_ends(look.scale) is None:
+        if declared_ends(look.colours) is None:
             lows, highs = zip(*(self.all[number].colours.ends for number in self.shown), strict=True)
             for view in self.all.values():
                 view.extend_range((min(lows), max(highs)))
@@ -152,7 +152,7 @@ class _Views:
         """Return the points that the picture includes, (k, 3); with an outline, those of hexes that a cut hides too."""
         view, look = self.all[number], self.all[number].frame.look
         mesh = view.frame.mesh
-        if look.clip is None or not look.outline or look.isolation is not None:
+        if not look.cut.active or not look.show.outline or look.show.isolate is not None:
             return view.places
         return np.concatenate([view.places, mesh.points[mesh.topology.used]])
 

@@ -139,7 +139,7 @@ class Panes:
         if self.first.frame is None:
             return
         ends = None
-        if self._others and declared_ends(self.first.frame.look.scale) is None:
+        if self._others and declared_ends(self.first.frame.look.colours) is None:
             lows, highs = zip(*(view.colours.ends for view in self.all), strict=True)
             ends = min(lows), max(highs)
         for view in self.all:

@@ -109,7 +109,7 @@ class Viewport:
         pinned = not new_mesh and frame.mesh.pinned is not last.mesh.pinned
         classed = new_mesh or frame.kinds is not last.kinds
         restyled = new_mesh or frame.look != last.look
-        recoloured = moved or frame.movement is not last.movement or not frame.look.coloured_as(last.look)
+        recoloured = moved or frame.movement is not last.movement or frame.look.colours != last.look.colours
         if new_mesh:
             self._set_mesh()
         self.overlay_layers.update(frame, moved and not new_mesh, pinned, classed)

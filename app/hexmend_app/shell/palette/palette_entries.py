@@ -19,6 +19,7 @@ from hexmend_app.feature import Panel
 from hexmend_app.shell.mnemonics import without_mnemonic
 from hexmend_app.shell.palette.ranking import PaletteEntry
 from hexmend_app.shell.panels.docks import Docks
+from hexmend_app.translation import tr
 from hexmend_app.widgets.section import Section
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def panel_entries(docks: Docks, panels: Iterable[Panel]) -> Iterator[PaletteEntr
     """Yield entries that show a panel, then entries that focus a control of a panel."""
     shown = [panel for panel in panels if panel.id in docks.ids()]
     for panel in shown:
-        yield PaletteEntry(name=panel.title, run=partial(docks.show_panel, panel.id), help=panel.help, kind="Panel")
+        yield PaletteEntry(name=panel.title, run=partial(docks.show_panel, panel.id), help=panel.help, kind=tr("Panel"))
     for panel in shown:
         for control in _controls(panel.widget):
             yield PaletteEntry(
@@ -74,12 +75,12 @@ def choice_entries(session: Session) -> Iterator[PaletteEntry]:
     if session.editable:
         for method in METHODS.values():
             stage = Stage(run_setup.smoother_of(method.name), stop)
-            choose = partial(run_setup.choose, stage, f"{method.title} chosen. Press Run to start it.")
-            yield PaletteEntry(name=method.title, run=choose, help=method.help, kind="Method")
+            choose = partial(run_setup.choose, stage, tr("{title} chosen. Press Run to start it.", title=method.title))
+            yield PaletteEntry(name=method.title, run=choose, help=method.help, kind=tr("Method"))
     if session.document.is_open:
         for metric in (*METRICS.values(), *DISPLACEMENT_QUANTITIES.values()):
             colour = partial(session.view.colour_by, metric.name)
-            yield PaletteEntry(name=metric.title, run=colour, help=metric.meaning, kind="Colour by")
+            yield PaletteEntry(name=metric.title, run=colour, help=metric.meaning, kind=tr("Colour by"))
 
 
 def _controls(panel: QWidget) -> Iterator[QWidget]:

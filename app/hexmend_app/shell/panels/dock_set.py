@@ -14,6 +14,7 @@ from hexmend_app.shell.panels.dock import Dock
 from hexmend_app.shell.panels.drawer_row import DrawerRow
 from hexmend_app.shell.panels.saved_layout import SavedLayout
 from hexmend_app.shell.panels.tab_bars import TabBars
+from hexmend_app.translation import tr
 
 #: Order of places in which panels are added and reached by Tab.
 _TAB_ORDER = (PanelPlace.EMPTY, PanelPlace.BELOW, PanelPlace.DRAWER, PanelPlace.TOOLS, PanelPlace.FACTS)
@@ -73,7 +74,7 @@ class DockSet(QObject):
         self.view = QVBoxLayout(self.centre)
         self.view.setContentsMargins(0, 0, 0, 0)
         self.view.setSpacing(0)
-        self.row = DrawerRow("Open a panel below the view")
+        self.row = DrawerRow(tr("Open a panel below the view"))
         main.setCentralWidget(self.centre)
         main.setDocumentMode(True)
         main.setDockOptions(QMainWindow.DockOption.AllowTabbedDocks | QMainWindow.DockOption.AllowNestedDocks)

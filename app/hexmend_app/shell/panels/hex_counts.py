@@ -31,7 +31,7 @@ class HexCounts(QLabel):
 
 def _isolated_text(session: Session) -> str:
     """Return the number of isolated hexes and the key that shows all hexes; "" if none are isolated."""
-    isolation = session.view.look.isolation
+    isolation = session.view.look.show.isolate
     return "" if isolation is None else tr("{count:,} isolated (Esc)", count=len(isolation.hexes))
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.io import Original
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, measure, summarise
 
@@ -106,6 +107,7 @@ class Document(QObject):
         self._changes: list[Change] = []
         self._at = 0
         self._saved: State | None = None
+        self._files: dict[Path, Mesh] = {}
 
     @property
     def is_open(self) -> bool:
@@ -146,6 +148,7 @@ class Document(QObject):
         self.now = state
         self._changes = [Change("open", state)]
         self._at, self._saved = 0, state
+        self._files = {} if path is None else {path: state.mesh}
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 
@@ -210,6 +213,11 @@ class Document(QObject):
             self.commit("reset", State(mesh, start.figures, summarise(mesh, start.figures)))
 
     @property
+    def originals(self) -> tuple[Original, ...]:
+        """Files that were opened or saved, the last one first, with the mesh in each."""
+        return tuple(Original(path, mesh) for path, mesh in reversed(self._files.items()))
+
+    @property
     def recorded(self) -> State:
         """The state of the current change; a mesh is open."""
         return self._changes[self._at].state
@@ -226,6 +234,8 @@ class Document(QObject):
         is_open = any(change.state.mesh.hexes is state.mesh.hexes for change in self._changes)
         if is_open:
             self.path, self._saved = path, state
+            self._files.pop(path, None)
+            self._files[path] = state.mesh
             self.changes_changed.emit()
         return is_open
 
@@ -238,6 +248,7 @@ class Document(QObject):
         """Open the mesh of a session file, with its changes."""
         self.now, self._changes, self._at = data.now, list(data.changes), data.at
         self.path, self._saved = None if data.path is None else Path(data.path), data.saved
+        self._files = {self.path: data.saved.mesh} if self.path is not None and data.saved is not None else {}
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.mesh.rules import MotionRules
 from hexmend.run.recipe import Recipe, Stage
 
 
@@ -25,6 +26,8 @@ class RecipeDraft(QObject):
     title : str
         "" to use the titles of the methods.
     stages : tuple of Stage
+    rules : MotionRules
+        Those of the recipe that was loaded; sessions do not keep them.
 
     Signals
     -------
@@ -37,11 +40,12 @@ class RecipeDraft(QObject):
         super().__init__(parent)
         self.title = ""
         self.stages: tuple[Stage, ...] = ()
+        self.rules = MotionRules()
 
     @property
     def recipe(self) -> Recipe | None:
         """Recipe to run or save; None if there is no stage."""
-        return Recipe.of(*self.stages, title=self.title) if self.stages else None
+        return Recipe.of(*self.stages, title=self.title, rules=self.rules) if self.stages else None
 
     def to_data(self) -> RecipeDraftData:
         """Return the data for a session file."""
@@ -49,11 +53,12 @@ class RecipeDraft(QObject):
 
     def restore(self, data: RecipeDraftData) -> None:
         """Restore the recipe of a session file."""
+        self.rules = MotionRules()
         self._set(data.stages, data.title)
 
     def load(self, recipe: Recipe) -> None:
         """Replace the stages and the title by those of a recipe."""
-        default = Recipe.of(*recipe.stages).title
+        default, self.rules = Recipe.of(*recipe.stages).title, recipe.rules
         self._set(recipe.stages, "" if recipe.title == default else recipe.title)
 
     def rename(self, title: str) -> None:

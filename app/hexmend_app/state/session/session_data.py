@@ -8,8 +8,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from hexmend.advice import Advice
-from hexmend.aliases import former_attributes
 from hexmend.errors import FileError, MeshError
 from hexmend.io.formats.session import SUFFIX, is_session
 from hexmend.io.formats.session.session_file import SessionFolder, read_session, write_session
@@ -18,35 +16,24 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
 from hexmend.run.breakpoints import Breakpoints
-from hexmend.run.recipe import migrate_surface_tolerance
 from hexmend.smoothers import METHODS, Smoother
-from hexmend_app.codec import config_table
 from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter, since
 from hexmend_app.picture.named_cameras import NamedCameras
 from hexmend_app.state.mesh.document import DocumentData, State
 from hexmend_app.state.mesh.history import HistoryData
-from hexmend_app.state.mesh.run_record import NodeOffsets
 from hexmend_app.state.mesh.selection import SelectionData
 from hexmend_app.state.mesh.snapshots import Snapshot
 from hexmend_app.state.run.comparison import ComparisonData
 from hexmend_app.state.run.recipe_draft import RecipeDraftData
 from hexmend_app.state.run.run_setup import RunSetupData
 from hexmend_app.state.run.timeline import TimelineData
+from hexmend_app.state.session.earlier_versions import FORMER, migrate
 from hexmend_app.state.session.state_part import check_feature_data
 from hexmend_app.state.view.side_views import SideViewsData
 from hexmend_app.state.view.view_model import ViewData
 
 #: First bytes of a session file.
 _HEAD = 64
-#: Former names of fields, by class and current name.
-_FORMER = {kind: {now: old for old, now in former_attributes(kind).items()} for kind in (Advice, Breakpoints)}
-_FORMER[Advice]["limiting"] = "holding"
-_FORMER[NodeOffsets] = {"displacements": "ways"}
-_FORMER[RunSetupData] = {"reason": "why"}
-#: The last version in which a surface tolerance of 0 meant that there is no limit.
-_ZERO_FOR_NO_LIMIT = 3
-#: The last version in which the camera and the settings of panels were fields of their own.
-_WITHOUT_FEATURES = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,11 +86,10 @@ class SessionData:
             yield self.comparison.initial
 
 
-_FORMER[SessionData] = {
-    "recipe_draft": "chain",
-    "run_setup": "order",
-    "side_views": "views",
-    "snapshots": "kept",
+#: Former names of the fields of all classes, by class and current name.
+_FORMER = {
+    **FORMER,
+    SessionData: {"recipe_draft": "chain", "run_setup": "order", "side_views": "views", "snapshots": "kept"},
 }
 
 
@@ -166,7 +152,6 @@ def _writing_codec(numbers: dict[Mesh, int]) -> Codec:
         Mesh: TypeAdapter(partial(_number, numbers), _unused),
         State: TypeAdapter(lambda state: _number(numbers, state.mesh), _unused),
         Smoother: TypeAdapter(_smoother_data, _unused),
-        NamedCameras: TypeAdapter(config_table.encode, _unused),
     })  # fmt: skip
 
 
@@ -188,29 +173,14 @@ def read(path: Path) -> SessionData:
         Mesh: TypeAdapter(_unused, lambda number: states(number).mesh),
         State: TypeAdapter(_unused, states),
         Smoother: TypeAdapter(_unused, _smoother),
-        NamedCameras: TypeAdapter(_unused, lambda data: config_table.decode(NamedCameras, data, ("cameras",))),
     }, stored.version, _FORMER)  # fmt: skip
     try:
-        window = stored.window if stored.version > _ZERO_FOR_NO_LIMIT else migrate_surface_tolerance(stored.window)
-        if stored.version <= _WITHOUT_FEATURES:
-            window = _with_features(window)
-        data = codec.decode(window, SessionData, "the window")
+        data = codec.decode(migrate(stored.window, stored.version), SessionData, "the window")
         data.history.check()
         check_feature_data(data.features, "the window.features")
         return data
     except (DecodeError, MeshError, ValueError) as error:
         raise FileError(path, f"is inconsistent: {error}", "Use an earlier copy, or open its mesh.") from None
-
-
-def _with_features(window: dict[str, Any]) -> dict[str, Any]:
-    """Move the camera and the settings of panels, as an earlier version wrote them, to the data of features."""
-    if not isinstance(window, dict) or not isinstance(window.get("choices", {}), dict):
-        raise DecodeError("the window or its choices are not a table")
-    window = dict(window)
-    history = window.pop("journey", {"before": [], "after": [], "left": None})
-    camera = {"pose": window.pop("eye", None), "history": history}
-    panels = {name: data for name, data in window.pop("choices", {}).items() if data is not None}
-    return {**window, "features": {**panels, "camera": camera}}
 
 
 class _States:

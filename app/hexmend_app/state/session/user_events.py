@@ -66,11 +66,14 @@ class MeshSaved:
         The state shown when the user saved.
     data : SessionData or None
         The data of the session; None for a mesh file.
+    like : Path or None
+        File whose coordinates were replaced in a copy; None for a file written anew.
     """
 
     path: Path
     now: State
     data: SessionData | None = None
+    like: Path | None = None
 
 
 @dataclass(frozen=True, eq=False)

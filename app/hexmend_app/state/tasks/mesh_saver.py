@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.io import unsupported_data, write
+from hexmend.io import Original, Written, replaces_coordinates, unsupported_data, write_as_given
 from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
@@ -36,7 +36,13 @@ class SaveTask:
     Attributes
     ----------
     omitted : list of str
-        Data that the format of the written file does not support.
+        Data that the format of the written file does not support, or that the file as given does not hold.
+    originals : tuple of Original
+        Files that hold the mesh: saved in the format of one, only its coordinates change.
+    original : Original or None
+        The first of them that has the format of the written file.
+    written : Written or None
+        The way in which a mesh file was written.
     over : bool
         True once the file has been written or writing has failed.
     error : BaseException or None
@@ -46,6 +52,9 @@ class SaveTask:
     def __init__(self, path: Path, state: State, recorded: State, data: SessionData | None):
         self.path, self.state, self.recorded, self.data = path, state, recorded, data
         self.omitted: list[str] = []
+        self.originals: tuple[Original, ...] = ()
+        self.original: Original | None = None
+        self.written: Written | None = None
         self.over = False
         self.error: BaseException | None = None
 
@@ -54,8 +63,13 @@ class SaveTask:
         if self.data is not None:
             session_data.write(self.path, self.data)
         else:
-            write(self.path, self.state.mesh)
+            fitting = (one for one in self.originals if replaces_coordinates(self.path, one))
+            self.original = next(fitting, None)
+            self.written = write_as_given(self.path, self.state.mesh, self.original)
             self.omitted = unsupported_data(self.path, self.state.mesh)
+            if self.written.replaced:  # what the mesh had when it was read is still in the file
+                given = unsupported_data(self.path, self.original.mesh)
+                self.omitted = [data for data in self.omitted if data not in given]
 
 
 class MeshSaver(QObject):
@@ -123,6 +137,9 @@ class MeshSaver(QObject):
     def _begin(self) -> None:
         if self._saving is None and self._waiting:
             self._saving = saving = self._waiting.popleft()
+            saving.originals = (
+                self._session.document.originals
+            )  # not earlier: a save before may have written one of them
             self._task = Task(f"saving {saving.path.name}", lambda _: saving.write())
             self._task.ended.connect(self._finish)
             self.began.emit(saving)
@@ -140,7 +157,12 @@ class MeshSaver(QObject):
     def _mark_saved(self, saving: SaveTask) -> None:
         """Emit the user event, and mark the state as saved if its mesh is still open."""
         session = self._session
-        session.user_event.emit(MeshSaved(saving.path, saving.state, saving.data))
+        session.user_event.emit(MeshSaved(saving.path, saving.state, saving.data, _source(saving)))
         is_open = session.document.mark_saved(saving.path, saving.recorded)
         if is_open and saving.data is not None:
             session.saved_cameras.mark_saved(saving.data.cameras)
+
+
+def _source(saving: SaveTask) -> Path | None:
+    """File whose coordinates were replaced in a copy; None for a file written anew."""
+    return saving.original.path if saving.written is not None and saving.written.replaced else None

@@ -5,15 +5,20 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import METRICS
-from hexmend_app.picture.appearance import Isolation, Look
-from hexmend_app.picture.colour_map import COLOUR_MAPS
-from hexmend_app.picture.cut_planes import BoxClip, Clip, ClipPlane, CutLeft, PlaneClip
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.cut import Cut
+from hexmend_app.picture.cut_planes import Box, Plane
+from hexmend_app.picture.page import Page
+from hexmend_app.picture.visibility import Isolate, Show, known_metric
 from hexmend_app.state.mesh.document import Document
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 @dataclass(frozen=True)
@@ -29,27 +34,20 @@ class ViewData:
     counted: str | None
 
     def __post_init__(self) -> None:
-        scale, shown = self.look.scale, self.look.quality_range
-        if self.counted is not None and self.counted not in METRICS:
-            raise ValueError(f"there is no metric {self.counted!r}")
-        if scale.metric not in METRICS and scale.metric not in DISPLACEMENT_QUANTITIES:
-            raise ValueError(f"there is no metric {scale.metric!r}")
-        if shown is not None and shown.metric not in METRICS:
-            raise ValueError(f"there is no metric {shown.metric!r}")
-        if scale.map not in COLOUR_MAPS:
-            raise ValueError(f"there is no colour map {scale.map!r}")
-        clip = self.look.clip
-        if self.plane_at < 0 or (isinstance(clip, PlaneClip) and self.plane_at >= len(clip.planes)):
+        cut = self.look.cut
+        if self.counted is not None:
+            known_metric(self.counted, METRICS)
+        if not cut.absolute:
+            raise ValueError("the cut has positions instead of points")
+        if self.plane_at < 0 or (cut.planes and self.plane_at >= len(cut.planes)):
             raise ValueError(f"there is no plane {self.plane_at}")
 
     def check(self, hexes: int) -> None:
         """Raise `ValueError` if a mesh with this number of hexes does not have those named in the view."""
-        isolated = () if self.look.isolation is None else self.look.isolation.hexes
-        named = (*isolated, *self.look.dug, *self.dug)
-        if named and not 0 <= min(named) <= max(named) < hexes:
-            raise ValueError("hexes are isolated or dug away that the mesh does not have")
-        if self.look.left is not None and self.look.left.most >= hexes:
-            raise ValueError("hexes are left by the cut that the mesh does not have")
+        if max(self.look.cut.largest_hex, self.look.show.largest_hex, max(self.dug, default=-1)) >= hexes:
+            raise ValueError("the view names hexes that the mesh does not have")
+        if min(self.dug, default=0) < 0:
+            raise ValueError("the view names hexes with negative numbers")
 
 
 class ViewModel(QObject):
@@ -97,14 +95,26 @@ class ViewModel(QObject):
         self._dug: list[int] = []  # in the order of digging
         document.mesh_replaced.connect(self.show_all)
 
-    def change(self, **fields: object) -> None:
-        """Change fields of the look, and emit `changed` if it differs."""
-        if fields.get("clip", self) is not self:
-            fields = {"left": None, **fields}  # for the old cut
-        look = dataclasses.replace(self.look, **fields)
+    def change(self, **tables: object) -> None:
+        """Change tables of the look, and emit `changed` if it differs.
+
+        Parameters
+        ----------
+        **tables
+            New tables, or dicts of the keys that change, such as `show={"peel": 2}`.
+
+        Raises
+        ------
+        ParameterError
+            If a value is invalid.
+        """
+        look = dataclasses.replace(self.look, **{
+            name: dataclasses.replace(getattr(self.look, name), **table) if isinstance(table, dict) else table
+            for name, table in tables.items()
+        })  # fmt: skip
         if look != self.look:
             self.look = look
-            if not look.dug:
+            if not look.show.hidden:
                 self._dug.clear()
             self.changed.emit()
 
@@ -120,26 +130,29 @@ class ViewModel(QObject):
         self.changed.emit()
 
     def show_as(self, look: Look) -> None:
-        """Show the look of a picture; its dug hexes are restored by undo in the order of their numbers."""
-        self.restore(dataclasses.replace(self.to_data(), look=look, dug=tuple(sorted(look.dug)), plane_at=0))
+        """Show the look of a picture except the size of its page; undo restores its hidden hexes by number."""
+        look = dataclasses.replace(look, page=Page(shading=look.page.shading))
+        hidden = tuple(sorted(look.show.hidden))
+        self.restore(dataclasses.replace(self.to_data(), look=look, dug=hidden, plane_at=0))
 
     def colour_by(self, metric: str) -> None:
         """Request to colour by a metric or a displacement in its default range."""
         self.metric_wanted.emit(metric)
 
-    def store_remaining_hexes(self, left: CutLeft | None) -> None:
-        """Store the hexes kept by a cut by whole hexes, so that they stay the same while nodes move."""
-        self.look = dataclasses.replace(self.look, left=left)
+    def store_remaining_hexes(self, left: np.ndarray | None) -> None:
+        """Store the hexes kept by a cut by whole hexes, (m,) bool, so that they stay the same while nodes move."""
+        self.look = dataclasses.replace(self.look, cut=self.look.cut.with_hexes(left))
 
     def show_all(self) -> None:
         """Show all hexes: remove the cut, filters, isolation and dug hexes."""
-        self.change(clip=None, quality_range=None, peel=0, isolation=None, dug=frozenset())
+        show = self.look.show
+        self.change(cut=Cut(), show=Show(shrink=show.shrink, outline=show.outline))
 
-    def set_clip(self, clip: Clip | None) -> None:
+    def set_cut(self, cut: Cut) -> None:
         """Set, move or remove the cut."""
-        if isinstance(clip, PlaneClip) and self.plane_at >= len(clip.planes):
+        if cut.planes and self.plane_at >= len(cut.planes):
             self.plane_at = 0
-        self.change(clip=clip)
+        self.change(cut=cut)
 
     def choose_plane(self, at: int) -> None:
         """Select the plane that is moved."""
@@ -147,15 +160,15 @@ class ViewModel(QObject):
             self.plane_at = at
             self.changed.emit()
 
-    def drag_plane(self, plane: ClipPlane) -> None:
+    def drag_plane(self, plane: Plane) -> None:
         """Move the selected plane to where it is dragged, snapping to an axis if `snap` is set."""
-        if isinstance(self.look.clip, PlaneClip):
-            self.set_clip(self.look.clip.with_plane(self.plane_at, plane.snapped() if self.snap else plane))
+        if self.look.cut.planes:
+            self.set_cut(self.look.cut.with_plane(self.plane_at, plane.snapped() if self.snap else plane))
 
     def drag_box(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
         """Move the box of the cut to where it is dragged; corners as (x, y, z)."""
-        if isinstance(self.look.clip, BoxClip):
-            self.set_clip(dataclasses.replace(self.look.clip, low=low, high=high))
+        if self.look.cut.box is not None:
+            self.set_cut(dataclasses.replace(self.look.cut, box=Box(low, high), hexes=""))
 
     def set_handles(self, shown: bool) -> None:
         """Show or hide the handles of the cut."""
@@ -179,31 +192,38 @@ class ViewModel(QObject):
         self.rings = self.rings if rings is None else rings
         hexes = tuple(int(h) for h in hexes if self._document.has_hex(h))
         if hexes:
-            # Remove all that would hide them.
-            dug = self.look.dug - set(hexes)
-            self.change(isolation=Isolation(hexes, self.rings), quality_range=None, peel=0, dug=dug)
+            show = self.look.show
+            self.change(  # without the filters that would hide them
+                show=Show(
+                    isolate=Isolate(hexes, self.rings),
+                    hidden=show.hidden.difference(hexes),
+                    shrink=show.shrink,
+                    outline=show.outline,
+                )
+            )
 
     def set_rings(self, rings: int) -> None:
         """Set the number of rings around the isolated hexes."""
         self.rings = rings
-        if self.look.isolation is not None:
-            self.change(isolation=dataclasses.replace(self.look.isolation, rings=rings))
+        if self.look.show.isolate is not None:
+            self.change(show={"isolate": dataclasses.replace(self.look.show.isolate, rings=rings)})
 
     def end_isolation(self) -> None:
         """End the isolation."""
-        self.change(isolation=None)
+        self.change(show={"isolate": None})
 
     def dig(self, hex: int) -> None:
         """Dig away a hex."""
-        if hex not in self.look.dug and self._document.has_hex(hex):
+        hidden = self.look.show.hidden
+        if hex not in hidden and self._document.has_hex(hex):
             self._dug.append(int(hex))
-            self.change(dug=self.look.dug | {int(hex)})
+            self.change(show={"hidden": hidden | {int(hex)}})
 
     def undig_last(self) -> None:
         """Restore the hex that was dug away last."""
         if self._dug:
-            self.change(dug=self.look.dug - {self._dug.pop()})
+            self.change(show={"hidden": self.look.show.hidden - {self._dug.pop()}})
 
     def undig_all(self) -> None:
         """Restore all hexes that were dug away."""
-        self.change(dug=frozenset())
+        self.change(show={"hidden": frozenset()})

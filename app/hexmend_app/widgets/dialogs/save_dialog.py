@@ -36,7 +36,10 @@ class SaveDialog(QDialog):
         self._subject = subject
         self.suffixes = re.findall(r"\*(\.\w+)", kinds)
         self.target = TargetRow(
-            f"Save {subject} as", name, kinds, f"File to save {subject} to: {', '.join(self.suffixes)}."
+            tr("Save {subject} as", subject=subject),
+            name,
+            kinds,
+            tr("File to save {subject} to: {suffixes}.", subject=subject, suffixes=", ".join(self.suffixes)),
         )
         self.target.edited.connect(lambda: self.refuse(""))
         self._problem = note("", WORSE)
@@ -63,7 +66,7 @@ class SaveDialog(QDialog):
     def accept(self) -> None:
         """Close if the file can be written, else show the problem."""
         if self.target.empty:
-            self.refuse(f"Enter the file to save {self._subject} to.")
+            self.refuse(tr("Enter the file to save {subject} to.", subject=self._subject))
             return
         try:
             self.check()

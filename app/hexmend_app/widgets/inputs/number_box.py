@@ -12,6 +12,7 @@ from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.theme.palette import FIELD, MUTED, PANEL, TEXT, WORSE, WRONG, Role
 from hexmend_app.theme.style import on_theme_change, smaller, tabular
+from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_number
 
 #: Maximum length of a unit that is shown after the number, in letters.
@@ -93,7 +94,13 @@ class NumberBox(QAbstractSpinBox):
             # Not the last valid text: while 1e-3 is typed, that is 1.
             self._value = self._committed
             expected, previous = self._declaration.range, _text(self._value)
-            self._set_problem(f"Expected {expected}. {previous} is used until this is corrected.")
+            self._set_problem(
+                tr(
+                    "Expected {expected}. {previous} is used until this is corrected.",
+                    expected=expected,
+                    previous=previous,
+                )
+            )
         else:
             self._value = value
             self._set_problem("")

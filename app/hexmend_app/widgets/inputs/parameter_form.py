@@ -78,9 +78,9 @@ class ParameterForm(QWidget):
         self._grid.setColumnStretch(0, 1)
         self._grid.setColumnStretch(1, 1)
         self.none = note(tr("No parameters."))
-        self._defaults = self._button("Defaults", "restore", "Reset all parameters to their defaults.")
+        self._defaults = self._button(tr("Defaults"), "restore", tr("Reset all parameters to their defaults."))
         self._defaults.clicked.connect(self._reset_all)
-        self._explain = self._button("Explain", "help-circle-outline", "Show the help of each parameter.")
+        self._explain = self._button(tr("Explain"), "help-circle-outline", tr("Show the help of each parameter."))
         self._explain.setCheckable(True)
         self._explain.toggled.connect(self._show_help)
         foot = QHBoxLayout()
@@ -127,16 +127,17 @@ class ParameterForm(QWidget):
         self._refresh()
 
     def _make_row(self, at: int, declaration: Parameter) -> _Row:
-        name = name_in_words(declaration.name)
+        name, help = tr(name_in_words(declaration.name)), tr(declaration.help)
         editor = editor_for(declaration)
         default = declaration.default
         shown = short_number(default) if isinstance(default, float) else str(default)
-        tip = f"{escape(declaration.help)}<br><i>{escape(declaration.range.capitalize())}; default {escape(shown)}.</i>"
+        expected = tr("{range}; default {default}.", range=declaration.range.capitalize(), default=shown)
+        tip = f"{escape(help)}<br><i>{escape(expected)}</i>"
         set_help(editor, name, tip)
-        editor.setAccessibleDescription(declaration.help)
+        editor.setAccessibleDescription(help)
         label = QLabel(name)
         if isinstance(editor, NumberBox) and len(declaration.unit) > LONGEST_UNIT:
-            label.setText(f"{escape(name)}<br><small>{escape(declaration.unit)}</small>")
+            label.setText(f"{escape(name)}<br><small>{escape(tr(declaration.unit))}</small>")
         label.setWordWrap(True)
         label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         label.setMinimumWidth(_longest_word_width(label, name))
@@ -151,7 +152,7 @@ class ParameterForm(QWidget):
         policy = reset.sizePolicy()
         policy.setRetainSizeWhenHidden(True)
         reset.setSizePolicy(policy)
-        row = _Row(declaration, label, editor, reset, note("", WORSE), note(declaration.help))
+        row = _Row(declaration, label, editor, reset, note("", WORSE), note(help))
         editor.changed.connect(self._on_changed)
         reset.clicked.connect(lambda: self._reset([row]))
         self._grid.addWidget(label, at, 0)

@@ -56,6 +56,34 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_motion(parser: argparse.ArgumentParser) -> None:
+    """Declare the options for interfaces between materials and for the nodes of named sets."""
+    parser.add_argument(
+        "--interfaces",
+        choices=("keep", "slide", "free"),
+        help="nodes between materials: keep them like the boundary (default), let them slide on the interface, or let "
+        "them move freely",
+    )
+    add_repeated(parser, "--fix", "SET", "fix the nodes of this set")
+    add_repeated(parser, "--slide", "SET", "let the nodes of this set slide even if the boundary is fixed")
+    add_repeated(parser, "--free", "SET", "free the pinned nodes, and those of interfaces, of this set")
+    add_repeated(parser, "--plane", "SET", "let the nodes of this flat set move in its plane")
+    parser.add_argument(
+        "--periodic",
+        nargs=2,
+        metavar=("SET", "OTHER"),
+        action="append",
+        default=[],
+        help="move the nodes of two sets as one, such as the two sides of a periodic cell",
+    )
+
+
+def add_rewrite(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that writes a file anew where coordinates could be replaced in a copy of the given one."""
+    text = "write the file anew; else, in the format of MESH, only the coordinates change and all else is kept"
+    parser.add_argument("--rewrite", action="store_true", help=text)
+
+
 def add_force(parser: argparse.ArgumentParser) -> None:
     """Declare the option that runs a method in spite of a shortage of memory."""
     parser.add_argument("--force", action="store_true", help="run even if memory will probably not suffice")
@@ -81,9 +109,11 @@ def parse_settings(words: list[str]) -> dict[str, str]:
 
 
 def _add_boundary(parser: argparse.ArgumentParser) -> None:
-    """Declare the short form of `--set boundary=...`."""
+    """Declare the short forms of `--set boundary=...` and `--set goal=...`."""
     text = "keep the nodes of the boundary fixed (default) or let them slide on the surface"
     parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
+    text = "optimum of shape (default), greatest least scaled Jacobian, or greatest smallest explicit time step"
+    parser.add_argument("--goal", choices=("shape", "scaled-jacobian", "time-step"), help=text)
 
 
 def _add_target(parser: argparse.ArgumentParser) -> None:

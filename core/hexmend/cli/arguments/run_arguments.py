@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from hexmend.cli.arguments.options import parse_settings
 from hexmend.errors import ParameterError
 from hexmend.io import read_surface
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import declared, from_strings
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
@@ -19,6 +21,7 @@ from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 #: Parameters with an option of their own, and what is said of methods that do not have them.
 _WITHOUT = {
     "boundary": "the boundary stays fixed in",
+    "goal": "only mend has goals, not",
     "surface_tolerance": "the boundary stays fixed in",
     "target": "there are no targets in",
     "layers": "there are no targets, which keep layers, in",
@@ -44,7 +47,7 @@ def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop
     if args.recipe:
         if args.method or args.set or _given_options(args):
             raise ParameterError(
-                "--recipe names its methods and their values: leave out --method, --set, --boundary, "
+                "--recipe names its methods and their values: leave out --method, --set, --boundary, --goal, "
                 "--surface-tolerance, --target and --layers, or change the recipe"
             )
         return read_recipe(args.recipe).limited(**given_limits(args)), None
@@ -101,6 +104,15 @@ def given_limits(args: argparse.Namespace) -> dict[str, Any]:
 def _given_words(args: argparse.Namespace) -> dict[str, str]:
     words = {limit.name: getattr(args, limit.name) for limit in declared(StoppingCriteria)}
     return {name: text for name, text in words.items() if text is not None}
+
+
+def motion_rules(args: argparse.Namespace) -> MotionRules:
+    """Return the rules of motion of the options of `add_motion`; those of a recipe come first."""
+    given = MotionRules(args.interfaces or "keep", args.fix, args.slide, args.free, args.plane, args.periodic)
+    if not args.recipe:
+        return given
+    rules = read_recipe(args.recipe).rules.merge(given)
+    return replace(rules, interfaces=args.interfaces or rules.interfaces)
 
 
 def with_surface(args: argparse.Namespace, mesh: Mesh, method: Smoother | Recipe) -> Mesh:

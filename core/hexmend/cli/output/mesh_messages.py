@@ -16,9 +16,9 @@ def print_notes(mesh: Mesh) -> None:
         print(f"hexmend: {note}", file=sys.stderr)
 
 
-def warn_of_losses(path: str, mesh: Mesh) -> None:
+def warn_of_losses(path: str, mesh: Mesh, source: str | None = None) -> None:
     """Print a warning for each part of the mesh that the file to be written cannot hold."""
-    for part in unsupported_data(path, mesh):
+    for part in unsupported_data(path, mesh, source):
         print(f"hexmend: warning: {path} cannot hold {part}, which is left out", file=sys.stderr)
 
 

@@ -11,12 +11,15 @@ from hexmend.errors import MeshError
 from hexmend.mesh.cells import CELL_KINDS, Cells
 from hexmend.mesh.mesh import Mesh, TargetSurface
 from hexmend.mesh.size_limits import check_size
+from hexmend.mesh.two_dimensional import with_two_dimensional_motion
 from hexmend.mesh.validation import check_finite, check_node_numbers
 
 _TABLES = ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets", "field_data")
 #: Fields of a mesh, and the version of sessions that introduced each.
 _SINCE = dict.fromkeys(("points", "hexes", "surface", "pinned", "mid_nodes", "cells", "name", "notes", *_TABLES), 1) | {
-    "target": 2
+    "target": 2,
+    "side_set_types": 6,
+    "periodic_pairs": 6,
 }
 #: Fields that are set for each mesh; meshes with the same other fields share them.
 _UNSHARED = {"points", "surface", "mid_nodes"}
@@ -35,6 +38,8 @@ def mesh_to_data(mesh: Mesh) -> dict[str, Any]:
         "cells": [{"kind": c.kind, "nodes": c.nodes, "data": c.data, "sets": c.sets} for c in mesh.cells],
         "name": mesh.name,
         "notes": list(mesh.notes),
+        "side_set_types": dict(mesh.side_set_types),
+        "periodic_pairs": [list(pair) for pair in mesh.periodic_pairs],
         **{table: dict(getattr(mesh, table)) for table in _TABLES},
     }
 
@@ -68,7 +73,7 @@ class MeshDecoder:
         mesh = carrier.with_points(surface).keeping_surface().with_points(points)
         if mid_nodes is not None:  # last, because with_points would move the mid-nodes and round points
             mesh = mesh.replace(mid_nodes=_array(data, "mid_nodes", "i", (len(mesh.hexes), 19)))
-        return mesh
+        return with_two_dimensional_motion(mesh)
 
     def _carrier(self, data: Mapping[str, Any], points: np.ndarray) -> Mesh:
         hexes = _array(data, "hexes", "i", (-1, 8))
@@ -132,6 +137,8 @@ def _decode_fields(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
         "cells": tuple(_cells(block, n) for block in data["cells"]),
         "name": data["name"],
         "notes": tuple(data["notes"]),
+        "side_set_types": data.get("side_set_types", {}),
+        "periodic_pairs": data.get("periodic_pairs", []),
     }
 
 

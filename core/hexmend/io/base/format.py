@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from enum import Enum
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from hexmend.aliases import exports, reads_old_members, reads_old_names
 from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
+
+if TYPE_CHECKING:
+    from hexmend.io.coordinates.located import LocatedCoordinates
 
 
 @reads_old_members
@@ -32,6 +35,22 @@ class Capability(Enum):
     OTHER_CELLS = "tetrahedra, pyramids and wedges"
     SECOND_ORDER = "nodes of second order"
     FIELD_DATA = "field data"
+
+
+class FolderPlace(Protocol):
+    """Folders and files in them that are of a format whose meshes have several files."""
+
+    def contains(self, path: Path) -> bool:
+        """Return True if a path is of the format, whatever the content of a file is."""
+
+    def parts(self, path: Path) -> list[Path]:
+        """Return the files that a mesh is read from."""
+
+    def is_same(self, a: Path, b: Path) -> bool:
+        """Return True if two paths lead to one existing mesh."""
+
+    def check_target(self, path: Path, mesh: Mesh, source: Path | None) -> None:
+        """Raise `FileError` where a path cannot take a mesh, which was read from `source` if that is not None."""
 
 
 @reads_old_names
@@ -63,6 +82,12 @@ class Format:
         False if coordinates are rounded.
     limitations : callable, optional
         limitations(mesh) describes data of the mesh that are lost although the format has the capability, list of str.
+    locate : callable, optional
+        locate(path) finds the coordinates of a file, so that they can be replaced in a copy of it; returns
+        `hexmend.io.coordinates.located.LocatedCoordinates`.
+    place : FolderPlace, optional
+        For formats of several files. `write` and the located coordinates then get the path that was named, and replace
+        files themselves.
     """
 
     name: str
@@ -76,6 +101,8 @@ class Format:
     matches: Callable[[bytes], bool] | None = None
     exact: bool = True
     limitations: Callable[[Mesh], list[str]] | None = None
+    locate: Callable[[Path], LocatedCoordinates] | None = None
+    place: FolderPlace | None = None
 
 
 #: All formats of Hexmend by name; those of other distributions are in `hexmend.io.base.plugins`.

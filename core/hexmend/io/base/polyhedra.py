@@ -29,6 +29,8 @@ LOOPS = {
     "pyramid": ((0, 1, 2, 3), (0, 4, 1), (0, 3, 4), (1, 4, 2), (2, 4, 3)),
     "tetra": ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)),
 }
+#: Cells that are searched at a time: their faces stay in the cache.
+_CHUNK = 1 << 13
 #: Faces that meet the base in corner 0.
 _CORNER_FACES = {"hex": (2, 4), "wedge": (1, 2), "pyramid": (1, 2), "tetra": (1, 2)}
 
@@ -81,11 +83,25 @@ def cells_from_faces(
 
 
 def _of_kind(kind: str, faces: RaggedArray, cells: RaggedArray, turned: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    which = np.flatnonzero(cells.lengths == len(LOOPS[kind]))
+    chunks = [which[begin : begin + _CHUNK] for begin in range(0, len(which), _CHUNK)]
+    lengths = faces.lengths
+    found = [
+        part for part in (_nodes_of(kind, faces, lengths, cells, turned, chunk) for chunk in chunks) if len(part[0])
+    ]
+    if not found:
+        return which[:0], np.empty((0, 0), np.int64)
+    return np.concatenate([numbers for numbers, _ in found]), np.concatenate([nodes for _, nodes in found])
+
+
+def _nodes_of(
+    kind: str, faces: RaggedArray, lengths: np.ndarray, cells: RaggedArray, turned: np.ndarray, which: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Find those of some cells that are of a kind, and their nodes; `lengths` are those of the faces."""
     sizes = [len(loop) for loop in LOOPS[kind]]
     count, base = len(sizes), sizes[0]
-    which = np.flatnonzero(cells.lengths == count)
     at = cells.start[which][:, None] + np.arange(count)
-    widths = faces.lengths[cells.values[at]]
+    widths = lengths[cells.values[at]]
     alike = (np.sort(widths, axis=1) == sorted(sizes)).all(axis=1)
     which, at, widths = which[alike], at[alike], widths[alike]
     if not len(which):

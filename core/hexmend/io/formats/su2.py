@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from hexmend.io.base.format import Capability, register
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.base.unique_names import altered_names, make_unique
+from hexmend.io.coordinates.text_coordinates import TextCoordinates, blanked, fields_of_words, word_ranges
 from hexmend.mesh.mesh import Mesh
 
 #: Kinds of elements by type number; the format has no others.
@@ -36,7 +38,7 @@ class _Zone:
 def read(path: Path) -> Mesh:
     """Read all zones as one mesh; markers are sets of boundary cells."""
     data = read_text_bytes(path)
-    cursor = ByteCursor(path, _COMMENT.sub(b"", data) if b"%" in data else data)
+    cursor = ByteCursor(path, blanked(data, b"%"))
     keys = list(_KEY.finditer(cursor.data))
     zones = [_Zone()]
     announced, tag = 1, ""
@@ -131,6 +133,23 @@ def _read_cells(cursor: ByteCursor, end: int, count: int, name: str) -> dict[str
     raise cursor.error(f"{name} holds {values.size} numbers, which are not {count} elements of the types {types}")
 
 
+def locate(path: Path) -> TextCoordinates:
+    """Find the coordinates of a file that the reader has accepted."""
+    data = read_text_bytes(path)
+    cursor = ByteCursor(path, blanked(data, b"%"))
+    keys = [*_KEY.finditer(cursor.data), None]
+    first, last, points = [], [], []
+    for found, following in pairwise(keys):
+        if found[1].upper() == b"NPOIN":
+            count = cursor.parse_count(found[2].split()[0].decode(), "NPOIN")
+            cursor.pos = min(found.end() + 1, len(data))
+            begin, end = word_ranges(cursor.data, cursor.pos, following.start() if following else len(data))
+            points.append(_read_points(cursor, following.start() if following else len(data), count))
+            first.append(begin.reshape(count, -1)[:, :3])
+            last.append(end.reshape(count, -1)[:, :3])
+    return TextCoordinates(data, np.concatenate(points), fields_of_words(np.concatenate(first), np.concatenate(last)))
+
+
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write one zone; sets of quads and triangles are its markers.
 
@@ -195,4 +214,5 @@ register(
     capabilities=frozenset({Capability.CELL_SETS, Capability.OTHER_CELLS}),
     limitations=limitations,
     matches=_matches,
+    locate=locate,
 )

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from hexmend.errors import FileError
-from hexmend.io.files import check_readable, reading
+from hexmend.io.storage.readable import check_readable, reading
 
 
 def read_text(path: str | os.PathLike[str], label: str, largest: int) -> str:

@@ -1,36 +1,42 @@
-"""Corners of a mesh that can be moved, with their scaled Jacobians."""
+"""Corners of a mesh that can be moved, with the values of a measure."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.mesh.components import components
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh.linear_motion.constrained_points import with_ties_fixed
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.maxmin.corner_values import scaled_jacobians
+from hexmend.optimise.maxmin.corner_measure import SCALED_JACOBIAN, CornerMeasure
 from hexmend.quality.measure import fixed_tetrahedra
 
 
 class MovableCorners:
-    """Corners with a free node, and their scaled Jacobians as nodes move.
+    """Corners with a free node, and the values of a measure as nodes move.
 
     Parameters
     ----------
     mesh : Mesh
         Its free nodes are moved.
     points : (n, 3) float64
+    measure : CornerMeasure, optional
+        The scaled Jacobian by default.
 
     Attributes
     ----------
     mesh : Mesh
+    measure : CornerMeasure
     values : (m, 8) float64
-        Scaled Jacobian of each corner, including those that cannot be moved.
+        Value of each corner, including those that cannot be moved.
     frozen : (m, 8) bool
         Corners that could be moved, but whose nodes all stay.
     """
 
-    def __init__(self, mesh: Mesh, points: np.ndarray):
-        self.values = scaled_jacobians(points, mesh.hexes)
+    def __init__(self, mesh: Mesh, points: np.ndarray, measure: CornerMeasure = SCALED_JACOBIAN):
+        self.measure = measure
+        self.values = measure.values(points, mesh.hexes)
         self.frozen = np.zeros(self.values.shape, dtype=bool)
         self._stays = np.zeros(mesh.n_nodes, dtype=bool)
         self.set_mesh(mesh)
@@ -63,6 +69,8 @@ class MovableCorners:
     def freeze(self, corners: np.ndarray) -> None:
         """Fix the nodes of corners (k,), 8 * hex + corner; corners of which no node is left to move are frozen."""
         self._stays[self.nodes_of(corners)] = True
+        if self.mesh.linear_motion is not None:
+            self._stays = with_ties_fixed(self.mesh.linear_motion, self._stays)
         moves = self.mesh.free & ~self._stays
         self.frozen = ~moves[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2) & ~self._locked
 
@@ -71,8 +79,13 @@ class MovableCorners:
         self.frozen[:] = self._stays[:] = False
 
     def movable(self, nodes: np.ndarray) -> np.ndarray:
-        """Select those of some nodes that are free and not frozen, (k,) int."""
-        return nodes[self.mesh.free[nodes] & ~self._stays[nodes]]
+        """Select those of some nodes that are free and not frozen, with the nodes that move with them, (k,) int."""
+        nodes = nodes[self.mesh.free[nodes] & ~self._stays[nodes]]
+        motion = self.mesh.linear_motion
+        if motion is None:
+            return nodes
+        roots = motion.roots(self.mesh.n_nodes)
+        return np.flatnonzero(mask(roots[nodes], roots.size)[roots])
 
     def nodes_of(self, corners: np.ndarray) -> np.ndarray:
         """Apex and ends of the edges of corners, 8 * hex + corner, (k, 4) int32."""
@@ -85,6 +98,8 @@ class MovableCorners:
         """
         nodes, count = self.nodes_of(corners), len(corners)
         corner, end = np.nonzero(self.mesh.free[nodes])
+        if self.mesh.linear_motion is not None:
+            nodes = self.mesh.linear_motion.roots(self.mesh.n_nodes)[nodes]
         slot = np.unique(nodes, return_inverse=True)[1].reshape(nodes.shape)
         links = np.column_stack([corner, count + slot[corner, end]])
         return components(count + nodes.size, links)[:count]
@@ -95,4 +110,4 @@ class MovableCorners:
 
     def update(self, points: np.ndarray, hexes: np.ndarray) -> None:
         """Compute the values of some hexes (k,) at points (n, 3)."""
-        self.values[hexes] = scaled_jacobians(points, self.mesh.hexes[hexes])
+        self.values[hexes] = self.measure.values(points, self.mesh.hexes[hexes])

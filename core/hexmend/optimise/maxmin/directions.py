@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.boundary import SlidingBoundary
 
 #: Directions around a point of a patch, in the basis of its tangent plane.
-_AROUND = np.array([(np.cos(angle), np.sin(angle), 0.0) for angle in np.arange(8) * np.pi / 4]).round(15)
+AROUND = np.array([(np.cos(angle), np.sin(angle), 0.0) for angle in np.arange(8) * np.pi / 4]).round(15)
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,11 +24,24 @@ class StepDirections:
         The displacement: along a tangent where the node slides.
     projected : (w, 3) float64
         The displacement after projection; on a faceted surface each direction leads to another plane.
+    unknown : (w,) int, optional
+        The unknown that each belongs to: a tied node steps with its master. By default each has one of its own.
     """
 
     node_index: np.ndarray
     displacements: np.ndarray
     projected: np.ndarray
+    unknown: np.ndarray | None = None
+
+    @property
+    def columns(self) -> np.ndarray:
+        """The unknown of each direction, (w,) int."""
+        return np.arange(self.node_index.size) if self.unknown is None else self.unknown
+
+    @property
+    def n_unknowns(self) -> int:
+        """Number of unknowns."""
+        return int(self.columns.max(initial=-1)) + 1
 
 
 def step_directions(
@@ -67,11 +80,11 @@ def step_directions(
     if slides.any():
         sliding_index = np.flatnonzero(slides)
         bases = sliding.tangent_bases(x[sliding_index], nodes[sliding_index])
-        tangents = np.einsum("kij,wj->kwi", bases, _AROUND).reshape(-1, 3)
+        tangents = np.einsum("kij,wj->kwi", bases, AROUND).reshape(-1, 3)
         admissible = np.linalg.norm(tangents, axis=1) > 0.5  # on a curve those along it, each once
-        on_patch = np.repeat(bases[:, :, 1].any(axis=1), len(_AROUND))
-        admissible &= np.tile(_AROUND[:, 1] == 0, sliding_index.size) | on_patch
-        tangents, tangent_index = tangents[admissible], np.repeat(sliding_index, len(_AROUND))[admissible]
+        on_patch = np.repeat(bases[:, :, 1].any(axis=1), len(AROUND))
+        admissible &= np.tile(AROUND[:, 1] == 0, sliding_index.size) | on_patch
+        tangents, tangent_index = tangents[admissible], np.repeat(sliding_index, len(AROUND))[admissible]
         distance = np.maximum(radius * size[tangent_index, None], np.finfo(float).tiny)  # nodes may coincide
         start = x[tangent_index]
         on_surface = (sliding.project(start + distance * tangents, nodes[tangent_index]) - start) / distance

@@ -66,8 +66,8 @@ class LPSolution:
 
     Parameters
     ----------
-    lengths : (w,) float64
-        Length of the step in each direction.
+    lengths : (u,) float64
+        Length of the step of each unknown.
     gain : float
         Rise of the least by the models.
     multipliers : (r,) float64
@@ -142,10 +142,10 @@ def build_program(
     pair = np.repeat(np.arange(node_index.size), count)
     direction = np.arange(pair.size) + np.repeat(first[node_index] - np.cumsum(count) + count, count)
     slopes = np.einsum("ki,ki->k", constraints.slopes[model[pair], place[pair]], directions.projected[direction])
-    unknowns, models = directions.node_index.size + 1, len(constraints.nodes)
+    unknowns, models = directions.n_unknowns + 1, len(constraints.nodes)
     entries = np.concatenate([-slopes, constraints.has_gain])
     rows = np.concatenate([model[pair], np.arange(models)])
-    columns = np.concatenate([direction, np.full(models, unknowns - 1)])
+    columns = np.concatenate([directions.columns[direction], np.full(models, unknowns - 1)])
     cost = np.full(unknowns, MOVE_COST / max(nodes.size, 1))
     cost[-1] = -1.0
     bounds = np.zeros((unknowns, 2))

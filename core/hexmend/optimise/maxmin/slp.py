@@ -1,4 +1,4 @@
-"""Sequential linear programming with a trust region: the least scaled Jacobian of a mesh is raised as far as it goes.
+"""Sequential linear programming with a trust region: the least value of a measure is raised as far as it goes.
 
 The least of many functions has no derivative where two of them are equal, which is where its maximum lies. So each step
 takes all functions that could become the least by their linear models, and finds the displacement within a trust region
@@ -17,8 +17,9 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.mesh.edge_length import shortest_edges
 from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.maxmin.constrained_directions import constrained_directions, least_of_tied
+from hexmend.optimise.maxmin.corner_measure import SCALED_JACOBIAN, CornerMeasure
 from hexmend.optimise.maxmin.corner_set import MovableCorners
-from hexmend.optimise.maxmin.corner_values import gradients
 from hexmend.optimise.maxmin.directions import step_directions
 from hexmend.optimise.maxmin.envelope import Envelope
 from hexmend.optimise.maxmin.linear_program import LinearConstraints, solve
@@ -33,7 +34,7 @@ class MaxMinStep:
     ----------
     points : (n, 3) float64
     least : float
-        The least scaled Jacobian of the corners that can be moved.
+        The least value of the corners that can be moved, in the mesh's unit.
     corners : int
         Number of corners whose nodes moved.
     radius : float
@@ -58,7 +59,7 @@ class ActiveCorners:
     Parameters
     ----------
     least : float
-        The least scaled Jacobian of the corners that can be moved.
+        The least value of the corners that can be moved.
     hexes, corners : (k,) int64
         Hex and corner (0 to 7) of each, by descending multiplier. Raising one lowers others of its connected group.
     """
@@ -69,7 +70,7 @@ class ActiveCorners:
 
 
 class MaxMinOptimiser:
-    """Optimiser of the least scaled Jacobian of the corners that can be moved.
+    """Optimiser of the least value of the corners that can be moved.
 
     Parameters
     ----------
@@ -80,6 +81,8 @@ class MaxMinOptimiser:
     sliding : SlidingBoundary, optional
         The boundary's nodes slide on it; `mesh` is its mesh then.
     config : SLPConfig, optional
+    measure : CornerMeasure, optional
+        The scaled Jacobian by default.
 
     Attributes
     ----------
@@ -91,9 +94,16 @@ class MaxMinOptimiser:
         The band in which the boundary stays.
     """
 
-    def __init__(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None = None, config: SLPConfig = SLP):
+    def __init__(
+        self,
+        mesh: Mesh,
+        points: np.ndarray,
+        sliding: SlidingBoundary | None = None,
+        config: SLPConfig = SLP,
+        measure: CornerMeasure = SCALED_JACOBIAN,
+    ):
         self.config = config
-        self.points, self.corners = points, MovableCorners(mesh, points)
+        self.points, self.corners = points, MovableCorners(mesh, points, measure)
         self.envelope = Envelope(mesh.n_nodes, sliding)
         self._begin()
 
@@ -101,6 +111,17 @@ class MaxMinOptimiser:
     def mesh(self) -> Mesh:
         """The mesh with its current fixed nodes: released nodes are free."""
         return self.corners.mesh
+
+    @property
+    def least(self) -> float:
+        """The least value of the corners that are raised, in the mesh's unit."""
+        return self.corners.active_minimum * self.corners.measure.unit
+
+    def measured_by(self, measure: CornerMeasure) -> MaxMinOptimiser:
+        """Return an optimiser of another measure that continues from here, with the same released nodes and band."""
+        other = MaxMinOptimiser(self.mesh, self.points, config=self.config, measure=measure)
+        other.envelope = self.envelope
+        return other
 
     def steps(self, target: float = np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
         """Raise the least until no step does any more, or it has reached `target`.
@@ -123,7 +144,7 @@ class MaxMinOptimiser:
             promised, points, moved = self._step(low, band)
             gain = self._accept(points, moved, least, promised) if promised > config.no_gain else 0.0
             if gain > 0:
-                yield MaxMinStep(self.points, self.corners.active_minimum, low.size, radius)
+                yield MaxMinStep(self.points, self.least, low.size, radius)
             gains.append(gain)
             enough = config.min_gain if least < config.acceptable else config.min_gain_acceptable
             if promised <= config.no_gain or sum(gains[-config.window :]) < enough:
@@ -161,7 +182,7 @@ class MaxMinOptimiser:
             corners.update(points, corners.hexes_at(moved))
             envelope.track(self.points, points, moved)
             self.points, self._radius = points, min(config.grow * self._radius, config.max_radius)
-            yield MaxMinStep(points, corners.active_minimum, low.size, radius)
+            yield MaxMinStep(points, self.least, low.size, radius)
         envelope.limit_to(max_deviation)
 
     def freeze(self, active: ActiveCorners) -> None:
@@ -174,7 +195,7 @@ class MaxMinOptimiser:
         if sliding is None or not envelope.max_deviation > 0:
             return False
         holding = np.unique(self.corners.nodes_of(8 * active.hexes + active.corners))
-        nodes = holding[envelope.slides(holding)]
+        nodes = holding[envelope.slides(holding) & ~sliding.confined[holding]]
         if not nodes.size and active.least <= 0:
             nodes = holding[sliding.releasable[holding] & ~mesh.free[holding]]
             fixed = mesh.fixed.copy()
@@ -202,9 +223,12 @@ class MaxMinOptimiser:
         near = (8 * around[:, None] + np.arange(8)).ravel()
         near = near[corners.active_values().ravel()[near] - least < band + self.config.max_slope * radius]
         corner_nodes = corners.nodes_of(near)
-        values, derivatives = gradients(self.points, corner_nodes)
-        size = shortest_edges(self.points, self.mesh.hexes[around])
-        constraints = LinearConstraints(corner_nodes, np.maximum(values - least, 0.0), derivatives, np.ones(near.size))
+        models = corners.measure.models(self.points, corner_nodes)
+        size, motion = shortest_edges(self.points, self.mesh.hexes[around]), self.mesh.linear_motion
+        if motion is not None:
+            size = least_of_tied(size, motion)
+        slack = np.maximum(models.values - least, 0.0)
+        constraints = LinearConstraints(corner_nodes[models.corner], slack, models.derivatives, np.ones(slack.size))
         moves = np.zeros(len(self.points))
         moves[nodes] = radius * size[nodes]
         bounds = envelope.bounds(self.points, moves)
@@ -212,13 +236,16 @@ class MaxMinOptimiser:
             np.maximum(bounds.slack, 0.0, out=bounds.slack)
         x, slides = self.points[nodes], envelope.slides(nodes)
         directions = step_directions(x, size[nodes], radius, nodes, slides, envelope.sliding)
+        if motion is not None:
+            directions = constrained_directions(directions, nodes, size[nodes], motion)
         solved = solve(nodes, directions, constraints.concatenate(bounds), radius, may_decrease=outside is not None)
         if solved is None:
             return 0.0, self.points, nodes
-        self._multipliers = near, solved.multipliers[: near.size]
+        self._multipliers = near, np.bincount(models.corner, solved.multipliers[: slack.size], near.size)
         points = self.points.copy()
-        np.add.at(points, nodes[directions.node_index], solved.lengths[:, None] * directions.displacements)
-        return solved.gain, envelope.project(self.points, points, nodes), nodes
+        lengths = solved.lengths[directions.columns, None]
+        np.add.at(points, nodes[directions.node_index], lengths * directions.displacements)
+        return solved.gain, envelope.project(self.points, self.mesh.constrained(points), nodes), nodes
 
     def _accept(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
         """Accept `points` if the gain is large enough, and adapt the trust region; returns the gain, 0 if rejected."""

@@ -68,7 +68,7 @@ def cell_geometry(points: np.ndarray, hexes: np.ndarray) -> CellGeometry:
     """
     points = as_points(points)
     hexes = as_hexes(hexes, len(points))
-    x, unit = _in_unit(points, hexes)
+    x, unit = in_unit(points, hexes)
     m = len(hexes)
     face_centres, face_areas = np.empty((3, 6, m)), np.empty((3, 6, m))
     centres, volumes = np.empty((3, m)), np.empty(m)
@@ -77,6 +77,31 @@ def cell_geometry(points: np.ndarray, hexes: np.ndarray) -> CellGeometry:
         face_centres[:, :, part], face_areas[:, :, part] = _faces(corners)
         centres[:, part], volumes[part] = _cells(face_centres[:, :, part], face_areas[:, :, part])
     return CellGeometry(x, unit, face_centres, face_areas, centres, volumes)
+
+
+def in_unit(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, float]:
+    """Return coordinates from the centre of the box of the hexes, in a unit near its size.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int
+
+    Returns
+    -------
+    coordinates : (3, n) float64
+    unit : float
+        A power of two.
+    """
+    used = points[hexes.ravel()] if len(hexes) * 8 < len(points) else points
+    if not len(used):
+        return np.zeros((3, len(points))), 1.0
+    low, high = used.min(axis=0), used.max(axis=0)
+    centre, size = low / 2 + high / 2, float((high / 2 - low / 2).max())
+    exponent = int(np.frexp(size)[1]) if size > 0 else 0
+    # In two steps, as the unit's reciprocal may overflow.
+    x = np.ldexp(points / 2 - centre / 2, -(exponent // 2))
+    return np.ascontiguousarray(np.ldexp(x, exponent // 2 - exponent + 1).T), float(np.ldexp(1.0, min(exponent, 1023)))
 
 
 def chunks(count: int) -> Iterator[slice]:
@@ -105,19 +130,6 @@ def divide(a: np.ndarray, b: np.ndarray, otherwise: np.ndarray | float) -> np.nd
     with np.errstate(over="ignore", invalid="ignore"):
         quotient = a / np.where(sound, b, 1.0)
     return np.where(sound & np.isfinite(quotient), quotient, otherwise)
-
-
-def _in_unit(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, float]:
-    """Coordinates (3, n) from the centre of the box of the hexes, in a unit near its size, and the unit."""
-    used = points[hexes.ravel()] if len(hexes) * 8 < len(points) else points
-    if not len(used):
-        return np.zeros((3, len(points))), 1.0
-    low, high = used.min(axis=0), used.max(axis=0)
-    centre, size = low / 2 + high / 2, float((high / 2 - low / 2).max())
-    exponent = int(np.frexp(size)[1]) if size > 0 else 0
-    # In two steps, as the unit's reciprocal may overflow.
-    x = np.ldexp(points / 2 - centre / 2, -(exponent // 2))
-    return np.ascontiguousarray(np.ldexp(x, exponent // 2 - exponent + 1).T), float(np.ldexp(1.0, min(exponent, 1023)))
 
 
 def _faces(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 
-from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy, SlidingEnergy
+from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import descend
@@ -20,6 +20,8 @@ from hexmend.smoothers.base_optimiser import Optimiser
 class GlobalDescent(Optimiser):
     """Search direction for all free nodes and a line search along it, repeated; a method chooses the direction."""
 
+    keeps_linear_motion = True
+
     @abstractmethod
     def direction(self) -> DirectionMethod:
         """The search direction: Algorithm A.2, A.3 or A.4."""
@@ -29,8 +31,10 @@ class GlobalDescent(Optimiser):
         return POLICIES[self.delta_policy](self.delta / (1.0 if self.delta_unit == "edge" else energy.unit**3))
 
     def steps(self, mesh: Mesh) -> Steps:
+        if mesh.linear_motion is not None:
+            mesh = mesh.with_points(mesh.constrained(mesh.points))
         sliding = self.sliding(mesh)
-        energy = MeshEnergy(mesh, self.norm) if sliding is None else SlidingEnergy(sliding, self.norm)
+        energy = energy_of(mesh, self.norm, sliding)
         find, policy, search = self.direction(), self.policy(energy), self.line_search
         points = energy.mesh.points
         x = energy.to_edge_units(points)

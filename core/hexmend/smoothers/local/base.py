@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
-from hexmend.energy import POLICIES
+from hexmend.energy import POLICIES, MeshEnergy
 from hexmend.energy.target import hex_sizes
+from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.constrained_sweeps import ConstrainedSweeps, newton_steps, steepest_descents
 from hexmend.parameters import parameter
 from hexmend.quality import measure
+from hexmend.smoothers.base import Sweep
 from hexmend.smoothers.base_optimiser import Optimiser
 
 #: Units of delta in mean edge lengths: a patch of eight hexes is two wide.
@@ -21,6 +25,9 @@ DELTA_UNITS = {"edge": 1.0, "extent": 2.0}
 class LocalOptimiser(Optimiser):
     """Steps with line search on the energy of one patch after another, each scaled to unit mean edge length."""
 
+    #: Search direction of a node.
+    direction: ClassVar[local.Direction] = local.Direction.NEWTON
+
     delta_unit: str = parameter(
         "edge",
         choices=tuple(DELTA_UNITS),
@@ -30,6 +37,18 @@ class LocalOptimiser(Optimiser):
     max_backtracks: int = parameter(
         100, low=1, high=200, help="Backtracks of a step after which the node does not move."
     )
+
+    def constrained_sweep(self, mesh: Mesh, linear: np.ndarray) -> Sweep:
+        energy = MeshEnergy(mesh, self.norm)
+        sweeps = ConstrainedSweeps(energy, linear)
+        find = steepest_descents if self.direction == local.Direction.STEEPEST_DESCENT else newton_steps
+
+        def sweep(points: np.ndarray) -> np.ndarray:
+            x = energy.to_edge_units(points)
+            sweeps(x, self.delta_at(mesh, points), find, self.line_search)
+            return np.where(linear[:, None], x * energy.unit, points)
+
+        return sweep
 
     def delta_at(self, mesh: Mesh, points: np.ndarray) -> float:
         """delta of a sweep that begins with the nodes at points (n, 3): zero in the feasible region, 3.2.4."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -23,8 +22,6 @@ from hexmend.smoothers.visit_order import ORDERS, VisitOrder
 class LocalDescent(LocalOptimiser):
     """One step with line search per free node and sweep, on the node's patch scaled to unit mean edge length."""
 
-    #: Search direction.
-    direction: ClassVar[local.Direction]
     bytes_per_hex = 400
 
     order: str = parameter(

@@ -32,14 +32,17 @@ def recentre_far_nodes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
     """
     size = shortest_edges(mesh.points, mesh.hexes[quality.inverted])
     far = np.isfinite(size) & (size > FAR_NODE_FACTOR * mesh.mean_edge_length)
-    points = mesh.points
-    for node in np.flatnonzero(far & mesh.free & ~mesh.topology.boundary):
+    points, motion = mesh.points, mesh.linear_motion
+    movable = mesh.free & mesh.interior
+    if motion is not None:
+        movable |= mesh.free & motion.marks(mesh.n_nodes)
+    for node in np.flatnonzero(far & movable):
         ring = mesh.topology.rings[node]
         ring = ring[~far[ring]]
         if ring.size:
             points = points.copy() if points is mesh.points else points
             points[node] = mesh.points[ring].mean(axis=0)
-    return points
+    return points if points is mesh.points else mesh.constrained(points)
 
 
 def inverted_corners(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:

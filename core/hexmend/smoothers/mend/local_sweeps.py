@@ -5,17 +5,22 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.arrays import mask
-from hexmend.energy import MeshEnergy
+from hexmend.energy import LinearMotionEnergy, MeshEnergy
 from hexmend.energy.hex_energy import as_omitted_corners
 from hexmend.kernels import local
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.validation import as_bools, points_like
+from hexmend.optimise.constrained_sweeps import ConstrainedSweeps, newton_steps
+
+SEARCH = LineSearch(max_backtracks=60)
 
 
 def local_sweeps(
     energy: MeshEnergy, x: np.ndarray, around: np.ndarray, omitted: np.ndarray, delta: float, sweeps: int
 ) -> np.ndarray:
     """Sweep over the inner nodes of some hexes and of their neighbours with local Newton steps.
+
+    Nodes with a linear motion take part, those of a boundary that slides do not.
 
     Nodes at hexes with omitted corners stay: a local energy would count these corners.
 
@@ -48,11 +53,16 @@ def local_sweeps(
     near = mask(mesh.hexes[around], mesh.n_nodes)
     near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
     near[mesh.hexes[omitted != 0]] = False
-    colours = mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary)
-    settings = local.NodeStepSettings(
-        local.Direction.MODIFIED_NEWTON, delta, energy.norm, LineSearch(max_backtracks=60), energy.target
-    )
+    motion = mesh.linear_motion
+    linear = np.zeros(mesh.n_nodes, dtype=bool) if motion is None else motion.marks(mesh.n_nodes)
+    colours = mesh.topology.colouring(near & mesh.free & mesh.interior & ~linear)
+    settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, delta, energy.norm, SEARCH, energy.target)
+    constrained = None
+    if (near & linear).any() and isinstance(energy, LinearMotionEnergy) and not energy.slides:
+        constrained = ConstrainedSweeps(energy.with_objective(energy.norm, omitted), near & linear)
     swept = x.copy()
     for _ in range(sweeps):
         local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
+        if constrained is not None:
+            constrained(swept, delta, newton_steps, SEARCH)
     return swept

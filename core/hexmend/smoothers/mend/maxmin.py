@@ -1,4 +1,4 @@
-"""Third stage of mend: the least scaled Jacobian is raised, one group of corners after another.
+"""Third stage of mend: the least value of a measure is raised, one group of corners after another.
 
 `MaxMinOptimiser` ends where some corners let the least rise no further. They are frozen, and the corners above them are
 raised in turn.
@@ -59,7 +59,7 @@ def maximise_minimum(
     infeasible: bool = False,
     config: MaxMinConfig = MAXMIN,
 ) -> Generator[Step, None, ActiveCorners]:
-    """Raise the least scaled Jacobian of the corners that can be moved.
+    """Raise the least value of the corners that can be moved.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def maximise_minimum(
         The first group that was stuck: it limits the least of all.
     """
     first = None
-    yield Step(optimiser.points, {"least": optimiser.corners.active_minimum}, intermediate=True, infeasible=infeasible)
+    yield Step(optimiser.points, {"least": optimiser.least}, intermediate=True, infeasible=infeasible)
     while True:
         for number, step in enumerate(optimiser.steps(target)):
             active = step if isinstance(step, ActiveCorners) else None

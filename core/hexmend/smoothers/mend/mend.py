@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy
+from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, measure
+from hexmend.quality.corner_heights import least_heights
 from hexmend.smoothers.base import Steps, method, objective_of_sound
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
@@ -22,6 +23,7 @@ from hexmend.smoothers.mend.messages import freed_message, limit_message, omissi
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
+from hexmend.smoothers.mend.time_step import maximise_time_step
 from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
 
 #: Share by which least q and least scaled Jacobian may both fall where a mesh has a target.
@@ -38,11 +40,13 @@ class Mend(ObjectiveSmoother):
     help = "Untangles as far as the fixed nodes allow, then finds the optimum of shape or of the worst corner."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     bytes_per_hex = 2200
+    keeps_linear_motion = True
 
     goal: str = parameter(
         "shape",
-        choices=("shape", "scaled-jacobian"),
-        help="shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian.",
+        choices=("shape", "scaled-jacobian", "time-step"),
+        help="shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian; time-step: or the "
+        "smallest explicit time step, the least height of a hex.",
     )
     max_p: float = parameter(
         1.0, low=1, high=32, help="If higher than p, p is doubled at the optimum up to this value, for the worst hexes."
@@ -73,39 +77,50 @@ class Mend(ObjectiveSmoother):
     @property
     def maximises_jacobian(self) -> bool:
         """The least scaled Jacobian is the goal."""
+        return self.goal == "scaled-jacobian"
+
+    @property
+    def maximises_minimum(self) -> bool:
+        """The least value of a measure of corners is the goal."""
         return self.goal != "shape"
 
     def steps(self, mesh: Mesh) -> Steps:
+        if mesh.linear_motion is not None:
+            mesh = mesh.with_points(mesh.constrained(mesh.points))
         yield Step(mesh.points)
-        norm, intermediate = ObjectiveNorm(self.p, self.offset), self.slides or self.maximises_jacobian
+        slides, norm = self.slides_on(mesh), ObjectiveNorm(self.p, self.offset)
+        intermediate = slides or self.maximises_minimum
         quality = measure(mesh.points, mesh.hexes)
         locked_at_start = locked_corners(mesh, quality)
-        if self.slides and mesh.target is not None:  # the boundary begins on the surface
+        if slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
             quality = measure(mesh.points, mesh.hexes)
-        shape = yield from self._shape(mesh, MeshEnergy(mesh, norm), quality, intermediate)
+        energy = energy_of(mesh, norm)
+        shape = yield from self._shape(mesh, energy, quality, intermediate or mesh.linear_motion is not None)
         if not intermediate:
             return shape.outcome
         fixed_optimum, sliding, max_deviation = shape.points, None, 0.0  # the optimum with the boundary fixed
         candidates = [mesh.points, fixed_optimum]
-        if self.slides:
+        if slides:
             max_deviation = self.absolute_tolerance(mesh)
-            sliding = SlidingBoundary(mesh, self.feature_angle, MAXMIN.surface_share * max_deviation)
+            sliding = SlidingBoundary(mesh, self.feature_angle, MAXMIN.surface_share * max_deviation, self.slides)
             mesh = sliding.mesh
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
             yield from maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
             freed = mesh.with_points(optimiser.points)
             quality = measure(freed.points, mesh.hexes)
-            shape = yield from self._shape(freed, SlidingEnergy(sliding, norm), quality, intermediate)
+            shape = yield from self._shape(freed, energy_of(mesh, norm, sliding), quality, intermediate)
             candidates += [freed.points, shape.points]
         result = yield from self._maxmin_stage(mesh, candidates, fixed_optimum, sliding, max_deviation)
+        if self.goal == "time-step":
+            result = yield from maximise_time_step(mesh, candidates, sliding, result)
         points = shape.points if result is None else result.optimiser.points
         outcome = shape.outcome if result is None else Outcome.NO_IMPROVEMENT
         active, sentences, quality = None, [], None
-        if self.maximises_jacobian:
+        if self.maximises_minimum:
             active = active_set(result.optimiser, result.active)
             sentences.append(limit_message(result.optimiser, result.active))
-        if self.slides:
+        if slides:
             quality = measure(points, mesh.hexes)
             sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
         decision = " ".join(filter(None, sentences))
@@ -122,7 +137,7 @@ class Mend(ObjectiveSmoother):
         config = UntanglingConfig(self.initial_epsilon, newton=newton)
         untangled = yield from untangle(mesh, energy.without_size(), quality, locked, config)
         points, omitted = untangled.points, untangled.omitted
-        if omitted.any() and not self.slides:
+        if omitted.any() and not self.slides_on(mesh):
             decision = omission_message(omitted, locked)
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)
@@ -169,11 +184,16 @@ class Mend(ObjectiveSmoother):
         harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
             return now.n_inverted, harmed, -now.scaled_jacobian.min()
+        if self.goal == "time-step":  # the time step itself comes last, see `further_rank`
+            return now.n_inverted, harmed if self.guard else False
         before, after = (objective_of_sound(of, self.norm) for of in (start, now))
         return now.n_inverted, harmed, after > before
 
+    def further_rank(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
+        return (-least_heights(points, hexes).min(),) if self.goal == "time-step" else ()
+
     def regression_hint(self, worse: tuple[str, ...]) -> str:
-        if self.maximises_jacobian or "inverted" in worse:
+        if self.maximises_minimum or "inverted" in worse:
             return ""
         if "scaled_jacobian" in worse:
             return "With goal=scaled-jacobian the least scaled Jacobian rises instead; with guard=true neither falls."

@@ -44,7 +44,7 @@ def freed_message(locked: np.ndarray, inverted: np.ndarray) -> str:
 
 
 def limit_message(optimiser: MaxMinOptimiser, active: ActiveCorners) -> str:
-    """Tell which corners limit the least scaled Jacobian, and which are locked below it; "" where none limits it.
+    """Tell which corners limit the least of the measure, and which are locked below it; "" where none limits it.
 
     Corners of several places reach the limit together, but hold each other within their own place alone.
     """
@@ -58,14 +58,16 @@ def limit_message(optimiser: MaxMinOptimiser, active: ActiveCorners) -> str:
         subject = f"{count} of them hold each other there, in the hexes"
     else:
         subject = f"it is limited by {count} corners at {places} separate places, in the hexes"
-    least = f"The least scaled Jacobian of the corners that can be moved is {active.least:.4f}"
+    measure = optimiser.corners.measure
+    least = f"The least {measure.title} of the corners that can be moved is {measure.text(active.least)}"
     sentence = f"{least}: {subject} {_first_hexes(active.hexes)}."
     locked = locked_below(optimiser, active)
     if not locked.size:
         return sentence
     which = "One corner is" if locked.size == 1 else f"{locked.size:,} corners are"
     lowest = optimiser.corners.values.ravel()[locked[0]]
-    return f"{sentence} {which} locked below that: {lowest:.4f} at the lowest, in hex {_first_hexes(locked[:1] // 8)}."
+    where = _first_hexes(locked[:1] // 8)
+    return f"{sentence} {which} locked below that: {measure.text(lowest)} at the lowest, in hex {where}."
 
 
 def _first_hexes(hexes: np.ndarray) -> str:

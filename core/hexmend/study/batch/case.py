@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hexmend.errors import ParameterError
+from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import Parametrised, parameter
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage, read_stage
@@ -76,8 +77,10 @@ class Case:
 
     def values(self) -> dict[str, Any]:
         """Return the case as data, without its name: the title of a recipe, and all values of the stages."""
-        title = self.smoother.title if isinstance(self.smoother, Recipe) else None
-        return {"recipe": title, "stages": [stage.values() for stage in self.stages]}
+        recipe = self.smoother if isinstance(self.smoother, Recipe) else None
+        title = None if recipe is None else recipe.title
+        motion = {"motion": recipe.rules.values()} if recipe is not None and recipe.rules else {}
+        return {"recipe": title, **motion, "stages": [stage.values() for stage in self.stages]}
 
 
 def read_case(data: Mapping[str, Any]) -> Case:
@@ -99,7 +102,7 @@ def read_case(data: Mapping[str, Any]) -> Case:
     """
     stages = tuple(read_stage(number, stage) for number, stage in enumerate(data["stages"], 1))
     if data["recipe"] is not None:
-        return Case(data["recipe"], Recipe(data["recipe"], stages))
+        return Case(data["recipe"], Recipe(data["recipe"], stages, MotionRules.from_values(data.get("motion", {}))))
     if len(stages) != 1:
         raise ParameterError(f"a method has {len(stages)} stages: expected one")
     return Case(stages[0].smoother.name, stages[0].smoother, stages[0].stop)

@@ -11,6 +11,7 @@ from typing import Any
 
 from hexmend.errors import FileError
 from hexmend.io.files import check_readable
+from hexmend.io.format_lookup import format_by_place
 from hexmend.io.formats.vtk.pvtu import piece_paths
 
 
@@ -57,7 +58,7 @@ class Task:
 
 
 def content_hash(path: Path) -> str:
-    """Return the SHA-256 of a file, in hexadecimal digits; for a PVTU file its pieces are included.
+    """Return the SHA-256 of a file, in hexadecimal digits; of a PVTU file with its pieces, of a case its mesh.
 
     Parameters
     ----------
@@ -72,8 +73,13 @@ def content_hash(path: Path) -> str:
     FileError
         If it cannot be read.
     """
-    check_readable(path, "a mesh file")
+    placed = format_by_place(path)
+    if placed is None:
+        check_readable(path, "a mesh file")
     try:
+        if placed is not None:
+            every = [_digest(part) for part in placed.place.parts(path)]
+            return hashlib.sha256("".join(every).encode()).hexdigest()
         digest = _digest(path)
         if path.suffix.lower() == ".pvtu":
             every = [digest, *(_digest(piece) for piece in piece_paths(path) if piece.is_file())]

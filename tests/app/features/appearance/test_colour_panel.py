@@ -8,10 +8,11 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel
 
+from hexmend.errors import ParameterError
 from hexmend.quality import METRICS, Metric
 from hexmend_app.features.appearance.colour_panel import ColourPanel
-from hexmend_app.picture.appearance import ColourScale, RangeMode
 from hexmend_app.picture.colour_map import value_maps
+from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
@@ -36,7 +37,7 @@ def panel(shown, unbounded):
 @pytest.fixture
 def emitted(panel):
     scales = []
-    panel.scale_changed.connect(scales.append)
+    panel.colours_changed.connect(scales.append)
     return scales
 
 
@@ -113,21 +114,21 @@ def test_each_choice_emits_one_signal(panel, emitted):
     press(panel, "acceptable")
     QTest.mouseClick(reverse(panel), _LEFT, pos=QPoint(8, reverse(panel).height() // 2))
     assert emitted == [
-        ColourScale("scaled-jacobian"),
-        ColourScale("scaled-jacobian", "cividis"),
-        ColourScale("scaled-jacobian", "cividis", RangeMode.ACCEPTABLE),
-        ColourScale("scaled-jacobian", "cividis", RangeMode.ACCEPTABLE, reverse=True),
+        Colours(metric="scaled-jacobian"),
+        Colours(metric="scaled-jacobian", map="cividis"),
+        Colours(metric="scaled-jacobian", map="cividis", range=Range.ACCEPTABLE),
+        Colours(metric="scaled-jacobian", map="cividis", range=Range.ACCEPTABLE, reverse=True),
     ]
 
 
 def test_unbounded_ranges_are_disabled(panel, emitted):
     choose(metrics(panel), "long")
-    assert emitted[-1].mode is RangeMode.FITTED
+    assert emitted[-1].range is Range.FITTED
     for mode in ("full", "acceptable"):
         assert not ranges(panel).button(mode).isEnabled()
         assert "unbounded" in ranges(panel).button(mode).toolTip()
         press(panel, mode)
-    assert panel.scale().mode is RangeMode.FITTED
+    assert panel.colours().range is Range.FITTED
     choose(metrics(panel), "q")
     assert ranges(panel).button("full").isEnabled()
 
@@ -137,7 +138,7 @@ def test_pinning_fixes_the_current_range(panel, emitted):
     panel.set_ends(0.123456, 0.987654)
     assert not low(panel).isEnabled()
     press(panel, "pinned")
-    assert emitted[-1].pinned == (0.123, 0.988)
+    assert emitted[-1].range == (0.123, 0.988)
     panel.set_ends(0, 1)  # of a later iteration
     assert (low(panel).value(), high(panel).value()) == (0.123, 0.988)
 
@@ -150,7 +151,7 @@ def test_a_number_being_typed_emits_no_signal(panel, emitted):
     assert high(panel).lineEdit().text() == "0.35"
     assert emitted == []
     QTest.keyClick(high(panel).lineEdit(), Qt.Key.Key_Tab)
-    assert [scale.pinned for scale in emitted] == [(0, 0.35)]
+    assert [colours.range for colours in emitted] == [(0, 0.35)]
 
 
 def test_invalid_limits_show_an_error_and_stay_as_typed(panel, emitted):
@@ -162,9 +163,9 @@ def test_invalid_limits_show_an_error_and_stay_as_typed(panel, emitted):
         choose(maps(panel), "plasma")
         choose(maps(panel), "viridis")
         assert low(panel).lineEdit().text() == text
-    assert all(scale.pinned == (0, 1) for scale in emitted)
+    assert all(colours.range == (0, 1) for colours in emitted)
     type_in(low(panel), "-1e-1")
-    assert emitted[-1].pinned == (-0.1, 1)
+    assert emitted[-1].range == (-0.1, 1)
     assert problem(panel) == ""
 
 
@@ -172,25 +173,25 @@ def test_arrow_keys_step_a_pinned_end(panel, emitted):
     press(panel, "pinned")
     high(panel).lineEdit().setFocus()
     QTest.keyClick(high(panel), Qt.Key.Key_Down)
-    assert emitted[-1].pinned == (0, 0.9)
+    assert emitted[-1].range == (0, 0.9)
 
 
 def test_typed_limits_are_remembered_for_their_metric(panel, emitted):
     press(panel, "pinned")
     type_in(low(panel), "0.25")
     choose(metrics(panel), "scaled-jacobian")
-    assert emitted[-1].mode is RangeMode.FULL
+    assert emitted[-1].range is Range.FULL
     choose(metrics(panel), "q")
     press(panel, "full")
     press(panel, "pinned")
-    assert emitted[-1].pinned == (0.25, 1)
+    assert emitted[-1].range == (0.25, 1)
 
 
-def test_a_scale_is_shown_without_a_signal(panel, emitted):
-    scale = ColourScale("scaled-jacobian", "inferno", RangeMode.PINNED, (-0.5, 0.5), True)
-    panel.set_scale(scale)
+def test_colours_are_shown_without_a_signal(panel, emitted):
+    colours = Colours(metric="scaled-jacobian", map="inferno", range=(-0.5, 0.5), reverse=True)
+    panel.set_colours(colours)
     assert emitted == []
-    assert panel.scale() == scale
+    assert panel.colours() == colours
     assert metrics(panel).currentData() == "scaled-jacobian"
     assert maps(panel).currentData() == "inferno"
     assert ranges(panel).value() == "pinned"
@@ -198,9 +199,9 @@ def test_a_scale_is_shown_without_a_signal(panel, emitted):
     assert reverse(panel).isChecked()
 
 
-def test_a_scale_checks_its_range():
-    for pinned in ((1, 1), (2, 1), (0, float("inf")), (float("nan"), 1)):
-        with pytest.raises(ValueError, match="the lower first"):
-            ColourScale(pinned=pinned)
+def test_colours_check_their_range():
+    for ends in ((1, 1), (2, 1), (0, float("inf")), (float("nan"), 1)):
+        with pytest.raises(ParameterError, match="range = "):
+            Colours(range=ends)
     with pytest.raises(dataclasses.FrozenInstanceError):
-        ColourScale().map = "plasma"
+        Colours().map = "plasma"

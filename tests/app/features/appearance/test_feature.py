@@ -8,7 +8,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox
 
-from hexmend_app.picture.appearance import ValueRange
 from hexmend_app.state.mesh.document import State
 from tests.app.driving import key, named, pixels, press, walk_to
 from tests.patience import PATIENCE
@@ -31,7 +30,7 @@ def differ(before, after):
 def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     whole, bar = pixels(window), window.canvas.colour_bar
     walk_to(window, named(panel, QComboBox, "Metric"), "scaled-jacobian")
-    assert window.session.view.look.scale.metric == "scaled-jacobian"
+    assert window.session.view.look.colours.metric == "scaled-jacobian"
     assert "Scaled Jacobian from -1 to 1" in bar.accessibleDescription()
     recoloured = pixels(window)
     assert differ(whole, recoloured) > 0.05
@@ -51,7 +50,7 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     values = now.scaled_jacobian[~now.inverted]
     assert (low.value(), high.value()) == pytest.approx((values.min(), values.max()), abs=0.01)
     press(named(panel, QAbstractButton, "Range: Pinned"))
-    assert window.session.view.look.scale.pinned == (low.value(), high.value())
+    assert window.session.view.look.colours.range == (low.value(), high.value())
 
 
 def test_faces_within_a_range_are_rebuilt_only_if_they_change(window, monkeypatch):
@@ -59,7 +58,7 @@ def test_faces_within_a_range_are_rebuilt_only_if_they_change(window, monkeypatc
     rebuilt = []
     rebuild = viewport.mesh_layer.rebuild
     monkeypatch.setattr(viewport.mesh_layer, "rebuild", lambda *arguments: (rebuilt.append(1), rebuild(*arguments)))
-    window.session.view.change(quality_range=ValueRange("q", 0.4, 1))
+    window.session.view.change(show={"quality": (0.4, 1)})
     window.refresh()
     moved = State.of(now.mesh.with_points(now.mesh.points * 1.01))  # of the same shape
     window.session.document.preview(moved)
@@ -80,7 +79,7 @@ def test_the_mesh_is_drawn_once_for_all_changes_of_one_turn(window, qtbot, monke
     drawn, draw = [], window.canvas.draw
     monkeypatch.setattr(window.canvas, "draw", lambda *arguments: (drawn.append(1), draw(*arguments)))
     for edges in (False, True, False):
-        window.session.view.change(edges=edges)
+        window.session.view.change(lines={"edges": None if edges else 0.0})
     assert drawn == []
     qtbot.waitUntil(lambda: len(drawn) > 0, timeout=PATIENCE)
     window.refresh()

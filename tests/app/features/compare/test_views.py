@@ -10,8 +10,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton
 
 from hexmend_app.features.compare.comparison_table import VIEW, title_of
-from hexmend_app.picture.appearance import ColourScale, RangeMode
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.colours import Range
+from hexmend_app.picture.cut import Cut
 from hexmend_app.state.mesh.document import State
 from tests.app.driving import LEFT, click, drag, key, pixels, press, seen_at
 from tests.app.features.compare.table import button, captions, model, row, tick
@@ -115,7 +115,7 @@ def test_all_views_have_the_same_cut_and_colours(compared):
     tick(compared, "getme", VIEW)
     tick(compared, "laplacian", VIEW)
     key(compared, Qt.Key.Key_C)
-    compared.session.view.change(scale=ColourScale(mode=RangeMode.FITTED))
+    compared.session.view.change(colours={"range": Range.FITTED})
     compared.refresh()
     first, *others = compared.canvas.panes.all
     assert 0 < first.shown < first.frame.mesh.n_hexes
@@ -157,15 +157,15 @@ def test_a_plane_dragged_in_the_first_view_cuts_all_views(compared, qtbot, arran
     if arranged == "wipe, the mesh at the right":
         compared.session.side_views.choose_wiped(1, 0)
     centre = compared.session.document.now.mesh.points.mean(axis=0)
-    compared.session.view.set_clip(PlaneClip.at((0, 0, 1), tuple(centre)))
+    compared.session.view.set_cut(Cut.at((0, 0, 1), tuple(centre)))
     compared.refresh()
     QApplication.processEvents()  # the row of the wipe makes the view smaller
     pixels(compared)
-    x, y, z = compared.session.view.look.clip.planes[0].origin
+    x, y, z = compared.session.view.look.cut.planes[0].origin
     place = seen_at(compared, (x + 4, y - 4, z))  # on the plane, next to its arrow
     before = compared.canvas.panes.all[1].shown
     drag(compared.canvas.interactor, place, place + QPoint(0, -30))
-    assert compared.session.view.look.clip.planes[0].origin[2] > z
+    assert compared.session.view.look.cut.planes[0].origin[2] > z
     compared.refresh()
     first, second = compared.canvas.panes.all
     assert second.shown == first.shown != before

@@ -8,7 +8,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
-from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.picture import Cut
 from tests.app.driving import drag, key, named, pixels, press, seen_at, tick
 
 
@@ -28,22 +28,22 @@ def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
     whole = moving(window)
     panel = window.features["cut"].panel
     tick(next(b for b in panel.findChildren(QCheckBox) if b.text() == "Cut"))
-    assert window.session.view.look.clip is not None
+    assert window.session.view.look.cut.active
     assert window.window_actions["cut"].isChecked()
     for text in ("Y", "Smooth cut" if cut == "smooth" else "Whole hexes"):
         choose(window, text)
-    clip = window.session.view.look.clip
+    clip = window.session.view.look.cut
     assert np.abs(clip.planes[0].normal).tolist() == [0, 1, 0]
-    assert clip.crinkle == (cut == "crinkle")
+    assert clip.style.value == cut
     halved = moving(window)
     assert (np.abs(halved - whole).sum(axis=2) > 60).mean() > 0.02
     slider = named(panel, QSlider, "Position")
     slider.setFocus()
     for _ in range(3):
         QTest.keyClick(slider, Qt.Key.Key_PageDown)
-    assert window.session.view.look.clip.planes[0].origin[1] != pytest.approx(clip.planes[0].origin[1])
+    assert window.session.view.look.cut.planes[0].point[1] != pytest.approx(clip.planes[0].point[1])
     key(window, Qt.Key.Key_C)
-    assert window.session.view.look.clip is None
+    assert window.session.view.look.cut == Cut()
     assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 
@@ -52,13 +52,13 @@ def test_the_plane_is_dragged_in_the_view(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "Z")
     window.canvas.draw_still()
-    before = window.session.view.look.clip
-    x, y, z = before.planes[0].origin
+    before = window.session.view.look.cut
+    x, y, z = before.planes[0].point
     place = seen_at(window, (x + 0.3, y - 0.3, z))  # on the plane, next to its arrow
     drag(window.canvas.interactor, place, place + QPoint(0, -60))
-    after = window.session.view.look.clip
-    assert after.planes[0].origin[2] > z
-    assert window.features["cut"].panel.clip() == after
+    after = window.session.view.look.cut
+    assert after.planes[0].point[2] > z
+    assert window.features["cut"].panel.cut() == after
 
 
 @pytest.mark.slow
@@ -66,18 +66,18 @@ def test_a_rotated_plane_snaps_to_a_nearby_axis(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "X")
     window.canvas.draw_still()
-    view, straight = window.canvas.interactor, window.session.view.look.clip
-    arrow = seen_at(window, np.array(straight.planes[0].origin) + (1.35, 0, 0))
+    view, straight = window.canvas.interactor, window.session.view.look.cut
+    arrow = seen_at(window, np.array(straight.planes[0].point) + (1.35, 0, 0))
     drag(view, arrow, arrow + QPoint(10, 2))
-    assert window.session.view.look.clip == straight
+    assert window.session.view.look.cut == straight
     drag(view, arrow, arrow + QPoint(60, 30))
-    turned = window.session.view.look.clip.planes[0].normal
+    turned = window.session.view.look.cut.planes[0].normal
     assert 0.1 < np.degrees(np.arccos(turned[0])) < 80
     assert np.degrees(np.arccos(turned[0])) > 8
     choose(window, "X")
     tick(next(b for b in window.features["cut"].panel.findChildren(QCheckBox) if b.text() == "Snap"))
     drag(view, arrow, arrow + QPoint(10, 2))
-    assert window.session.view.look.clip != straight
+    assert window.session.view.look.cut != straight
 
 
 @pytest.mark.slow
@@ -86,21 +86,21 @@ def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "Box")
     window.canvas.draw_still()
-    before = window.session.view.look.clip
-    assert isinstance(before, BoxClip)
-    (x0, y0, _), (x1, y1, z1) = before.low, before.high
+    before = window.session.view.look.cut
+    assert before.box is not None
+    (x0, y0, _), (x1, y1, z1) = before.box.low, before.box.high
     top = seen_at(window, ((x0 + x1) / 2, (y0 + y1) / 2, z1))
     drag(window.canvas.interactor, top, top + QPoint(0, -30))
-    after = window.session.view.look.clip
-    assert after.high[2] > z1
-    assert after.low == pytest.approx(before.low)
-    assert window.features["cut"].panel.clip() == after
+    after = window.session.view.look.cut
+    assert after.box.high[2] > z1
+    assert after.box.low == pytest.approx(before.box.low)
+    assert window.features["cut"].panel.cut() == after
     inside = moving(window)
     choose(window, "Inside")
-    assert window.session.view.look.clip.notch
+    assert window.session.view.look.cut.notch
     assert (np.abs(moving(window) - inside).sum(axis=2) > 60).mean() > 0.1
     key(window, Qt.Key.Key_C)
-    assert window.session.view.look.clip is None
+    assert window.session.view.look.cut == Cut()
     assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 
@@ -108,13 +108,13 @@ def test_two_planes_cut_a_corner_out(window, qtbot):
     key(window, Qt.Key.Key_C)
     one = window.canvas.viewport.shown
     press(named(window.features["cut"].panel, QPushButton, "Add plane"))
-    assert len(window.session.view.look.clip.planes) == 2
+    assert len(window.session.view.look.cut.planes) == 2
     both = window.canvas.viewport.shown
     choose(window, "All planes")
     corner = window.canvas.viewport.shown
     assert 0 < both < one < corner < window.session.document.now.mesh.n_hexes
     press(named(window.features["cut"].panel, QPushButton, "Remove plane"))
-    assert isinstance(window.session.view.look.clip, PlaneClip)
+    assert window.session.view.look.cut.planes
     assert window.canvas.viewport.shown == one
 
 
@@ -123,8 +123,8 @@ def test_a_cut_switched_off_and_on_between_two_refreshes_is_shown_as_on(window):
     window.refresh()
     box = named(window, QCheckBox, "Cut")
     assert box.isChecked()
-    clip = window.session.view.look.clip
+    clip = window.session.view.look.cut
     box.click()
-    window.session.view.set_clip(clip)
+    window.session.view.set_cut(clip)
     window.refresh()
     assert box.isChecked()

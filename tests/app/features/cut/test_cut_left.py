@@ -14,12 +14,11 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.picture import Cut, Page, write_scene
-from hexmend_app.picture.cut_planes import PlaneClip
 from tests.app.driving import open_and_wait
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
-CLIP = PlaneClip.at((1, 0.3, 0), (2.1, 2.0, 2.0))
+CUT = Cut.at((1, 0.3, 0), (2.1, 2.0, 2.0))
 
 
 @pytest.fixture
@@ -27,7 +26,7 @@ def moved(window, qtbot, tmp_path):
     """Cut and then smooth a mesh; return a mask of the visible hexes, which differ from those of a new cut."""
     io.write(tmp_path / "mesh.vtu", scrambled(grid(4), 0.9))
     open_and_wait(qtbot, window, tmp_path / "mesh.vtu")
-    window.session.view.set_clip(CLIP)
+    window.session.view.set_cut(CUT)
     window.refresh()
     kept = window.canvas.viewport.kept()
     with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
@@ -52,7 +51,7 @@ def test_the_command_line_draws_the_same_hexes_as_the_window(window, moved, tmp_
     seen = np.asarray(Image.open(tmp_path / "p.png")).astype(int)
     drawn = rendered(tmp_path, scene, tmp_path / "mesh.vtu")
     assert np.abs(drawn - seen).mean() < 0.2
-    anew = rendered(tmp_path, replace(scene, cut=Cut.from_clip(CLIP)), tmp_path / "mesh.vtu")
+    anew = rendered(tmp_path, replace(scene, cut=CUT), tmp_path / "mesh.vtu")
     assert np.abs(anew - seen).mean() > 1
 
 
@@ -62,26 +61,26 @@ def test_pictures_and_sessions_restore_the_cut_hexes(window, moved, qtbot, tmp_p
     assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     for name in ("p.png", "work.hexmend"):
         open_and_wait(qtbot, window, tmp_path / "mesh.vtu")
-        window.session.view.set_clip(CLIP)
+        window.session.view.set_cut(CUT)
         window.refresh()
         assert (window.canvas.viewport.kept() != moved).any()
         open_and_wait(qtbot, window, tmp_path / name)
         window.refresh()
         np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)
-    window.session.view.set_clip(CLIP)  # a new cut
+    window.session.view.set_cut(CUT)  # a new cut
     window.refresh()
     assert (window.canvas.viewport.kept() != moved).any()
 
 
 def test_a_preview_of_another_cut_does_not_change_the_view(window, moved):
     scene = window.canvas.scene(Page(pixels=(100, 80)))
-    window.canvas.draw_page(replace(scene, cut=Cut.from_clip(PlaneClip.at((0, 0, 1), (2.0, 2.0, 2.0)))))
-    window.session.view.change(shrink=0.1)
+    window.canvas.draw_page(replace(scene, cut=Cut.at((0, 0, 1), (2.0, 2.0, 2.0))))
+    window.session.view.change(show={"shrink": 0.1})
     window.refresh()
     np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)
 
 
 def test_a_scene_of_an_unmoved_mesh_lists_no_hexes(window, qtbot):
-    window.session.view.set_clip(CLIP)
+    window.session.view.set_cut(CUT)
     window.refresh()
     assert window.canvas.scene(Page()).cut.hexes == ""

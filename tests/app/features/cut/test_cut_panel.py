@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton, QSlider, QStyle, Q
 from superqt import QRangeSlider
 
 from hexmend_app.features.cut.cut_panel import CutPanel
-from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box
 from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
 
@@ -29,7 +30,7 @@ def panel(shown):
 @pytest.fixture
 def emitted(panel):
     planes = []
-    panel.clip_changed.connect(planes.append)
+    panel.cut_changed.connect(planes.append)
     return planes
 
 
@@ -80,33 +81,33 @@ def handle(slider):
 def test_the_panel_is_disabled_without_a_mesh(shown):
     panel = shown(CutPanel())
     assert not on(panel).isEnabled()
-    assert panel.clip() is None
+    assert panel.cut() == Cut()
 
 
 def test_switching_on_cuts_across_the_middle_and_off_again(panel, emitted):
     switch_on(panel)
-    assert emitted == [PlaneClip.at((1, 0, 0), (1, 15, 3))]
+    assert emitted == [Cut.at((1, 0, 0), (1, 15, 3))]
     switch_on(panel)
-    assert emitted[1:] == [None]
+    assert emitted[1:] == [Cut()]
 
 
 @pytest.mark.parametrize(("key", "normal"), [("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))])
 def test_axis_buttons_align_the_plane_and_centre_it(panel, emitted, key, normal):
-    panel.set_clip(PlaneClip.at((1, 2, 3), (0, 0, 2)))
+    panel.set_cut(Cut.at((1, 2, 3), (0, 0, 2)))
     QTest.mouseClick(axis(panel).button(key), _LEFT)
-    assert emitted == [PlaneClip.at(normal, (1, 15, 3))]
+    assert emitted == [Cut.at(normal, (1, 15, 3))]
 
 
 def test_dragging_the_slider_moves_the_plane_with_the_mouse(panel, emitted):
-    panel.set_clip(PlaneClip.at((0, 1, 0), (1, 15, 3)))
+    panel.set_cut(Cut.at((0, 1, 0), (1, 15, 3)))
     moved = slider(panel)
     start = handle(moved).center()
     QTest.mousePress(moved, _LEFT, pos=start)
     for dx in range(2, 42, 4):
         QTest.mouseMove(moved, start + QPoint(dx, 0))
     QTest.mouseRelease(moved, _LEFT, pos=start + QPoint(40, 0))
-    planes = [clip.planes[0] for clip in emitted]
-    places = [plane.origin[1] for plane in planes]
+    planes = [cut.planes[0] for cut in emitted]
+    places = [plane.point[1] for plane in planes]
     assert len(places) > 3
     assert places == sorted(places)
     assert places[-1] > 17
@@ -117,22 +118,22 @@ def test_dragging_the_slider_moves_the_plane_with_the_mouse(panel, emitted):
 def test_keys_move_the_plane_by_a_thousandth_and_to_the_ends(panel, emitted):
     switch_on(panel)
     QTest.keyClick(slider(panel), Qt.Key.Key_Right)
-    assert emitted[-1].planes[0].origin[0] == pytest.approx(1 + 4 / 1000)
+    assert emitted[-1].planes[0].point[0] == pytest.approx(1 + 4 / 1000)
     QTest.keyClick(slider(panel), Qt.Key.Key_End)
-    assert emitted[-1].planes[0].origin[0] == pytest.approx(3)
+    assert emitted[-1].planes[0].point[0] == pytest.approx(3)
     QTest.keyClick(slider(panel), Qt.Key.Key_Home)
-    assert emitted[-1].planes[0].origin[0] == pytest.approx(-1)
+    assert emitted[-1].planes[0].point[0] == pytest.approx(-1)
 
 
 @pytest.mark.parametrize(("place", "text"), [(-1.356e-5, "0"), (1e-6, "0"), (-0.02, "−0.02"), (1.356, "1.356")])
 def test_a_position_next_to_zero_reads_zero(panel, place, text):
-    panel.set_clip(PlaneClip.at((1, 0, 0), (place, 0, 0)))
+    panel.set_cut(Cut.at((1, 0, 0), (place, 0, 0)))
     assert named(panel, QLabel, "Position in mesh units").text() == text
 
 
 def test_flipping_hides_the_other_side_in_the_same_place(panel, emitted):
-    plane = PlaneClip.at((0, 1, 0), (1, 7, 3))
-    panel.set_clip(plane)
+    plane = Cut.at((0, 1, 0), (1, 7, 3))
+    panel.set_cut(plane)
     before = slider(panel).value()
     QTest.mouseClick(named(panel, QPushButton, "Flip"), _LEFT)
     assert emitted == [plane.with_plane(0, plane.planes[0].flipped())]
@@ -145,10 +146,10 @@ def test_flipping_hides_the_other_side_in_the_same_place(panel, emitted):
 def test_the_cut_is_whole_or_smooth(panel, emitted):
     switch_on(panel)
     QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
-    assert emitted[-1].crinkle is False
+    assert emitted[-1].smooth
     QTest.keyClick(cut(panel).button("smooth"), Qt.Key.Key_Left)
     assert cut(panel).value() == "crinkle"
-    assert emitted[-1].crinkle is True
+    assert emitted[-1].crinkled
 
 
 def test_the_handles_check_box_emits_a_signal(panel, qtbot):
@@ -159,10 +160,10 @@ def test_the_handles_check_box_emits_a_signal(panel, qtbot):
 
 
 def test_a_rotated_plane_is_shown_as_free_without_a_signal(panel, emitted):
-    panel.set_clip(PlaneClip.at((1, 1, 0), (1, 15, 3), crinkle=False))
+    panel.set_cut(Cut.at((1, 1, 0), (1, 15, 3), CutStyle.SMOOTH))
     assert axis(panel).value() == "free"
     assert cut(panel).value() == "smooth"
-    panel.set_clip(None)
+    panel.set_cut(Cut())
     panel.set_handles(False)
     panel.set_bounds(None)
     assert emitted == []
@@ -172,20 +173,20 @@ def test_a_rotated_plane_is_shown_as_free_without_a_signal(panel, emitted):
 @given(st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda n: np.linalg.norm(n) > 0.1), st.integers(0, 1000))
 def test_the_slider_sweeps_the_whole_mesh_whatever_the_normal(panel, normal, tick):
     corners = np.array([[x, y, z] for x in (-1, 3) for y in (0, 30) for z in (2, 4)], dtype=float)
-    panel.set_clip(PlaneClip.at(normal, (0, 0, 0)))
+    panel.set_cut(Cut.at(normal, (0, 0, 0)))
     slider(panel).setValue(0)
     slider(panel).setValue(1)  # so that both ends are changes
     slider(panel).setValue(0)
-    low = panel.clip().planes[0].signed_distance(corners)
+    low = panel.cut().planes[0].signed_distance(corners)
     slider(panel).setValue(1000)
-    high = panel.clip().planes[0].signed_distance(corners)
+    high = panel.cut().planes[0].signed_distance(corners)
     assert min(np.abs(low).min(), np.abs(high).min()) < 1e-9
     assert np.all(low * high <= 1e-9)  # all of the mesh lies between the two ends
     slider(panel).setValue(tick)
-    shown = panel.clip()
-    panel.set_clip(shown)
+    shown = panel.cut()
+    panel.set_cut(shown)
     assert slider(panel).value() == tick
-    assert panel.clip() == shown
+    assert panel.cut() == shown
 
 
 def texts(panel):
@@ -200,8 +201,8 @@ def test_planes_are_added_selected_and_removed(panel, emitted, qtbot):
     assert [plane.normal for plane in emitted[-1].planes] == [(1, 0, 0), (0, 1, 0)]
     assert (texts(panel), tabs(panel).currentIndex()) == (["1", "2"], 1)
     QTest.keyClick(slider(panel), Qt.Key.Key_End)
-    assert emitted[-1].planes[0].origin == (1, 15, 3)
-    assert emitted[-1].planes[1].origin[1] == pytest.approx(30)
+    assert emitted[-1].planes[0].point == (1, 15, 3)
+    assert emitted[-1].planes[1].point[1] == pytest.approx(30)
     with qtbot.waitSignal(panel.plane_chosen) as chosen:
         QTest.mouseClick(tabs(panel), _LEFT, pos=tabs(panel).tabRect(0).center())
     assert chosen.args == [0]
@@ -224,24 +225,24 @@ def test_at_most_six_planes_can_be_added(panel, emitted):
 def test_a_box_is_moved_by_its_sliders_and_inverted(panel, emitted):
     switch_on(panel)
     QTest.mouseClick(kind(panel).button("box"), _LEFT)
-    assert emitted[-1] == BoxClip((0, 7.5, 2.5), (2, 22.5, 3.5))
+    assert emitted[-1] == Cut(box=Box((0, 7.5, 2.5), (2, 22.5, 3.5)))
     assert not slider(panel).isVisible()
     sides = named(panel, QRangeSlider, "Y extent of the box")
     QTest.mouseClick(sides, _LEFT, pos=QPoint(sides.width() - 3, sides.height() // 2))
     QTest.mouseClick(named(panel, Segmented, "Hidden side of the box").button("all"), _LEFT)
     box = emitted[-1]
-    assert (box.low, box.notch) == ((0, 7.5, 2.5), True)
-    assert box.high[1] > 22.5
-    assert (box.high[0], box.high[2]) == (2, 3.5)
+    assert (box.box.low, box.notch) == ((0, 7.5, 2.5), True)
+    assert box.box.high[1] > 22.5
+    assert (box.box.high[0], box.box.high[2]) == (2, 3.5)
     QTest.mouseClick(kind(panel).button("planes"), _LEFT)
-    assert emitted[-1] == PlaneClip.at((1, 0, 0), (1, 15, 3))
+    assert emitted[-1] == Cut.at((1, 0, 0), (1, 15, 3))
     QTest.mouseClick(kind(panel).button("box"), _LEFT)
     assert emitted[-1] == box
 
 
 def test_a_box_dragged_in_the_view_is_not_rounded_to_the_sliders(panel, emitted):
-    box = BoxClip((0.12345, 1, 2), (2, 20.54321, 3))
-    panel.set_clip(box)
+    box = Cut(box=Box((0.12345, 1, 2), (2, 20.54321, 3)))
+    panel.set_cut(box)
     QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
-    assert (emitted[-1].low, emitted[-1].high) == (box.low, box.high)
-    assert not emitted[-1].crinkle
+    assert emitted[-1].box == box.box
+    assert emitted[-1].smooth

@@ -11,8 +11,10 @@ from PySide6.QtWidgets import QApplication, QCheckBox, QLabel, QPushButton, QSli
 
 from hexmend import gallery, io
 from hexmend_app.features.cut.inside_panel import InsidePanel
-from hexmend_app.picture.appearance import Isolation, Look, ValueRange
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.shell.start.program import application
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.widgets.inputs.slider_box import SliderBox
@@ -76,7 +78,7 @@ def test_slider_and_spin_box_show_the_same_number_of_layers(panel):
     type_into(named(panel, QSpinBox, PEEL), "3")
     assert named(panel, QSlider, PEEL).value() == 3
     assert emitted == [1, 3]
-    panel.set_look(Look(peel=2), 1)
+    panel.set_look(Look(show=Show(peel=2)), 1)
     assert named(panel, SliderBox, PEEL).value() == 2
     assert emitted == [1, 3]
 
@@ -104,10 +106,10 @@ def test_scrolling_past_changes_nothing(panel, part):
 
 
 def test_a_smooth_cut_and_shrinking_exclude_each_other(panel):
-    panel.set_look(Look(clip=PlaneClip(crinkle=False), shrink=0.2), 1)
+    panel.set_look(Look(cut=Cut((Plane(point=(0, 0, 0)),), style=CutStyle.SMOOTH), show=Show(shrink=0.2)), 1)
     assert not named(panel, SliderBox, SHRINK).isEnabled()
     assert "Whole hexes" in named(panel, SliderBox, SHRINK).toolTip()
-    panel.set_look(Look(clip=PlaneClip(crinkle=True), shrink=0.2), 1)
+    panel.set_look(Look(cut=Cut((Plane(point=(0, 0, 0)),)), show=Show(shrink=0.2)), 1)
     assert named(panel, SliderBox, SHRINK).isEnabled()
     assert named(panel, SliderBox, SHRINK).value() == 20
 
@@ -115,7 +117,7 @@ def test_a_smooth_cut_and_shrinking_exclude_each_other(panel):
 def test_buttons_are_enabled_if_hexes_are_isolated_or_dug_away(panel):
     buttons = [named(panel, QPushButton, name) for name in BUTTONS]
     assert not any(button.isEnabled() for button in buttons)
-    panel.set_look(Look(isolation=Isolation((4,), 2), dug=frozenset({1, 2, 3})), 2)
+    panel.set_look(Look(show=Show(isolate=Isolate((4,), 2), hidden=frozenset({1, 2, 3}))), 2)
     assert all(button.isEnabled() for button in buttons)
     assert named(panel, QSpinBox, RINGS).value() == 2
     assert panel.isolated.text() == "1 hex isolated"
@@ -144,7 +146,7 @@ def test_the_panel_shows_the_number_of_visible_hexes(panel, numbers, text):
 def test_peeling_hides_layer_after_layer(window):
     layers = named(window.features["cut"].inside, QSpinBox, PEEL)
     type_into(layers, "2")
-    assert window.session.view.look.peel == 2
+    assert window.session.view.look.show.peel == 2
     assert set(faces(window)) == set(np.flatnonzero(window.session.document.now.mesh.topology.layers == 2))
     assert shown(window) == "216 of 1,000 hexes shown"
     assert layers.maximum() == 4
@@ -155,13 +157,13 @@ def test_isolating_with_rings_and_back(window):
     view.isolate([555], 0)
     assert set(faces(window)) == {555}
     type_into(named(panel, QSpinBox, RINGS), "1")
-    assert view.look.isolation == Isolation((555,), 1)
+    assert view.look.show.isolate == Isolate((555,), 1)
     assert shown(window) == "1 of 1,000 hexes shown"
     assert window.canvas.viewport.filters.ghosts(window.canvas.viewport.frame).sum() == 26
     press(named(panel, QPushButton, "Show all"))
-    assert view.look.isolation is None
+    assert view.look.show.isolate is None
     view.isolate([3])
-    assert view.look.isolation == Isolation((3,), 1)
+    assert view.look.show.isolate == Isolate((3,), 1)
 
 
 def test_hexes_are_dug_away_and_restored(window):
@@ -172,22 +174,22 @@ def test_hexes_are_dug_away_and_restored(window):
     assert [label for label in panel.findChildren(QLabel) if label.text() == "3 hexes dug away"]
     assert not {0, 1, 2} & set(faces(window))
     press(named(panel, QPushButton, "Undo dig"))
-    assert view.look.dug == {0, 1}
+    assert view.look.show.hidden == {0, 1}
     press(named(panel, QPushButton, "Restore all"))
-    assert not view.look.dug
+    assert not view.look.show.hidden
     view.dig(7)
     view.undig_last()
     view.undig_last()
-    assert not view.look.dug
+    assert not view.look.show.hidden
 
 
 def test_everything_combines(window):
     view = window.session.view
     mesh, figures = window.session.document.now.mesh, window.session.document.now.figures
-    clip = PlaneClip.at((1, 0, 0), tuple(mesh.points.mean(axis=0)))
+    clip = Cut.at((1, 0, 0), tuple(mesh.points.mean(axis=0)))
     patch = mesh.topology.hexes_around([444], 3)
     view.isolate(np.flatnonzero(patch), 1)  # restores hexes that peeling would hide
-    view.change(clip=clip, peel=1, quality_range=ValueRange("q", 0.2, 0.9))
+    view.change(cut=clip, show={"peel": 1, "quality": (0.2, 0.9)})
     view.dig(443)
     expected = clip.planes[0].signed_distance(mesh.points[mesh.hexes].mean(axis=1)) <= 0
     expected &= mesh.topology.layers >= 1
@@ -197,7 +199,7 @@ def test_everything_combines(window):
     assert 0 < expected.sum() < 200
     window.refresh()
     assert window.canvas.viewport.shown == expected.sum()
-    view.change(shrink=0.3)
+    view.change(show={"shrink": 0.3})
     np.testing.assert_array_equal(
         np.unique(faces(window), return_counts=True), [expected.nonzero()[0], [6] * expected.sum()]
     )
@@ -208,8 +210,8 @@ def test_shrunk_hexes_follow_moving_nodes(window, qtbot):
     slider.setFocus()
     for _ in range(5):
         QTest.keyClick(slider, Qt.Key.Key_PageUp)
-    assert window.session.view.look.shrink == 0.3
-    window.session.view.change(peel=3)
+    assert window.session.view.look.show.shrink == 0.3
+    window.session.view.change(show={"peel": 3})
     window.refresh()
     chosen = np.flatnonzero(window.session.document.now.mesh.topology.layers >= 3)
     before = window.canvas.viewport.mesh_layer.faces
@@ -227,18 +229,18 @@ def test_shrunk_hexes_follow_moving_nodes(window, qtbot):
 
 def test_in_large_meshes_only_visible_hexes_are_shrunk(window, qtbot, monkeypatch):
     monkeypatch.setattr("hexmend_app.scene.geometry.skin.WHOLE", 500)
-    window.session.view.change(shrink=0.3)
+    window.session.view.change(show={"shrink": 0.3})
     layers = window.session.document.now.mesh.topology.layers
     assert set(faces(window)) == set(np.flatnonzero(layers == 0))
     boundary = np.count_nonzero(window.session.document.now.mesh.topology.face_neighbours < 0)
     assert len(faces(window)) == boundary  # without their sides, until the view rests
     qtbot.waitUntil(lambda: len(faces(window)) == 6 * np.count_nonzero(layers == 0), timeout=5000)
-    window.session.view.change(peel=2)
+    window.session.view.change(show={"peel": 2})
     assert set(faces(window)) <= set(np.flatnonzero(layers >= 2))
 
 
 def test_a_smooth_cut_is_not_shrunk(window):
-    window.session.view.change(clip=PlaneClip.at((1, 0, 0), (0.1, 0.1, 0.1), crinkle=False), shrink=0.3)
+    window.session.view.change(cut=Cut.at((1, 0, 0), (0.1, 0.1, 0.1), CutStyle.SMOOTH), show={"shrink": 0.3})
     window.refresh()
     assert window.canvas.viewport.mesh_layer.faces.shrink == 0
     assert shown(window) == "1,000 of 1,000 hexes shown (before the cut)"
@@ -248,14 +250,14 @@ def test_the_outline_is_drawn_if_it_is_on_and_hexes_are_hidden(window):
     actor = window.canvas.viewport.overlay_layers.outline.actor
     box = named(window.features["cut"].inside, QCheckBox, "Sharp edges and outline")
     assert not actor.GetVisibility()
-    window.session.view.change(peel=1)
+    window.session.view.change(show={"peel": 1})
     window.refresh()
     assert actor.GetVisibility()
     tick(box)
-    assert not window.session.view.look.outline
+    assert not window.session.view.look.show.outline
     assert not actor.GetVisibility()
     tick(box)
-    window.session.view.change(peel=0)
+    window.session.view.change(show={"peel": 0})
     window.refresh()
     assert not actor.GetVisibility()
 
@@ -263,7 +265,7 @@ def test_the_outline_is_drawn_if_it_is_on_and_hexes_are_hidden(window):
 def test_another_mesh_is_shown_whole(window, qtbot, tmp_path):
     window.session.view.isolate([999], 1)
     window.session.view.dig(998)
-    window.session.view.change(peel=4)
+    window.session.view.change(show={"peel": 4})
     io.write(tmp_path / "small.vtu", gallery.make("cube", size=8))
     open_and_wait(qtbot, window, tmp_path / "small.vtu")
     assert window.session.view.look == Look()

@@ -51,7 +51,7 @@ def test_findings_are_listed_with_their_locations(window, panel):
 
 def test_a_finding_is_shown_in_the_view(window, panel):
     press(buttons(panel, "Show")[0])
-    assert set(range(27, 54)) == set(window.session.view.look.isolation.hexes)
+    assert set(range(27, 54)) == set(window.session.view.look.show.isolate.hexes)
 
 
 def repair(qtbot, session, button):
@@ -95,5 +95,5 @@ def test_a_finding_is_shown_while_a_run_is_paused_too(window, panel, qtbot):
     session.commands.step(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=30, tolerance=0)), 1)
     qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED, timeout=PATIENCE)
     press(buttons(panel, "Show")[0])
-    assert set(range(27, 54)) == set(session.view.look.isolation.hexes)
+    assert set(range(27, 54)) == set(session.view.look.show.isolate.hexes)
     end_run(session)

@@ -70,9 +70,9 @@ def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot)
     key(window, Qt.Key.Key_N)
     key(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
     assert window.session.selection.hex == worst
-    assert window.session.view.look.isolation.hexes == (worst,)
+    assert window.session.view.look.show.isolate.hexes == (worst,)
     key(window, Qt.Key.Key_Escape)
-    assert window.session.view.look.isolation is None
+    assert window.session.view.look.show.isolate is None
     assert window.session.selection.hex == worst
     key(window, Qt.Key.Key_Escape)
     assert window.session.selection.hex is None
@@ -251,23 +251,23 @@ def test_ctrl_click_hides_a_hex_and_backspace_shows_it(window, qtbot):
     click_view(window)
     first = window.session.selection.hex
     click_view(window, Qt.KeyboardModifier.ControlModifier)
-    assert window.session.view.look.dug == {first}
+    assert window.session.view.look.show.hidden == {first}
     assert window.session.selection.hex is None
     window.canvas.draw_still()
     click_view(window)
     behind = window.session.selection.hex
     assert behind not in (None, first)
     key(window, Qt.Key.Key_Delete)
-    assert window.session.view.look.dug == {first, behind}
+    assert window.session.view.look.show.hidden == {first, behind}
     key(window, Qt.Key.Key_Backspace)
-    assert window.session.view.look.dug == {first}
+    assert window.session.view.look.show.hidden == {first}
     key(window, Qt.Key.Key_Backspace)
-    assert not window.session.view.look.dug
+    assert not window.session.view.look.show.hidden
 
 
 def test_the_selected_hex_is_isolated_by_key(window):
     click_view(window)
     key(window, Qt.Key.Key_I)
-    assert window.session.view.look.isolation.hexes == (window.session.selection.hex,)
+    assert window.session.view.look.show.isolate.hexes == (window.session.selection.hex,)
     key(window, Qt.Key.Key_Escape)
-    assert window.session.view.look.isolation is None
+    assert window.session.view.look.show.isolate is None

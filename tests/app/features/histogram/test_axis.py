@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend.errors import ParameterError
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import distribute
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
 from tests.core.grids import grid, scrambled
 
@@ -87,8 +88,8 @@ def test_values_beyond_the_ends_have_the_positions_of_their_bars():
 def test_a_range_to_the_end_of_the_metric_tolerates_rounding():
     values = np.array([1 + 2e-16, np.nextafter(1, 2), 0.5])
     none = np.zeros(3, bool)
-    assert within(values, none, ValueRange("q", 0.9, 1.0)).tolist() == [True, True, False]
-    assert within(values, none, ValueRange("q", 0.0, 0.99)).tolist() == [False, False, True]
-    assert within(np.array([1.0, np.inf]), none[:2], ValueRange("condition", 2, np.inf)).tolist() == [False, True]
-    with pytest.raises(ValueError, match="lower number first"):
-        ValueRange("q", 0.5, 0.4)
+    assert within(values, none, Show((0.9, 1.0), "q")).tolist() == [True, True, False]
+    assert within(values, none, Show((0.0, 0.99), "q")).tolist() == [False, False, True]
+    assert within(np.array([1.0, np.inf]), none[:2], Show((2, np.inf), "condition")).tolist() == [False, True]
+    with pytest.raises(ParameterError, match="lower number first"):
+        Show((0.5, 0.4), "q")

@@ -8,7 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, distribute, round_up
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 
 Q = Axis("q")
 _QUALITIES = arrays(np.float64, st.integers(0, 200), elements=st.floats(0, 1))
@@ -32,9 +32,9 @@ def test_bins_agree_with_numpys_histogram(bins):
 def test_a_quality_that_exceeds_one_by_rounding_is_counted_and_within_the_range():
     counted = distribute(np.array([1 + 2e-16, np.nextafter(1, 2)]), np.array([False, True]), Q)
     assert counted.counts[-1] == 1
-    assert counted.within(ValueRange("q", 0.9, 1.0)) == 1
-    assert counted.within(ValueRange("q", 0.9, 1.0, inverted=True)) == 2
-    assert counted.within(ValueRange("q", 0.9, 0.99)) == 0
+    assert counted.within(Show((0.9, 1.0), "q")) == 1
+    assert counted.within(Show((0.9, 1.0), "q", True)) == 2
+    assert counted.within(Show((0.9, 0.99), "q")) == 0
 
 
 def test_lengths_must_agree():

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 from tests.app.driving import LEFT, move
 from tests.app.features.histogram.mouse import ends, nothing_pending, point_at
 from tests.patience import PATIENCE
@@ -39,10 +39,10 @@ def test_dragging_over_the_bar_of_inverted_hexes_includes_them(histogram, announ
     assert histogram.summary.text().endswith(f", and the {now.inverted} inverted")
     histogram.set_range(None)
     drag(histogram.axis.inverted[0] - 0.01, histogram.axis.inverted[1])
-    assert announced[-1] == ValueRange("q", -np.inf, -np.inf, inverted=True)
+    assert announced[-1] == Show((-np.inf, -np.inf), "q", inverted=True)
     assert histogram.summary.text() == f"{now.inverted} of 2,000 hexes, inverted only"
     drag(0.001, 1.0)
-    assert announced[-1] == ValueRange("q", 0.0, 1.0)
+    assert announced[-1] == Show((0.0, 1.0), "q")
     assert histogram.summary.text() == f"{2000 - now.inverted:,} of 2,000 hexes, inverted hidden"
 
 
@@ -61,10 +61,10 @@ def test_a_click_on_the_bar_of_inverted_hexes_requests_them(histogram, announced
 
 def test_a_button_shows_or_hides_inverted_hexes(histogram, announced, qtbot):
     QTest.mouseClick(histogram.range_row.inverted, LEFT)
-    assert announced == [ValueRange("q", 0.0, 1.0)]
-    histogram.set_range(ValueRange("q", 0.2, 0.5))
+    assert announced == [Show((0.0, 1.0), "q")]
+    histogram.set_range(Show((0.2, 0.5), "q"))
     QTest.mouseClick(histogram.range_row.inverted, LEFT)
-    qtbot.waitUntil(lambda: announced[-1] == ValueRange("q", 0.2, 0.5, inverted=True), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: announced[-1] == Show((0.2, 0.5), "q", inverted=True), timeout=PATIENCE)
     histogram.set_range(None)
     assert histogram.range_row.inverted.isChecked()
 
@@ -79,11 +79,11 @@ def test_typing_one_end_keeps_the_other_brushed_end(histogram, announced, qtbot)
     box.selectAll()
     QTest.keyClicks(box, "0.7")
     QTest.keyClick(box, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: announced[-1] == ValueRange("q", brushed.low, 0.7), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: announced[-1] == Show((brushed.low, 0.7), "q"), timeout=PATIENCE)
 
 
 def test_a_drag_moves_an_end_or_the_whole_range(histogram, announced, drag):
-    histogram.set_range(ValueRange("q", 0.3, 0.5))
+    histogram.set_range(Show((0.3, 0.5), "q"))
     drag(0.5, 0.7)
     assert ends(announced[-1]) == pytest.approx((0.3, 0.7), abs=0.011)
     drag(0.45, 0.55)
@@ -104,7 +104,7 @@ def test_a_drag_announces_ranges_but_not_at_every_move(histogram, announced, qtb
 
 
 def test_a_double_click_shows_all_hexes(histogram, announced, qtbot):
-    histogram.set_range(ValueRange("q", 0.3, 0.5))
+    histogram.set_range(Show((0.3, 0.5), "q"))
     # Through the window, which handles the second press like that of a mouse.
     position = histogram.plot.plot.viewport().mapTo(histogram, point_at(histogram, 0.8))
     QTest.mouseDClick(histogram.windowHandle(), LEFT, pos=position)
@@ -113,7 +113,7 @@ def test_a_double_click_shows_all_hexes(histogram, announced, qtbot):
 
 
 def test_the_button_shows_all_hexes(histogram, announced):
-    histogram.set_range(ValueRange("q", 0.3, 0.5))
+    histogram.set_range(Show((0.3, 0.5), "q"))
     QTest.mouseClick(histogram.range_row.all, LEFT)
     assert announced == [None]
     assert not histogram.range_row.all.isEnabled()
@@ -125,13 +125,13 @@ def test_a_range_is_set_by_keys(histogram, announced, qtbot):
     box.selectAll()
     QTest.keyClicks(box, "0.4")
     QTest.keyClick(box, Qt.Key.Key_Return)
-    assert announced == [ValueRange("q", 0.4, 1.0)]
+    assert announced == [Show((0.4, 1.0), "q")]
     QTest.keyClick(histogram.range_row.high, Qt.Key.Key_Down)
-    qtbot.waitUntil(lambda: announced[-1] == ValueRange("q", 0.4, 0.99), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: announced[-1] == Show((0.4, 0.99), "q"), timeout=PATIENCE)
 
 
 def test_setters_emit_no_signal(histogram, announced, data, qtbot):
-    histogram.set_range(ValueRange("q", 0.1, 0.2))
+    histogram.set_range(Show((0.1, 0.2), "q"))
     histogram.set_current(*data)
     histogram.set_range(None)
     histogram.set_metric("scaled-jacobian")
@@ -158,9 +158,9 @@ def test_setting_a_range_drops_the_pending_one(histogram, announced, qtbot):
 
 def test_the_summary_includes_inverted_hexes(histogram, data):
     histogram.set_current(*data)
-    histogram.set_range(ValueRange("q", 0.1, 0.9))
+    histogram.set_range(Show((0.1, 0.9), "q"))
     assert histogram.summary.text().endswith(" in 0.10 – 0.90")
-    histogram.set_range(ValueRange("q", 0.1, 0.9, inverted=True))
+    histogram.set_range(Show((0.1, 0.9), "q", inverted=True))
     assert histogram.summary.text().endswith(f" in 0.10 – 0.90, and the {data[1].sum()} inverted")
 
 
@@ -186,7 +186,7 @@ def test_numbers_are_typed_in_any_notation(histogram, announced, condition, qtbo
         QTest.keyClick(box, Qt.Key.Key_Return)
         qtbot.waitUntil(lambda number=number: len(announced) == number, timeout=PATIENCE)
     expected = [(2.5, np.inf), (2.5, 4.0), (2.5, np.inf)]
-    assert announced == [ValueRange("condition", *ends) for ends in expected]
+    assert announced == [Show(ends, "condition") for ends in expected]
     QTest.keyClick(histogram.range_row.high, Qt.Key.Key_Down)  # from infinity back to the axis
     qtbot.waitUntil(lambda: announced[-1].high == histogram.axis.high, timeout=PATIENCE)
     box = histogram.range_row.low
@@ -197,6 +197,6 @@ def test_numbers_are_typed_in_any_notation(histogram, announced, condition, qtbo
 
 
 def test_a_range_of_another_metric_is_ignored(histogram, announced, condition):
-    histogram.set_range(ValueRange("q", 0.1, 0.2))
+    histogram.set_range(Show((0.1, 0.2), "q"))
     assert histogram.range() is None
     assert not histogram.range_row.all.isEnabled()

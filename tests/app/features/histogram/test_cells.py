@@ -11,7 +11,8 @@ from hexmend.quality import METRICS, measure
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import distribute
 from hexmend_app.features.histogram.cells import Cells
-from hexmend_app.picture.appearance import Look, ValueRange
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
 from hexmend_app.scene.geometry.filters import Filters
 from hexmend_app.scene.views.frame import Frame
@@ -80,7 +81,7 @@ def test_the_view_shows_as_many_hexes_as_the_cells_count(name):
     counted = distribute(values, figures.inverted, Axis.fitted(name, values, figures.inverted), 20)
     counts, filters = cell_counts(counted), Filters(mesh)
     for first, last in ((0, 0), (1, len(counts) - 1), (0, 8), (3, 12), (len(counts) - 2, len(counts) - 1)):
-        look = Look(quality_range=counted.cells.range(first, last))
+        look = Look(show=counted.cells.range(first, last) or Show())
         shown = filters.kept(Frame(mesh, figures, None, look))
         assert np.count_nonzero(shown) == sum(counts[first : last + 1])
 
@@ -106,8 +107,8 @@ def test_the_span_of_a_range_is_that_of_its_cells():
 def test_all_cells_are_no_range_and_invalid_cells_are_rejected():
     cells = Cells(Axis("q"), 10)
     assert cells.range(0, 10) is None
-    assert cells.range(1, 10) == ValueRange("q", 0.0, 1.0)
-    assert cells.range(0, 0) == ValueRange("q", -math.inf, -math.inf, inverted=True)
+    assert cells.range(1, 10) == Show((0.0, 1.0), "q")
+    assert cells.range(0, 0) == Show((-math.inf, -math.inf), "q", True)
     for first, last in ((3, 2), (-1, 4), (0, 11)):
         with pytest.raises(ValueError, match="the lower first"):
             cells.range(first, last)

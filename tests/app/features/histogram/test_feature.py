@@ -31,12 +31,12 @@ def point_at(histogram, x):
 def brush(window, qtbot, low, high):
     """Drag over the histogram, wait until the view has its range, and return the range."""
     histogram, view = window.features["histogram"].panel, window.session.view
-    before = view.look.quality_range
+    before = view.look.show.by_quality
     QApplication.processEvents()  # lays out the axis of another metric
     drag(histogram.plot.plot.viewport(), point_at(histogram, low), point_at(histogram, high))
-    qtbot.waitUntil(lambda: histogram.range() == view.look.quality_range != before, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: histogram.range() == view.look.show.by_quality != before, timeout=PATIENCE)
     window.refresh()
-    return view.look.quality_range
+    return view.look.show.by_quality
 
 
 def colour_by(window, metric):
@@ -53,13 +53,13 @@ def test_brushing_shows_only_the_hexes_of_a_range(window, qtbot, histogram):
     assert (range.low, range.high) == pytest.approx((0.2, 0.6), abs=0.03)
     assert (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.01
     press(named(histogram, QPushButton, "Show all"))
-    qtbot.waitUntil(lambda: window.session.view.look.quality_range is None, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.view.look.show.by_quality is None, timeout=PATIENCE)
 
 
 @pytest.mark.slow
 def test_brushing_another_metric_filters_the_view_and_follows_a_run(window, qtbot, histogram):
     walk_to(window, histogram.head.metric_box, "max-angle")
-    assert window.session.view.look.scale.metric == "q"  # unchanged
+    assert window.session.view.look.colours.metric == "q"  # unchanged
     range, viewport = brush(window, qtbot, 0.75, 1.0), window.canvas.viewport
     assert (range.metric, range.high) == ("max-angle", 180)
     assert range.low == pytest.approx(135, abs=4)
@@ -77,7 +77,7 @@ def test_brushing_another_metric_filters_the_view_and_follows_a_run(window, qtbo
     window.refresh()
     assert viewport.shown == inside() != shown
     walk_to(window, histogram.head.metric_box, "volume")  # the plot cannot show a range of another metric
-    assert window.session.view.look.quality_range is None
+    assert window.session.view.look.show.by_quality is None
 
 
 @pytest.mark.slow
@@ -87,7 +87,7 @@ def test_the_metric_follows_the_colours_until_a_range_or_the_user_fixes_it(windo
     assert histogram.head.metric_box.currentText() == "Scaled Jacobian (as colours)"
     brush(window, qtbot, 0.2, 0.5)
     colour_by(window, "skew")  # colours of the hexes in the range
-    assert window.session.view.look.quality_range == histogram.range()
+    assert window.session.view.look.show.by_quality == histogram.range()
     assert histogram.axis.metric == histogram.range().metric == "scaled-jacobian"
     assert histogram.head.metric_box.currentText() == "Scaled Jacobian"
     walk_to(window, histogram.head.metric_box, "")
@@ -158,5 +158,5 @@ def test_a_refresh_during_a_drag_does_not_reset_the_range(window, qtbot, histogr
     view.brushed.emit((0.2, 0.4))
     view.brushed.emit((0.2, 0.5))  # pending
     window.refresh()
-    qtbot.waitUntil(lambda: window.session.view.look.quality_range == histogram.range(), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.view.look.show.by_quality == histogram.range(), timeout=PATIENCE)
     assert histogram.range().high == pytest.approx(0.5, abs=1e-9)

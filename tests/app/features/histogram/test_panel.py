@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QToolTip
 
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 from tests.app.driving import LEFT, turn
 from tests.app.features.histogram.mouse import point_at
 from tests.patience import PATIENCE
@@ -52,7 +52,7 @@ def test_the_summary_is_one_line_and_does_not_move_the_plot(histogram):
     histogram.resize(600, 230)
     turn()
     before = histogram.plot.geometry()
-    for range in (None, ValueRange("q", 0.123, 0.789, inverted=True), ValueRange("q", 0.2, 0.3)):
+    for range in (None, Show((0.123, 0.789), "q", True), Show((0.2, 0.3), "q")):
         histogram.set_range(range)
         turn()
         assert histogram.plot.geometry() == before

@@ -13,8 +13,9 @@ from hexmend import gallery, io
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
-from hexmend_app.picture.appearance import Arrows, RangeMode, Since
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.appearance import Arrows, Since
+from hexmend_app.picture.colours import Range
+from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.film.film import pictures
 from hexmend_app.scene.film.film_frames import film_frames
 from hexmend_app.state.mesh.run_record import RecordedIteration
@@ -55,7 +56,7 @@ def go(window, record, number):
 def test_colours_follow_the_iteration_and_the_reference_state(window, record, panel):
     viewport, timeline = window.canvas.viewport, window.session.timeline
     press(panel.colours, "q-change")
-    assert window.session.view.look.scale.mode is RangeMode.FITTED
+    assert window.session.view.look.colours.range is Range.FITTED
     assert viewport.colouring.title == "change of q(H) since opening"
     np.testing.assert_array_equal(
         viewport.colours.values, window.session.document.now.figures.q - window.session.document.start.figures.q
@@ -71,8 +72,8 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
     go(window, record, 0)
     assert not viewport.colours.values.any()
     press(panel.colours, "")
-    assert window.session.view.look.scale.metric == "q"
-    assert window.session.view.look.scale.mode is RangeMode.FULL
+    assert window.session.view.look.colours.metric == "q"
+    assert window.session.view.look.colours.range is Range.FULL
 
 
 def test_the_histogram_continues_to_show_quality(window, record, panel):
@@ -96,17 +97,17 @@ def test_displacements_are_among_the_metrics_of_the_colours(window, record, qtbo
     while combo.currentData() != "moved-mean":
         QTest.keyClick(combo, Qt.Key.Key_Down)
     window.refresh()
-    assert window.session.view.look.scale.metric == "moved-mean"
+    assert window.session.view.look.colours.metric == "moved-mean"
     window.refresh()
     assert window.features["movement"].panel.colours.value() == "moved-most"
     QTest.keyClick(combo, Qt.Key.Key_Down)
     window.refresh()
-    assert window.session.view.look.scale.metric == "q-change"
+    assert window.session.view.look.colours.metric == "q-change"
     assert maps.currentText() == "brown – teal"
     QTest.keyClick(combo, Qt.Key.Key_Home)
     window.refresh()
     assert [maps.itemText(k) for k in range(4)] == ["viridis", "cividis", "plasma", "inferno"]
-    assert window.session.view.look.scale.map == "viridis"
+    assert window.session.view.look.colours.map == "viridis"
 
 
 def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
@@ -117,7 +118,7 @@ def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     assert text_of(panel, "Number of arrows") == f"{free:,} arrows, true length."
     press(panel.arrows, "sight")
     assert text_of(panel, "Number of arrows") == "No visible node has moved."
-    window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
+    window.session.view.set_cut(Cut.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
     window.session.view.set_handles(False)
     window.refresh()
     before = pixels(window)
@@ -125,7 +126,7 @@ def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     panel.factor.lineEdit().selectAll()
     QTest.keyClicks(panel.factor.lineEdit(), "4")
     QTest.keyClick(panel.factor, Qt.Key.Key_Return)
-    assert window.session.view.look.traces.factor == 4
+    assert window.session.view.look.movement.factor == 4
     window.refresh()
     assert text_of(panel, "Number of arrows").endswith("4 × true length.")
     assert (pixels(window) != before).any()
@@ -166,7 +167,7 @@ def test_newly_inverted_hexes_are_isolated(window, mesh_to_invert, record, panel
     else:
         pytest.fail("Laplacian smoothing of this mesh inverts no hex in any iteration")
     press_button(panel.show_newly)
-    isolated = window.session.view.look.isolation.hexes
+    isolated = window.session.view.look.show.isolate.hexes
     assert window.session.document.now.figures.inverted[list(isolated)].all()
     assert len(isolated) == movement.counts.newly_inverted
 
@@ -175,7 +176,7 @@ def test_newly_inverted_hexes_are_isolated(window, mesh_to_invert, record, panel
 def test_a_picture_shows_the_displacement(window, record, panel, tmp_path):
     window.features["save"].picture(tmp_path / "plain.png", (500, 320))
     press(panel.colours, "q-change")
-    window.session.view.change(traces=window.session.view.look.traces.__class__(arrows=Arrows.ALL))
+    window.session.view.change(movement=window.session.view.look.movement.__class__(arrows=Arrows.ALL))
     window.refresh()
     window.features["save"].picture(tmp_path / "changed.png", (500, 320))
     plain, changed = (np.asarray(Image.open(tmp_path / f"{name}.png")) for name in ("plain", "changed"))

@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QAbstractButton, QLabel, QTabBar
 
 from hexmend.node_step import explain
 from hexmend.smoothers import METHODS
-from hexmend_app.picture.appearance import Isolation
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.cut import Cut
+from hexmend_app.picture.visibility import Isolate
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks.task import running
 from hexmend_app.theme import theme_choice
@@ -179,12 +179,12 @@ def test_the_patch_is_isolated_and_its_marks_are_visible_with_any_cut_and_in_pic
     box = patch_box(window)
     tick(box)
     step = shown_step(window)
-    assert window.session.view.look.isolation == Isolation(tuple(step.hexes.tolist()), 0)
+    assert window.session.view.look.show.isolate == Isolate(tuple(step.hexes.tolist()), 0)
     assert window.canvas.viewport.shown == step.hexes.size
     qtbot.waitUntil(lambda: not window.canvas.camera_animation.active, timeout=PATIENCE)
 
     assert min(count_pixels(pixels(window), role) for role in (UPHILL, SEARCH)) > 20
-    window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(step.before - 100.0)))
+    window.session.view.set_cut(Cut.at((1, 0, 0), tuple(step.before - 100.0)))
     window.session.view.set_handles(False)
     window.refresh()
     assert window.canvas.viewport.shown == 0
@@ -194,7 +194,7 @@ def test_the_patch_is_isolated_and_its_marks_are_visible_with_any_cut_and_in_pic
     window.messages.clear()  # Esc closes messages first
     qtbot.waitUntil(lambda: window.window_actions["back"].isEnabled(), timeout=PATIENCE)
     key(window, Qt.Key.Key_Escape)
-    assert window.session.view.look.isolation is None
+    assert window.session.view.look.show.isolate is None
     assert not box.isChecked()
     window.session.selection.choose(None)
     qtbot.waitUntil(lambda: shown_step(window) is None, timeout=PATIENCE)

@@ -95,6 +95,26 @@ def test_a_dropped_file_is_opened(window, qtbot, tmp_path):
     assert window.windowTitle().startswith("five.mesh")
 
 
+def test_a_dropped_folder_of_a_case_is_opened_and_saved(window, qtbot, tmp_path):
+    mesh = gallery.make("five-side", size=500)
+    io.write(tmp_path / "case" / "case.foam", mesh)
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(tmp_path / "case"))])
+    drag = Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
+    entered, dropped = QDragEnterEvent(QPoint(50, 50), *drag), QDropEvent(QPointF(50, 50), *drag)
+    QApplication.sendEvent(window, entered)
+    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
+        QApplication.sendEvent(window, dropped)
+    window.refresh()
+    assert window.windowTitle().startswith("case")
+    (tmp_path / "case/system").mkdir()
+    (tmp_path / "copy").mkdir()
+    with qtbot.waitSignal(window.session.saver.ended, timeout=PATIENCE):
+        window.session.commands.save_in_background(tmp_path / "copy" / "copy.foam")
+    assert (tmp_path / "copy/system").is_dir()
+    assert io.read(tmp_path / "copy").n_hexes == mesh.n_hexes
+
+
 def test_an_unreadable_file_shows_an_error_and_the_open_mesh_stays(window, qtbot, tmp_path):
     bad = tmp_path / "cut.vtk"
     bad.write_text("# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n0 0 0\n")

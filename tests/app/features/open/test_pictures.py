@@ -12,8 +12,8 @@ from hexmend.cli.main import main
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.picture.appearance import ColourScale, Structure
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.appearance import Structure
+from hexmend_app.picture.cut import Cut
 from tests.app.driving import open_and_wait
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
@@ -27,10 +27,10 @@ def change_appearance(window, qtbot):
     """Change appearance and camera, and return them."""
     session = window.session
     session.view.change(
-        clip=PlaneClip.at((1, 0.2, 0), (0.5, 0.5, 0.5)),
-        structure=Structure(sharp=True),
-        scale=ColourScale("scaled-jacobian", "plasma"),
-        dug=frozenset({3, 5}),
+        cut=Cut.at((1, 0.2, 0), (0.5, 0.5, 0.5)),
+        structure=Structure.of("sharp"),
+        colours={"metric": "scaled-jacobian", "map": "plasma"},
+        show={"hidden": frozenset({3, 5})},
     )
     window.refresh()
     qtbot.waitUntil(lambda: window.canvas.viewport.frame.look == session.view.look, timeout=PATIENCE)
@@ -122,7 +122,7 @@ def test_a_picture_without_a_scene_is_rejected(window, qtbot, tmp_path):
 
 def test_a_picture_with_hexes_that_the_mesh_does_not_have_is_rejected(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
-    window.session.view.change(dug=frozenset({60}))
+    window.session.view.change(show={"hidden": frozenset({60})})
     window.refresh()
     assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
     io.write(mesh, grid(2))

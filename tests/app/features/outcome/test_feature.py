@@ -159,13 +159,13 @@ def test_locked_hexes_are_listed_and_isolated(window, qtbot, locked):
     run(window, qtbot, "mend")
     assert f'<a href="{locked}">{locked}</a>' in texts(window)
     press(window, "Show the locked hexes")
-    assert window.session.view.look.isolation.hexes == (locked,)
+    assert window.session.view.look.show.isolate.hexes == (locked,)
     assert window.session.selection.hex == locked
     key(window, Qt.Key.Key_Escape)
-    assert window.session.view.look.isolation is None
+    assert window.session.view.look.show.isolate is None
     button(window, "Show the locked hexes").setFocus()
     QTest.keyClick(button(window, "Show the locked hexes"), Qt.Key.Key_Space)
-    assert window.session.view.look.isolation is not None
+    assert window.session.view.look.show.isolate is not None
 
 
 @pytest.mark.slow
@@ -185,9 +185,9 @@ def test_the_camera_moves_to_the_hexes_that_limit_the_least_scaled_jacobian(wind
     with qtbot.waitSignal(window.session.selection.visited) as visited:
         press(window, "Show the limiting hexes")
     assert visited.args == [tuple(limiting)]
-    assert window.session.view.look.isolation.hexes == tuple(limiting)
+    assert window.session.view.look.show.isolate.hexes == tuple(limiting)
     key(window, Qt.Key.Key_Escape)
-    assert window.session.view.look.isolation is None
+    assert window.session.view.look.show.isolate is None
     assert "The boundary slid" not in texts(window)
 
 

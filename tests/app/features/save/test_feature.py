@@ -65,7 +65,7 @@ def test_a_picture_has_the_requested_size(window, tmp_path, size):
 def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, views):
     session = window.session
     window.action("cut").trigger()
-    session.view.change(structure=Structure(sharp=True), shrink=0.1)
+    session.view.change(structure=Structure.of("sharp"), show={"shrink": 0.1})
     if views != 1:
         session.side_views.show("as it was", session.document.now)
         session.side_views.set_wiping(views == "wipe")
@@ -106,6 +106,6 @@ def test_the_dialog_remembers_the_last_picture(window, qtbot, tmp_path, monkeypa
 
 
 def test_hidden_edges_are_not_in_the_picture(window):
-    window.session.view.change(edges=False)
+    window.session.view.change(lines={"edges": 0.0})
     window.refresh()
     assert window.canvas.scene(Page()).lines == LineStyle(0.0)

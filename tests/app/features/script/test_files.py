@@ -180,7 +180,7 @@ def test_a_picture_of_the_view(window, qtbot, script, tmp_path, view):
         session.side_views.set_wiping(view == "wipe")
     if view == "movement":
         session.view.colour_by("moved-most")
-        session.view.change(traces=Traces(Since.RUN, Arrows.ALL, 2.0))
+        session.view.change(movement=Traces(Since.RUN, Arrows.ALL, 2.0))
     at(window, 4)
     path = tmp_path / "view.png"
     assert window.features["save"].picture(path, (400, 300))
@@ -210,7 +210,7 @@ def test_the_meshes_of_an_opened_picture(window, qtbot, script, tmp_path):
 def test_a_film_with_displacements(window, qtbot, script, tmp_path, suffix):
     run(window, qtbot)
     window.session.view.colour_by("q-change")
-    window.session.view.change(traces=Traces(Since.ITERATION, Arrows.ALL, 2.0))
+    window.session.view.change(movement=Traces(Since.ITERATION, Arrows.ALL, 2.0))
     window.canvas.look_along("+x")
     window.refresh()
     path, feature = tmp_path / f"run{suffix}", window.features["film"]

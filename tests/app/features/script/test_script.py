@@ -10,6 +10,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
+from hexmend_app.bench.windows import save_and_wait
 from tests.app.features.script.recording import ENDLESS, SHORT, opened, paused, run, same_again, stage, stop
 from tests.patience import PATIENCE
 
@@ -127,3 +128,29 @@ def test_a_compared_method_is_run_again(session, qtbot, tmp_path):
     same_again(session, tmp_path)
     session.commands.adopt_positions("back", session.comparison.initial)
     same_again(session, tmp_path)
+
+
+def test_a_deck_is_saved_with_all_that_it_holds_and_so_by_the_script(session, qtbot, path, tmp_path):
+    deck, out = tmp_path / "deck.inp", tmp_path / "out.inp"
+    io.write(deck, io.read(path))
+    deck.write_text("** our deck\n" + deck.read_text() + "*MATERIAL, NAME=Steel\n*STEP\n*END STEP\n")
+    opened(qtbot, session, deck)
+    run(qtbot, session, stage("local-sd"))
+    save_and_wait(session, out)
+    before, after = (file.read_text().split("\n") for file in (deck, out))
+    assert len(before) == len(after)
+    assert before[0] == after[0]
+    assert before[-4:] == after[-4:]
+    written = out.read_bytes()
+    same_again(session, tmp_path)
+    assert out.read_bytes() == written
+    save_and_wait(session, out)  # again, on a file that was written before
+    run(qtbot, session, stage("local-sd"))
+    save_and_wait(session, out)
+    assert out.read_text().startswith("** our deck")
+    save_and_wait(session, tmp_path / "other.vtu")
+    save_and_wait(session, deck)
+    assert deck.read_text().startswith("** our deck")
+    run(qtbot, session, stage("local-sd"))
+    save_and_wait(session, deck)
+    assert deck.read_text().startswith("** our deck")

@@ -9,12 +9,14 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QScrollBar, QTabBar, QTableV
 from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera
-from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box
 from hexmend_app.widgets.section import Section
 from tests.app.conftest import close, window_with_mesh
 from tests.app.driving import key, named, open_and_wait, tick, walk_to
 from tests.app.features.session.test_feature import run
 from tests.app.resetting import setting_of
+from tests.app.state.session.former_look import former_look
 from tests.app.test_resetting import known, live
 from tests.patience import PATIENCE
 
@@ -134,38 +136,38 @@ def test_an_isolated_patch_follows_the_node(window, qtbot, tmp_path):
     box = named(panel, QCheckBox, "Isolate patch")
     qtbot.waitUntil(lambda: bool(panel.figures.isVisible()), timeout=PATIENCE)
     tick(box)
-    qtbot.waitUntil(lambda: window.session.view.look.isolation is not None, timeout=PATIENCE)
-    isolation = window.session.view.look.isolation
+    qtbot.waitUntil(lambda: window.session.view.look.show.isolate is not None, timeout=PATIENCE)
+    isolation = window.session.view.look.show.isolate
     path = saved(window, tmp_path)
     tick(box)
     open_and_wait(qtbot, window, path)
     at_rest(window, qtbot)
     assert box.isChecked()
-    assert window.session.view.look.isolation == isolation
+    assert window.session.view.look.show.isolate == isolation
     mesh, chosen = window.session.document.now.mesh, window.session.selection
     another = next(int(n) for n in mesh.hexes[chosen.hex] if mesh.free[n] and n != chosen.node)
     chosen.choose(chosen.hex, another)
     window.refresh()
-    qtbot.waitUntil(lambda: window.session.view.look.isolation != isolation, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.view.look.show.isolate != isolation, timeout=PATIENCE)
     assert box.isChecked()
 
 
 def test_a_disabled_cut_is_restored(window, qtbot, tmp_path, mesh_file):
     view = window.session.view
-    box = BoxClip((0.1, 0.1, 0.1), (0.4, 0.4, 0.4), crinkle=False)
-    for clip in (PlaneClip.at((1, 2, 3), (0.5, 0.5, 0.5)), box):
-        view.set_clip(clip)
+    box = Cut(box=Box((0.1, 0.1, 0.1), (0.4, 0.4, 0.4)), style=CutStyle.SMOOTH)
+    for clip in (Cut.at((1, 2, 3), (0.5, 0.5, 0.5)), box):
+        view.set_cut(clip)
         window.refresh()
-    view.set_clip(None)
+    view.set_cut(Cut())
     window.refresh()
     path = saved(window, tmp_path)
     open_and_wait(qtbot, window, mesh_file)
     window.refresh()
     open_and_wait(qtbot, window, path)
     window.refresh()
-    assert view.look.clip is None
+    assert view.look.cut == Cut()
     window.action("cut").trigger()
-    assert view.look.clip == box
+    assert view.look.cut == box
 
 
 def test_a_session_of_version_1_leaves_panels_unchanged(window, qtbot, tmp_path):
@@ -178,7 +180,7 @@ def test_a_session_of_version_1_leaves_panels_unchanged(window, qtbot, tmp_path)
     for name in ("features", "cameras"):
         del data["window"][name]
     data["window"]["eye"] = None
-    del data["window"]["view"]["look"]["left"], data["window"]["view"]["look"]["structure"]["extra"]
+    data["window"]["view"]["look"] = former_look()
     for record in data["window"]["history"]["records"]:
         del record["slot"], record["plotted"]
     write_archive(path, "Hexmend session", 1, data)
@@ -197,8 +199,8 @@ def test_a_session_of_version_1_leaves_panels_unchanged(window, qtbot, tmp_path)
 def test_a_session_of_version_2_has_no_cameras(window, qtbot, tmp_path):
     path = saved(window, tmp_path)
     _, data = read_archive(path, "Hexmend session", VERSION)
-    look = data["window"]["view"]["look"]
-    del data["window"]["cameras"], look["left"], look["structure"]["extra"]
+    del data["window"]["cameras"], data["window"]["features"]["cut"]
+    data["window"]["view"]["look"] = former_look()
     write_archive(path, "Hexmend session", 2, data)
     window.session.saved_cameras.add("of another", Camera("+x"))
     open_and_wait(qtbot, window, path)

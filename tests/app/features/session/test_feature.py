@@ -16,8 +16,8 @@ from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.picture import Camera
-from hexmend_app.picture.appearance import Arrows, ColourScale, Structure, Traces, ValueRange
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.appearance import Arrows, Structure, Traces
+from hexmend_app.picture.cut import Cut
 from hexmend_app.shell.start.window_start import WindowStart
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, key, open_and_wait, phase, pixels
@@ -49,12 +49,11 @@ def work(window, qtbot):
     session.recipe_draft.rename("two of them")
     window.features["smooth"].panel.breakpoint_form.set_breakpoints(Breakpoints(inverts=True, node=12, move=0.25))
     session.view.change(
-        clip=PlaneClip.at((1, 0, 0.2), session.document.now.mesh.points.mean(axis=0)),
-        scale=ColourScale("scaled-jacobian", "plasma"),
-        quality_range=ValueRange("scaled-jacobian", -1.0, 0.9, inverted=True),
-        dug=frozenset({40, 41}),
-        structure=Structure(sharp=True, fixed=True),
-        traces=Traces(arrows=Arrows.SIGHT, factor=2.0),
+        cut=Cut.at((1, 0, 0.2), session.document.now.mesh.points.mean(axis=0)),
+        structure=Structure.of("sharp", "fixed"),
+        movement=Traces(arrows=Arrows.SIGHT, factor=2.0),
+        colours={"metric": "scaled-jacobian", "map": "plasma"},
+        show={"quality": (-1.0, 0.9), "metric": "scaled-jacobian", "inverted": True, "hidden": frozenset({40, 41})},
     )
     session.view.counted = "volume"
     session.saved_cameras.add("from below", Camera("-z"))
@@ -155,7 +154,7 @@ def test_a_restored_session_can_be_continued(window, qtbot, tmp_path):
     first = session.history.records[0]
     session.timeline.choose(first)
     assert (session.timeline.shown_iteration.record, session.timeline.shown_iteration.number) == (first, first.result)
-    session.view.change(peel=0)
+    session.view.change(show={"peel": 0})
     session.run.break_at(Breakpoints())
     run(window, qtbot, "laplacian", 2)
     assert [record.name for record in session.history.records][-1] == "Laplacian (2)"
@@ -256,7 +255,7 @@ def test_a_damaged_session_is_rejected_and_the_open_mesh_stays(window, qtbot, tm
         window.features["open"].open(path)
     assert window.session.document.now is now
     (text,) = (text for kind, _, text in window.messages.messages() if kind == "error")
-    assert "the window.view.look has an unknown field 'colour'" in text
+    assert "the window.view.look: [look] has an unknown key 'colour'" in text
 
 
 def test_a_failed_save_is_reported(window, tmp_path):

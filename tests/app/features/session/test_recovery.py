@@ -101,7 +101,7 @@ def test_a_killed_window_is_recovered(killed, fresh_window, qtbot, mesh_file, ow
     window.refresh()
     assert hashlib.sha256(session.document.now.mesh.points.tobytes()).hexdigest() == killed["points"]
     assert session.history.records[0].rows == killed["rows"]
-    assert session.view.look.peel == 1
+    assert session.view.look.show.peel == 1
     assert session.document.path == mesh_file
     assert session.document.modified
     assert session.document.undo_title == METHODS["laplacian"].title
@@ -149,12 +149,12 @@ def test_autosave_writes_only_changes(fresh_window, qtbot, own_state):
         run(fresh_window, qtbot)
     (arrays,) = own_state.glob("*/session.hexmend/arrays")
     before = {one.name: one.stat().st_mtime_ns for one in arrays.iterdir()}
-    session.view.change(peel=1)
+    session.view.change(show={"peel": 1})
     with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
         recovery.write()
     assert {one.name: one.stat().st_mtime_ns for one in arrays.iterdir()} == before
     kept = session_data.read(arrays.parent)
-    assert kept.view.look.peel == 1
+    assert kept.view.look.show.peel == 1
     assert len(kept.history.records) == 1
     recovery.end()
 
@@ -174,12 +174,12 @@ def test_a_file_of_an_earlier_version_is_recovered(fresh_window, qtbot, own_stat
     with qtbot.waitSignal(fresh_window.session.opener.ended, timeout=PATIENCE):
         feature.recovery.recover(left)
     assert len(fresh_window.session.history.records) == 1
-    fresh_window.session.view.change(peel=1)
+    fresh_window.session.view.change(show={"peel": 1})
     with qtbot.waitSignal(feature.recovery.written, timeout=PATIENCE):
         feature.recovery.write()
     (own,) = own_state.iterdir()
     assert sorted(one.name for one in own.iterdir()) == ["about.json", "lock", "session.hexmend"]
-    assert session_data.read(own / "session.hexmend").view.look.peel == 1
+    assert session_data.read(own / "session.hexmend").view.look.show.peel == 1
 
 
 def test_opening_another_mesh_removes_old_files(fresh_window, qtbot, own_state, mesh_file):
@@ -230,10 +230,10 @@ def test_a_change_during_a_write_is_written_too(fresh_window, qtbot, own_state):
     recovery.begin()
     with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
         recovery.write()
-        fresh_window.session.view.change(peel=1)
+        fresh_window.session.view.change(show={"peel": 1})
         recovery.write()
     (own,) = own_state.iterdir()
-    assert session_data.read(own / "session.hexmend").view.look.peel == 1
+    assert session_data.read(own / "session.hexmend").view.look.show.peel == 1
 
 
 def test_a_session_to_recover_survives_another_file_opened_meanwhile(killed, fresh_window, qtbot, mesh_file, own_state):

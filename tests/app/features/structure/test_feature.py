@@ -14,6 +14,7 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import find_structure
 from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.page import Page
 from hexmend_app.scene.layers.optional.structure import KINDS, LOCKED, PINNED, VALENCES
 from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.state.mesh.document import State
@@ -33,19 +34,19 @@ def test_a_key_shows_and_hides_a_layer(five, name):
     before = pixels(five)
     box = five.features["structure"].panel.layers[name].box
     press_key(five, name)
-    assert five.session.view.look.structure == Structure(**{name: True})
+    assert five.session.view.look.structure == Structure.of(name)
     assert box.isChecked()
     assert five.window_actions[f"show_{name}"].isChecked()
     if name != "free":  # of which none is in sight
         assert (np.abs(pixels(five) - before).sum(axis=2) > 60).sum() > 100
     press_key(five, name)
-    assert five.session.view.look == Look(shading=False)
+    assert five.session.view.look == Look(page=Page(shading=False))
     np.testing.assert_array_equal(pixels(five), before)
 
 
 def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
     press_key(five, "kinds")
-    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.is_on("kinds"), timeout=PATIENCE)
     panel = five.features["structure"].panel
     classes = five.session.boundary_classifier.classes
     assert texts(panel, "kinds")[0] == f"{classes.count(NodeClass.CORNER)} corners"
@@ -61,7 +62,7 @@ def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
 
 def test_a_pin_changes_the_class_of_a_boundary_node(five, qtbot):
     press_key(five, "kinds")
-    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.is_on("kinds"), timeout=PATIENCE)
     node = int(np.flatnonzero(five.session.boundary_classifier.classes.kinds == NodeClass.PATCH)[0])
     five.session.commands.pin(node, True)
     qtbot.waitUntil(lambda: five.session.boundary_classifier.classes.kinds[node] == PIN, timeout=PATIENCE)
@@ -110,7 +111,7 @@ def test_irregular_edges_are_shown_by_the_palette(five, qtbot):
     field = five.findChild(CommandPalette).findChild(QLineEdit)
     QTest.keyClicks(field, "irregular edges inside")
     QTest.keyClick(field, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: five.session.view.look.structure.irregular, timeout=2000)
+    qtbot.waitUntil(lambda: five.session.view.look.structure.is_on("irregular"), timeout=2000)
     assert count(pixels(five), VALENCES[5]) > 100
 
 
@@ -133,7 +134,7 @@ def test_marks_follow_a_smoother(window, qtbot, tmp_path):
 def test_a_pinned_node_changes_its_colour(five, qtbot):
     tick(five.features["structure"].panel.layers["fixed"].box)
     inside = int(np.flatnonzero(five.session.document.now.mesh.free)[0])
-    five.session.view.change(peel=1)
+    five.session.view.change(show={"peel": 1})
     five.refresh()
     assert count(pixels(five), PINNED) == 0
     visible = five.canvas.viewport.mesh_layer.faces.nodes
@@ -182,7 +183,7 @@ def test_nothing_is_cut_off(five, qtbot, size):
     five.resize(*size)
     panel = five.features["structure"].panel
     panel.set_nodes(1_234_567, 12_345, 1_234_567, 12_345)
-    five.session.view.change(structure=Structure(irregular=True))
+    five.session.view.change(structure=Structure.of("irregular"))
     found = find_structure(tetrahedron())
     valence = np.repeat([3, 5, 6, 7, 8], [14_461, 10_776, 1_048, 303, 10])
     panel.set_found(type(found)(found.interior, valence, np.arange(8672), found.boundary, valence, found.sharp))

@@ -6,6 +6,7 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend_app.picture.appearance import Structure
+from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.layers.optional.structure import SHARP, VALENCES
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.task import running
@@ -51,10 +52,10 @@ def test_a_layer_stays_on_for_the_next_mesh(five, qtbot, tmp_path):
     io.write(tmp_path / "cube.vtu", grid(3))
     open_and_wait(qtbot, five, tmp_path / "cube.vtu")
     assert five.session.structure_finder.structure is None
-    assert not five.canvas.viewport.frame.look.structure.edges  # the view does not wait for them
+    assert five.canvas.viewport.frame.look.structure.on.isdisjoint(EDGE_LAYERS)  # the view does not wait for them
     qtbot.waitUntil(lambda: five.session.structure_finder.structure is not None, timeout=PATIENCE)
     five.refresh()
-    assert five.canvas.viewport.frame.look.structure == Structure(irregular=True, sharp=True)
+    assert five.canvas.viewport.frame.look.structure == Structure.of("irregular", "sharp")
     assert texts(five.features["structure"].panel, "sharp") == ["36"]
     assert five.features["structure"].panel.layers["irregular"].box.isEnabled()  # to be switched off
     assert count(pixels(five), SHARP) > 300

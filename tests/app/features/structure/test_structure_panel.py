@@ -82,7 +82,7 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     panel.set_legend("original", OriginalSurface.legend(grid(2)))
     assert panel.offered() == {
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
-        "kinds": False, "others": False, "original": True,
+        "kinds": False, "others": False, "original": True, "interfaces": False, "materials": False,
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]
     assert "shared by four hexes" in panel.layers["irregular"].box.toolTip()
@@ -90,7 +90,7 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     panel.structure_changed.connect(heard.append)
     press(panel.layers["irregular"].box)
     assert heard == []
-    panel.set_structure(Structure(irregular=True))
+    panel.set_structure(Structure.of("irregular"))
     press(panel.layers["irregular"].box)
     assert heard == [Structure()]
     assert not panel.offered()["irregular"]
@@ -100,7 +100,7 @@ def test_a_click_adds_a_layer(panel):
     panel.set_found(find_structure(grid(2)))
     heard = []
     panel.structure_changed.connect(heard.append)
-    panel.set_structure(Structure(locked=True))
+    panel.set_structure(Structure.of("locked"))
     press(panel.layers["sharp"].box)
     press(panel.layers["sharp"].box)
-    assert heard == [Structure(sharp=True, locked=True), Structure(locked=True)]
+    assert heard == [Structure.of("sharp", "locked"), Structure.of("locked")]

@@ -69,7 +69,7 @@ def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
     name = panel.findChild(QComboBox)
     name.lineEdit().selectAll()
     QTest.keyClicks(name.lineEdit(), "bad ones")
-    window.session.view.change(peel=2)
+    window.session.view.change(show={"peel": 2})
     window.refresh()
     press(button(panel, "Shown"))
     layers = window.session.document.now.mesh.topology.layers
@@ -81,7 +81,7 @@ def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
     table = panel.findChild(QTableWidget)
     QTest.mouseClick(table.viewport(), LEFT, pos=table.visualItemRect(table.item(1, 0)).center())
     press(button(panel, "Isolate"))
-    assert sorted(window.session.view.look.isolation.hexes) == tags(window)["worst"]
+    assert sorted(window.session.view.look.show.isolate.hexes) == tags(window)["worst"]
     press(button(panel, "Remove"))
     assert list(tags(window)) == ["bad ones"]
 

@@ -5,8 +5,9 @@ import pytest
 import pyvista as pv
 
 from hexmend.quality import measure
-from hexmend_app.picture.appearance import Isolation, Look
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
@@ -16,13 +17,13 @@ from tests.core.grids import grid
 
 MESH = grid(6)
 FIGURES = measure(MESH.points, MESH.hexes)
-CORNER = Look(isolation=Isolation((0,), 1))
+CORNER = Look(show=Show(isolate=Isolate((0,), 1)))
 LOOKS = [
     Look(),
     CORNER,
-    Look(clip=PlaneClip.at((1, 0, 0), (2.5, 3, 3))),
-    Look(clip=PlaneClip.at((1, 1, 0), (2, 2, 3), False)),
-    Look(peel=2),
+    Look(cut=Cut.at((1, 0, 0), (2.5, 3, 3))),
+    Look(cut=Cut.at((1, 1, 0), (2, 2, 3), CutStyle.SMOOTH)),
+    Look(show=Show(peel=2)),
 ]
 
 
@@ -73,7 +74,7 @@ def test_a_look_or_moved_nodes_leave_the_camera(panes):
 
 def test_fit_uses_the_whole_mesh_if_nothing_is_shown(panes):
     whole = pose_of(panes.camera_controller.camera)
-    panes.draw(Frame(MESH, FIGURES, look=Look(dug=frozenset(range(MESH.n_hexes)))))
+    panes.draw(Frame(MESH, FIGURES, look=Look(show=Show(hidden=frozenset(range(MESH.n_hexes))))))
     panes.camera_controller.fit()
     assert pose_of(panes.camera_controller.camera).looks_like(whole)
 
@@ -141,8 +142,8 @@ def test_objects_keep_their_size_in_the_other_projection(panes):
 
 @pytest.mark.parametrize("normal", [(1, 0, 0), (0, 0, -1), (1, 2, 3)])
 def test_a_plane_is_viewed_from_the_removed_side(panes, normal):
-    clip = PlaneClip.at(normal, (3, 3, 3), False)
-    panes.draw(Frame(MESH, FIGURES, look=Look(clip=clip)))
+    clip = Cut.at(normal, (3, 3, 3), CutStyle.SMOOTH)
+    panes.draw(Frame(MESH, FIGURES, look=Look(cut=clip)))
     panes.camera_controller.flight_along(clip.planes[0].normal).at(1.0)
     ahead = np.array(panes.camera_controller.camera.GetDirectionOfProjection())
     np.testing.assert_allclose(ahead, -np.array(clip.planes[0].normal), atol=1e-9)
@@ -174,7 +175,7 @@ def test_a_flight_to_a_hex_shows_its_neighbours(panes, parallel):
 
 
 def test_the_clipping_range_includes_the_outline(panes):
-    panes.draw(Frame(MESH, FIGURES, look=Look(clip=PlaneClip.at((1, 0, 0), (1.2, 3, 3)))))
+    panes.draw(Frame(MESH, FIGURES, look=Look(cut=Cut.at((1, 0, 0), (1.2, 3, 3)))))
     panes.camera_controller.fit()  # of the outline of the whole too, which is larger
     depth = (
         MESH.points - panes.camera_controller.camera.GetPosition()

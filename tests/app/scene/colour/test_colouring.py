@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from hexmend.errors import ParameterError
 from hexmend.quality import METRICS
-from hexmend_app.picture.appearance import ColourScale, RangeMode
 from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
+from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.scene.colour.colouring import INVERTED, Colouring, range_label, resolve
 
 NONE = np.zeros(4, bool)
@@ -52,16 +52,16 @@ def test_an_unknown_map_is_an_error():
 @pytest.mark.parametrize("name", METRICS)
 def test_finite_declared_ranges_are_used(name):
     for mode, declared in (
-        (RangeMode.FULL, METRICS[name].full_range),
-        (RangeMode.ACCEPTABLE, METRICS[name].acceptable),
+        (Range.FULL, METRICS[name].full_range),
+        (Range.ACCEPTABLE, METRICS[name].acceptable),
     ):
-        got = resolve(ColourScale(name, mode=mode), VALUES, NONE)
+        got = resolve(Colours(metric=name, range=mode), VALUES, NONE)
         assert got.title == METRICS[name].title
         assert (got.low, got.high) == (declared if np.isfinite(declared).all() else (0.2, 0.9))
 
 
 def test_a_range_is_fitted_to_finite_values_of_hexes_that_are_not_inverted():
-    fitted = ColourScale(mode=RangeMode.FITTED)
+    fitted = Colours(range=Range.FITTED)
     got = resolve(fitted, VALUES, NONE)
     assert (got.low, got.high) == (0.2, 0.9)
     got = resolve(fitted, VALUES, np.array([False, True, False, False]))
@@ -74,13 +74,13 @@ def test_a_range_is_fitted_to_finite_values_of_hexes_that_are_not_inverted():
 
 @pytest.mark.parametrize("value", [0.0, 1.0, -3e9, 1e-200])
 def test_equal_values_have_a_colour_from_the_middle(value):
-    got = resolve(ColourScale(mode=RangeMode.FITTED), np.full(4, value), NONE)
+    got = resolve(Colours(range=Range.FITTED), np.full(4, value), NONE)
     assert got.low < got.high
     assert got.colours(np.full(4, value), NONE)[0].tolist() in COLOUR_MAPS["viridis"].table[127:129].tolist()
 
 
 def test_a_pinned_range_is_used_as_set():
-    got = resolve(ColourScale(mode=RangeMode.PINNED, pinned=(-2, 3)), VALUES, NONE)
+    got = resolve(Colours(range=(-2, 3)), VALUES, NONE)
     assert (got.low, got.high) == (-2, 3)
 
 
@@ -89,7 +89,7 @@ def test_a_pinned_range_is_used_as_set():
 ])  # fmt: skip
 def test_the_dark_end_is_the_worst_unless_reversed(monkeypatch, better, reverse, dark_is_low):
     monkeypatch.setattr("hexmend_app.scene.colour.colouring.better", lambda metric: better)
-    got = resolve(ColourScale(reverse=reverse), VALUES, NONE).table
+    got = resolve(Colours(reverse=reverse), VALUES, NONE).table
     assert (got[0].sum() < got[-1].sum()) == dark_is_low
 
 

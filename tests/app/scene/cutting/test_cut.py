@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.cut_planes import BoxClip, ClipPlane, PlaneClip
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box, Plane
 from hexmend_app.scene.cutting import cut
 from hexmend_app.scene.geometry.filters import Filters
 from hexmend_app.scene.geometry.skin import Skin
@@ -24,14 +25,14 @@ COLOURS = np.arange(24 * 3, dtype=np.uint8).reshape(24, 3)
     [((1, 0, 0), (1.5, 0, 0), 6, 6), ((0, 1, 0), (0, 0.25, 0), 8, 8), ((0, 0, -1), (0, 0, 1.5), 12, 12), ((1, 1, 0), (1, 0.5, 0), 3 * 2**0.5, None)],
 )  # fmt: skip
 def test_the_section_has_the_area_of_the_cut(normal, origin, area, cells):
-    got = cut.sections(MESH.points, MESH.hexes, None, PlaneClip.at(normal, origin), COLOURS)
+    got = cut.sections(MESH.points, MESH.hexes, None, Cut.at(normal, origin), COLOURS)
     assert got.area == pytest.approx(area, rel=1e-6)
     assert cells is None or got.n_cells == cells
 
 
 @pytest.mark.parametrize("x", [1, 2, 3, 4])
 def test_a_plane_through_nodes_shows_the_remaining_hexes(x):
-    got = cut.sections(MESH.points, MESH.hexes, None, PlaneClip.at((1, 0, 0), (x, 0, 0)), COLOURS)
+    got = cut.sections(MESH.points, MESH.hexes, None, Cut.at((1, 0, 0), (x, 0, 0)), COLOURS)
     assert got.area == pytest.approx(6)
     hexes = got.cell_data["colours"][:, 0] // 3
     assert sorted(hexes) == [x - 1 + 4 * k for k in range(6)]
@@ -42,13 +43,13 @@ def test_the_section_by_a_plane_through_nodes_is_complete_despite_rounding(seed,
     turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
     turn *= np.linalg.det(turn)  # a rotation, not a mirror image
     shift = np.random.default_rng(seed).normal(size=3) * 10
-    plane = PlaneClip.at(turn[:, 0], turn[:, 0] * x + shift)
+    plane = Cut.at(turn[:, 0], turn[:, 0] * x + shift)
     got = cut.sections(MESH.points @ turn.T + shift, MESH.hexes, None, plane, COLOURS)
     assert got.area == pytest.approx(6)
 
 
 def test_each_polygon_has_the_colour_of_its_hex():
-    got = cut.sections(MESH.points, MESH.hexes, None, PlaneClip.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
+    got = cut.sections(MESH.points, MESH.hexes, None, Cut.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
     centres = got.cell_centers().points
     for centre, colour in zip(centres, got.cell_data["colours"], strict=True):
         h = int(centre[0]) + 4 * int(centre[1]) + 12 * int(centre[2])
@@ -58,35 +59,35 @@ def test_each_polygon_has_the_colour_of_its_hex():
 def test_hidden_hexes_are_not_cut():
     keep = np.zeros(24, dtype=bool)
     keep[1] = True
-    got = cut.sections(MESH.points, MESH.hexes, keep, PlaneClip.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
+    got = cut.sections(MESH.points, MESH.hexes, keep, Cut.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
     assert got.area == pytest.approx(1)
 
 
 def test_a_plane_outside_the_mesh_cuts_nothing():
-    assert cut.sections(MESH.points, MESH.hexes, None, PlaneClip.at((1, 0, 0), (9, 0, 0)), COLOURS).n_cells == 0
+    assert cut.sections(MESH.points, MESH.hexes, None, Cut.at((1, 0, 0), (9, 0, 0)), COLOURS).n_cells == 0
 
 
 def test_the_remaining_skin_lies_in_front_of_the_plane():
     faces = Skin(MESH).visible()
     skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes], faces.hexes)
-    rest = cut.remaining_skin(skin, PlaneClip.at((1, 0, 0), (1.5, 0, 0), False))
+    rest = cut.remaining_skin(skin, Cut.at((1, 0, 0), (1.5, 0, 0), CutStyle.SMOOTH))
     assert rest.area == pytest.approx(6 + 2 * 1.5 * 3 + 2 * 1.5 * 2)
     assert rest.bounds[1] == pytest.approx(1.5)
 
 
-CORNER = (ClipPlane((1, 0, 0), (1.5, 0, 0)), ClipPlane((0, 1, 0), (0, 1.25, 0)))
+CORNER = (Plane((1, 0, 0), point=(1.5, 0, 0)), Plane((0, 1, 0), point=(0, 1.25, 0)))
 BOX = ((0.5, 0.5, 0.5), (2.5, 1.5, 1.25))
 
 
 @pytest.mark.parametrize(
     ("clip", "skin_area", "section_area"),
     [
-        (PlaneClip(CORNER, False), 1.25 * 2 + 1.5 * 2 + 2 * 1.5 * 1.25, (1.25 + 1.5) * 2),
-        (PlaneClip(CORNER, False, notch=True), 52 - 2.5 * 2 - 1.75 * 2 - 2 * 2.5 * 1.75, (2.5 + 1.75) * 2),
-        (BoxClip(*BOX, False), 0, 2 * (2 * 1 + 2 * 0.75 + 1 * 0.75)),
-        (BoxClip(*BOX, False, notch=True), 52, 2 * (2 * 1 + 2 * 0.75 + 1 * 0.75)),
-        (BoxClip((2, 0, 0), (4, 3, 2), False), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
-        (BoxClip((2, 0, 0), (4, 3, 2), False, notch=True), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
+        (Cut(CORNER, style=CutStyle.SMOOTH), 1.25 * 2 + 1.5 * 2 + 2 * 1.5 * 1.25, (1.25 + 1.5) * 2),
+        (Cut(CORNER, style=CutStyle.SMOOTH, notch=True), 52 - 2.5 * 2 - 1.75 * 2 - 2 * 2.5 * 1.75, (2.5 + 1.75) * 2),
+        (Cut(box=Box(*BOX), style=CutStyle.SMOOTH), 0, 2 * (2 * 1 + 2 * 0.75 + 1 * 0.75)),
+        (Cut(box=Box(*BOX), style=CutStyle.SMOOTH, notch=True), 52, 2 * (2 * 1 + 2 * 0.75 + 1 * 0.75)),
+        (Cut(box=Box((2, 0, 0), (4, 3, 2)), style=CutStyle.SMOOTH), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
+        (Cut(box=Box((2, 0, 0), (4, 3, 2)), style=CutStyle.SMOOTH, notch=True), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
     ],
 )
 def test_several_planes_leave_the_expected_areas(clip, skin_area, section_area):
@@ -101,8 +102,8 @@ def test_several_planes_leave_the_expected_areas(clip, skin_area, section_area):
     st.booleans(),
 )
 def test_a_cut_by_whole_hexes_depends_on_their_centres(normals, notch):
-    clip = PlaneClip(tuple(ClipPlane(normal, (2, 1.5, 1)) for normal in normals), True, notch)
-    kept = Filters(MESH).kept(Frame(MESH, measure(MESH.points, MESH.hexes), look=Look(clip=clip)))
+    clip = Cut(tuple(Plane(normal, point=(2, 1.5, 1)) for normal in normals), notch=notch)
+    kept = Filters(MESH).kept(Frame(MESH, measure(MESH.points, MESH.hexes), look=Look(cut=clip)))
     beyond = np.array([plane.signed_distance(MESH.points[MESH.hexes].mean(axis=1)) for plane in clip.planes])
     clear = (np.abs(beyond) > 1e-12).all(axis=0)
     hidden = (beyond > 0).all(axis=0) if notch else (beyond > 0).any(axis=0)
@@ -110,6 +111,6 @@ def test_a_cut_by_whole_hexes_depends_on_their_centres(normals, notch):
 
 
 def test_a_plane_near_an_axis_snaps_to_it():
-    assert ClipPlane((0.1, -1, 0.05), (1, 2, 3)).snapped() == ClipPlane((0, -1, 0), (1, 2, 3))
-    oblique = ClipPlane((0.5, -1, 0.05))
+    assert Plane((0.1, -1, 0.05), point=(1, 2, 3)).snapped() == Plane((0, -1, 0), point=(1, 2, 3))
+    oblique = Plane((0.5, -1, 0.05))
     assert oblique.snapped() == oblique

@@ -7,8 +7,9 @@ import pytest
 
 from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.quality import measure
-from hexmend_app.picture.appearance import Arrows, ColourScale, Look, RangeMode, Traces
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.appearance import Arrows, Look, Traces
+from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.scene.layers import arrows as layer
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
@@ -20,7 +21,7 @@ MESH = grid(6)
 THEN = ReferenceState(MESH.points, measure(MESH.points, MESH.hexes), "then")
 NOW = scrambled(MESH, 0.5).points
 FIGURES = measure(NOW, MESH.hexes)
-CUT = PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0))
+CUT = Cut.at((1, 0, 0), (3.3, 3.0, 3.0))
 
 
 @pytest.fixture
@@ -67,18 +68,18 @@ def test_an_arrow_ends_at_the_end_of_its_path_and_the_length_of_its_head_is_limi
 def test_visible_or_all_nodes_that_have_moved_have_arrows(viewport):
     move(viewport)
     assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)
-    look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
+    look_at(viewport, Look(movement=Traces(arrows=Arrows.ALL)))
     every = int(MESH.free.sum())
     assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (every, every)
-    look_at(viewport, Look(traces=Traces(arrows=Arrows.SIGHT)))
+    look_at(viewport, Look(movement=Traces(arrows=Arrows.SIGHT)))
     assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (
         0,
         0,
     )  # nodes of the boundary stay
-    look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT)))
+    look_at(viewport, Look(cut=CUT, movement=Traces(arrows=Arrows.SIGHT)))
     assert 0 < viewport.overlay_layers.arrows.drawn < every
     look_at(
-        viewport, Look(clip=PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0), crinkle=False), traces=Traces(arrows=Arrows.SIGHT))
+        viewport, Look(cut=Cut.at((1, 0, 0), (3.3, 3.0, 3.0), CutStyle.SMOOTH), movement=Traces(arrows=Arrows.SIGHT))
     )
     assert 0 < viewport.overlay_layers.arrows.drawn < every
     move(viewport, MESH.points, THEN.quality)
@@ -87,7 +88,7 @@ def test_visible_or_all_nodes_that_have_moved_have_arrows(viewport):
 
 def test_the_longest_of_many_arrows_are_drawn(viewport, monkeypatch):
     monkeypatch.setattr(layer, "MAX_ARROWS", 20)
-    look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
+    look_at(viewport, Look(movement=Traces(arrows=Arrows.ALL)))
     move(viewport)
     assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (20, int(MESH.free.sum()))
     starts = np.asarray(viewport.overlay_layers.arrows.lines.points)[::7]
@@ -97,11 +98,11 @@ def test_the_longest_of_many_arrows_are_drawn(viewport, monkeypatch):
 
 def test_arrows_are_drawn_move_with_the_nodes_and_are_removed(viewport, drawn):
     without = drawn()
-    look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=1)))
+    look_at(viewport, Look(cut=CUT, movement=Traces(arrows=Arrows.SIGHT, factor=1)))
     plain = drawn()
     move(viewport)
     one = drawn()
-    look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=3)))
+    look_at(viewport, Look(cut=CUT, movement=Traces(arrows=Arrows.SIGHT, factor=3)))
     assert (drawn() != one).any()
     look_at(viewport, Look())
     move(viewport, MESH.points, THEN.quality)
@@ -110,7 +111,7 @@ def test_arrows_are_drawn_move_with_the_nodes_and_are_removed(viewport, drawn):
 
 
 def test_colours_of_a_change_distinguish_newly_inverted_and_mended_hexes(viewport):
-    look_at(viewport, Look(scale=ColourScale("q-change", mode=RangeMode.FITTED)))
+    look_at(viewport, Look(colours=Colours(metric="q-change", range=Range.FITTED)))
     bad = scrambled(MESH, 1.2).points
     figures = measure(bad, MESH.hexes)
     move(viewport, bad, figures)
@@ -127,6 +128,6 @@ def test_colours_of_a_change_distinguish_newly_inverted_and_mended_hexes(viewpor
 
 
 def test_without_a_movement_nothing_has_moved(viewport):
-    look_at(viewport, Look(scale=ColourScale("moved-most"), traces=Traces(arrows=Arrows.ALL)))
+    look_at(viewport, Look(movement=Traces(arrows=Arrows.ALL), colours=Colours(metric="moved-most")))
     assert (viewport.colouring.low, viewport.colouring.high) == (0.0, 1.0)
     assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)

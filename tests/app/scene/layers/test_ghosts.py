@@ -7,9 +7,10 @@ import pytest
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.quality import measure
-from hexmend_app.picture.appearance import Isolation, Look
+from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.camera_pose import CameraPose
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.cut import Cut
+from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.layers.ghosts import Ghosts
 from hexmend_app.scene.render.stage import Stage
@@ -40,7 +41,7 @@ def viewport(stage):
 
 @pytest.mark.parametrize("rings", [0, 1, 2])
 def test_rings_around_isolated_hexes_are_ghosts(viewport, rings):
-    viewport.draw(frame(isolation=Isolation((MIDDLE,), rings)))
+    viewport.draw(frame(show=Show(isolate=Isolate((MIDDLE,), rings))))
     assert viewport.shown == 1
     assert set(viewport.mesh_layer.faces.hexes) == {MIDDLE}
     ghosts = viewport.filters.ghosts(viewport.frame)
@@ -53,7 +54,7 @@ def test_rings_around_isolated_hexes_are_ghosts(viewport, rings):
 
 def test_hexes_dug_out_or_cut_away_are_no_ghosts(viewport):
     viewport.draw(
-        frame(isolation=Isolation((MIDDLE,), 1), dug=frozenset({61}), clip=PlaneClip.at((0, 0, 1), (0, 0, 3)))
+        frame(show=Show(isolate=Isolate((MIDDLE,), 1), hidden=frozenset({61})), cut=Cut.at((0, 0, 1), (0, 0, 3)))
     )
     ghosts = viewport.filters.ghosts(viewport.frame)
     assert ghosts.sum() == 18 - 2
@@ -61,14 +62,14 @@ def test_hexes_dug_out_or_cut_away_are_no_ghosts(viewport):
 
 
 def test_there_are_no_ghosts_without_isolation(viewport):
-    viewport.draw(frame(isolation=Isolation((MIDDLE,), 1)))
+    viewport.draw(frame(show=Show(isolate=Isolate((MIDDLE,), 1))))
     viewport.draw(frame())
     assert viewport.filters.ghosts(viewport.frame) is None
     np.testing.assert_allclose(np.ptp(viewport.places, axis=0), 5)
 
 
 def test_an_isolated_hex_is_visible_through_its_ghosts(stage, viewport):
-    viewport.draw(frame(isolation=Isolation((MIDDLE,), 1), outline=False))
+    viewport.draw(frame(show=Show(isolate=Isolate((MIDDLE,), 1), outline=False)))
     apply_pose(viewport.camera, CameraPose((7, -5, 7), (2.5, 2.5, 2.5), (0, 0, 1), False, 1.0, "z"))
     viewport.layers[0].ResetCameraClippingRange()
     ghostly = stage.picture().astype(int)

@@ -5,8 +5,11 @@ import pytest
 import pyvista as pv
 
 from hexmend.quality import measure
-from hexmend_app.picture.appearance import ColourScale, Look
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.colours import Colours
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.page import Page
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.colouring import OPENED, OUTSIDE
 from hexmend_app.scene.geometry import occlusion
 from hexmend_app.scene.layers import mesh as module
@@ -18,7 +21,9 @@ from hexmend_app.scene.views.viewport import Viewport
 from tests.core.grids import grid
 
 MESH = grid(4)
-STEP = Look(dug=frozenset(int(h) for h in np.flatnonzero((MESH.points[MESH.hexes].mean(axis=1) > 2).all(axis=1))))
+STEP = Look(
+    show=Show(hidden=frozenset(int(h) for h in np.flatnonzero((MESH.points[MESH.hexes].mean(axis=1) > 2).all(axis=1))))
+)
 
 
 @pytest.fixture
@@ -59,7 +64,7 @@ def test_shading_that_is_known_or_switched_off_is_not_computed(viewport):
     assert viewport.mesh_layer.needs_shading is not None
     viewport.shade()
     assert viewport.mesh_layer.needs_shading is None
-    draw(viewport, Look(dug=STEP.dug, shading=False))
+    draw(viewport, Look(show=Show(hidden=STEP.show.hidden), page=Page(shading=False)))
     assert viewport.mesh_layer.needs_shading is None
     np.testing.assert_allclose(shades(viewport), 1)
 
@@ -68,7 +73,7 @@ def test_other_colours_have_the_same_shading(viewport):
     draw(viewport)
     viewport.shade()
     before = shades(viewport)
-    draw(viewport, Look(dug=STEP.dug, scale=ColourScale(map="plasma", reverse=True)))
+    draw(viewport, Look(show=Show(hidden=STEP.show.hidden), colours=Colours(map="plasma", reverse=True)))
     assert viewport.mesh_layer.needs_shading is None
     np.testing.assert_allclose(shades(viewport), before, atol=0.05)  # but for rounding
 
@@ -118,7 +123,7 @@ def test_a_fine_quad_has_one_normal_and_its_own_corners(viewport):
 
 
 def test_sections_of_a_smooth_cut_face_the_removed_side(viewport):
-    draw(viewport, Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 2.5), False)))
+    draw(viewport, Look(cut=Cut.at((0, 0, 1), (0, 0, 2.5), CutStyle.SMOOTH)))
     section = pv.wrap(viewport.mesh_layer.section.actor.GetMapper().GetInput())
     np.testing.assert_allclose(section.point_normals, np.tile([0, 0, 1], (section.n_points, 1)), atol=1e-6)
     viewport.shade()
@@ -128,7 +133,7 @@ def test_sections_of_a_smooth_cut_face_the_removed_side(viewport):
 def test_a_neutral_look_can_be_switched_on_and_off(viewport):
     draw(viewport)
     coloured = colours_of(viewport.mesh_layer.whole).copy()
-    draw(viewport, Look(dug=STEP.dug, neutral=True))
+    draw(viewport, Look(show=Show(hidden=STEP.show.hidden), colours=Colours(neutral=True)))
     inside = (np.abs(viewport.mesh_layer.whole.cell_centers().points - 2) < 1e-9).any(axis=1)
     seen = colours_of(viewport.mesh_layer.whole)
     assert inside.any()

@@ -5,7 +5,8 @@ import pytest
 
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.cut import Cut
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
@@ -13,7 +14,7 @@ from hexmend_app.scene.views.viewport import Viewport
 from tests.core.grids import grid
 
 MESH = grid(4)
-ON, OFF = Look(structure=Structure(original=True)), Look()
+ON, OFF = Look(structure=Structure.of("original")), Look()
 
 
 def frame(points, look=ON):
@@ -68,12 +69,12 @@ def test_it_stays_while_the_nodes_move(drawn):
 
 
 def test_faces_of_hidden_hexes_are_not_drawn(drawn):
-    half = Look(clip=PlaneClip.at((0, 0, 1), (2, 2, 1.9)), structure=Structure(original=True))
+    half = Look(cut=Cut.at((0, 0, 1), (2, 2, 1.9)), structure=Structure.of("original"))
     drawn(frame(MESH.points))
     assert len(drawn.viewport.overlay_layers.optional["original"].places) == MESH.topology.boundary.sum()
     drawn(frame(MESH.points, half))
     assert 0 < np.ptp(drawn.viewport.overlay_layers.optional["original"].places, axis=0)[2] < 3
-    drawn(frame(MESH.points, Look(peel=1, structure=Structure(original=True))))
+    drawn(frame(MESH.points, Look(structure=Structure.of("original"), show=Show(peel=1))))
     assert not drawn.viewport.overlay_layers.optional["original"].shown
     drawn(frame(MESH.points))
     assert drawn.viewport.overlay_layers.optional["original"].shown

@@ -7,7 +7,7 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.layers.optional.other_cells import FACES, outer_faces
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
@@ -15,7 +15,7 @@ from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
 from tests.core.grids import grid
 
-OFF = Look(structure=Structure(others=False))
+OFF = Look(structure=Structure(frozenset()))
 
 
 def hybrid() -> Mesh:
@@ -67,7 +67,7 @@ def test_shared_faces_are_omitted():
 
 
 def test_a_cut_removes_cells_by_their_centres():
-    triangles, _ = outer_faces(hybrid(), PlaneClip.at((1, 0, 0), (0.7, 0, 0)))
+    triangles, _ = outer_faces(hybrid(), Cut.at((1, 0, 0), (0.7, 0, 0)))
     assert len(triangles) == 4
 
 

@@ -11,7 +11,10 @@ from hexmend.gallery.pentagon import fan, subdivide
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box
+from hexmend_app.picture.page import LineStyle
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.layers.optional.structure import (
     BOUNDARY,
     FREE,
@@ -42,7 +45,7 @@ def five_blocks(segments, layers):
 
 
 FIVE = five_blocks(3, 11)
-BELOW = PlaneClip.at((0, 0, 1), (0, 0, 0.7))
+NO_CUT, BELOW = Cut(), Cut.at((0, 0, 1), (0, 0, 0.7))
 
 
 @pytest.fixture
@@ -51,8 +54,9 @@ def draw():
     stage = Stage((400, 300))
     viewport = Viewport(Pane(stage.window))
 
-    def drawn(mesh, structure, **look):
-        look = Look(edges=False, outline=False, structure=structure, **look)
+    def drawn(mesh, structure, cut=NO_CUT, shrink=0.0):
+        show = Show(shrink=shrink, outline=False)
+        look = Look(structure=structure, cut=cut, lines=LineStyle(edges=0.0), show=show)
         viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look))
         viewport.view("iso")
         viewport.moving()
@@ -73,29 +77,29 @@ def count(image, colour):
 
 def test_irregular_edges_are_visible_through_the_mesh_in_the_colour_of_their_valence(draw):
     assert count(draw(FIVE, Structure()), VALENCES[5]) == 0
-    image = draw(FIVE, Structure(irregular=True))
+    image = draw(FIVE, Structure.of("irregular"))
     assert count(image, VALENCES[5]) > 100
     assert count(image, VALENCES[3]) == 0
-    image = draw(tetrahedron(), Structure(irregular=True))
+    image = draw(tetrahedron(), Structure.of("irregular"))
     assert count(image, VALENCES[3]) > 20
     assert count(image, VALENCES[5]) == 0
     assert count(image, IRREGULAR_NODE) > 5
 
 
 def test_visible_edges_are_thicker_than_hidden_ones(draw):
-    through = count(draw(FIVE, Structure(irregular=True)), VALENCES[5])
+    through = count(draw(FIVE, Structure.of("irregular")), VALENCES[5])
     draw.viewport.mesh_layer.skin.actor.SetVisibility(False)
     assert count(draw.pixels(), VALENCES[5]) > 1.4 * through
 
 
 def test_sharp_edges_and_irregular_edges_of_a_smooth_boundary(draw):
-    assert count(draw(grid(3), Structure(sharp=True)), SHARP) > 300
+    assert count(draw(grid(3), Structure.of("sharp")), SHARP) > 300
     mesh = grid(8)
-    assert count(draw(mesh, Structure(boundary=True)), OTHER) == 0  # the edges of a box are sharp
+    assert count(draw(mesh, Structure.of("boundary")), OTHER) == 0  # the edges of a box are sharp
     p = mesh.points / 4 - 1
     size = np.linalg.norm(p, axis=1, keepdims=True)
     ball = Mesh(p * np.abs(p).max(axis=1, keepdims=True) / np.maximum(size, 1e-9), mesh.hexes)
-    assert count(draw(ball, Structure(boundary=True)), OTHER) > 100
+    assert count(draw(ball, Structure.of("boundary")), OTHER) > 100
 
 
 def test_nodes_have_the_colour_of_their_kind(draw):
@@ -103,54 +107,56 @@ def test_nodes_have_the_colour_of_their_kind(draw):
     pinned = np.zeros(mesh.n_nodes, bool)
     pinned[[62, 0]] = True  # the centre, and a corner, which is on the boundary anyway
     mesh = mesh.replace(pinned=pinned)
-    half = PlaneClip.at((0, 0, 1), (0, 0, 2))
-    image = draw(mesh, Structure(fixed=True, free=True), clip=half)
+    half = Cut.at((0, 0, 1), (0, 0, 2))
+    image = draw(mesh, Structure.of("fixed", "free"), cut=half)
     assert count(image, PINNED) in range(4, 40)
     assert count(image, FREE) > 4 * count(image, PINNED)
     assert count(image, BOUNDARY) > 4 * count(image, PINNED)
-    image = draw(mesh, Structure(free=True), clip=half)
+    image = draw(mesh, Structure.of("free"), cut=half)
     assert count(image, BOUNDARY) == count(image, PINNED) == 0 < count(image, FREE)
-    image = draw(mesh, Structure(free=True))
+    image = draw(mesh, Structure.of("free"))
     assert count(image, FREE) == 0  # none is in sight
 
 
 def test_nodes_of_locked_hexes_are_marked(draw):
     mesh = grid(3)
     points = mesh.points.copy()
-    assert count(draw(mesh, Structure(locked=True)), LOCKED) == 0
+    assert count(draw(mesh, Structure.of("locked")), LOCKED) == 0
     points[15] = points[15] + [-1.5, 0, 0]  # of an edge of the box, past its neighbour on the boundary
     locked = Mesh(points, mesh.hexes)
-    assert count(draw(locked, Structure(locked=True)), LOCKED) > 20
+    assert count(draw(locked, Structure.of("locked")), LOCKED) > 20
     draw.viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=draw.viewport.frame.look))
     assert count(draw.pixels(), LOCKED) == 0
 
 
 @pytest.mark.parametrize(
-    "clip",
+    "cut",
     [
         BELOW,
-        PlaneClip.at((0, 0, 1), (0, 0, 0.7), False),
-        PlaneClip((*BELOW.planes, *BELOW.planes), False, notch=True),
-        BoxClip((-2, -2, -2), (2, 2, 0.7), False),
-        BoxClip((-2, -2, 0.7), (2, 2, 2), False, notch=True),
+        Cut.at((0, 0, 1), (0, 0, 0.7), CutStyle.SMOOTH),
+        Cut((*BELOW.planes, *BELOW.planes), style=CutStyle.SMOOTH, notch=True),
+        Cut(box=Box((-2, -2, -2), (2, 2, 0.7)), style=CutStyle.SMOOTH),
+        Cut(box=Box((-2, -2, 0.7), (2, 2, 2)), style=CutStyle.SMOOTH, notch=True),
     ],
 )
-def test_only_shown_hexes_have_marks(draw, clip):
-    wanted = Structure(irregular=True, sharp=True, fixed=True)
-    draw(FIVE, wanted, clip=clip)
+def test_only_shown_hexes_have_marks(draw, cut):
+    wanted = Structure.of("irregular", "sharp", "fixed")
+    draw(FIVE, wanted, cut=cut)
     layers = draw.viewport.overlay_layers.structure
     assert layers.irregular.count == 5  # of the eleven, those below the plane
     for marks in (layers.irregular, layers.sharp, layers.nodes):
         assert marks.poly.points[:, 2].max() <= 0.75
     draw.viewport.draw(
-        dataclasses.replace(draw.viewport.frame, look=Look(structure=wanted, dug=frozenset(range(FIVE.n_hexes))))
+        dataclasses.replace(
+            draw.viewport.frame, look=Look(structure=wanted, show=Show(hidden=frozenset(range(FIVE.n_hexes))))
+        )
     )
     assert not layers.irregular.shown
     assert not layers.nodes.shown
 
 
 def test_marks_move_with_the_nodes_and_with_shrunk_hexes(draw):
-    draw(FIVE, Structure(irregular=True, fixed=True), shrink=0.3)
+    draw(FIVE, Structure.of("irregular", "fixed"), shrink=0.3)
     moved = FIVE.points * [1, 1, 0.5]
     draw.viewport.draw(Frame(FIVE.with_points(moved), measure(moved, FIVE.hexes), look=draw.viewport.frame.look))
     layers = draw.viewport.overlay_layers.structure
@@ -164,7 +170,7 @@ def test_marks_move_with_the_nodes_and_with_shrunk_hexes(draw):
 
 def test_many_marks_are_drawn_in_full_only_in_fine_frames(draw, monkeypatch):
     monkeypatch.setattr("hexmend_app.scene.layers.optional.structure._MANY", 5)
-    draw(FIVE, Structure(irregular=True))
+    draw(FIVE, Structure.of("irregular"))
     layers = draw.viewport.overlay_layers.structure
     assert not layers.layer.GetDraw()
     draw.viewport.still()
@@ -182,22 +188,22 @@ def test_valences_without_a_separate_colour_share_one():
 
 def test_boundary_nodes_have_the_colour_of_their_class(draw):
     mesh = grid(3)
-    image = draw(mesh, Structure(kinds=True))
+    image = draw(mesh, Structure.of("kinds"))
     assert count(image, KINDS[NodeClass.CORNER]) > 100
     assert count(image, KINDS[NodeClass.CURVE]) > count(image, KINDS[NodeClass.CORNER])
     assert count(image, KINDS[NodeClass.PATCH]) > 100
     assert count(image, KINDS[WHISKER]) == count(image, PINNED) == 0
     pinned = np.zeros(mesh.n_nodes, bool)
     pinned[np.flatnonzero((mesh.points[:, 2] == 3) & (mesh.points[:, 0] == 1))] = True
-    assert count(draw(mesh.replace(pinned=pinned), Structure(kinds=True)), PINNED) > 20
-    assert count(draw(mesh, Structure(kinds=True, fixed=True)), BOUNDARY) == 0
+    assert count(draw(mesh.replace(pinned=pinned), Structure.of("kinds")), PINNED) > 20
+    assert count(draw(mesh, Structure.of("kinds", "fixed")), BOUNDARY) == 0
 
 
 def test_given_classes_are_drawn(draw):
     mesh = grid(3)
     kinds = np.where(mesh.topology.boundary, WHISKER, 0).astype(np.uint8)
-    look = Look(edges=False, outline=False, structure=Structure(kinds=True))
-    draw(mesh, Structure(kinds=True))
+    look = Look(structure=Structure.of("kinds"), lines=LineStyle(edges=0.0), show=Show(outline=False))
+    draw(mesh, Structure.of("kinds"))
     draw.viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look, kinds=kinds))
     assert count(draw.pixels(), KINDS[WHISKER]) > 300
     assert count(draw.pixels(), KINDS[NodeClass.PATCH]) == 0

@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,9 +19,10 @@ from hexmend.quality import METRICS, measure
 from hexmend_app.cli.cut_options import parse_plane
 from hexmend_app.cli.render import command
 from hexmend_app.cli.scene_options import look_of
-from hexmend_app.picture import ColourBarStyle, Page, Scene, TextPlace
+from hexmend_app.picture import ColourBarStyle, LineStyle, Page, Scene, Show, TextPlace
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.cut_planes import BoxClip, ClipPlane, PlaneClip
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box, Plane
 from hexmend_app.scene.colour.colouring import INVERTED, resolve
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
@@ -105,9 +107,9 @@ def test_every_metric_has_a_range_of_colours(name):
     args = parser.parse_args(["a.vtk", "-o", "a.png", "--metric", name])
     for mesh in (grid(2), scrambled(grid(3), 0.6), scrambled(grid(1), 0), grid(2).with_points(grid(2).points * 0)):
         figures = measure(mesh.points, mesh.hexes)
-        scale = look_of(args, mesh).scale
-        assert scale.metric == name
-        shown = resolve(scale, metric_values(name, mesh, figures), figures.inverted)
+        colours = look_of(args, mesh).colours
+        assert colours.metric == name
+        shown = resolve(colours, metric_values(name, mesh, figures), figures.inverted)
         low, high = shown.low, shown.high
         assert np.isfinite((low, high)).all()
         assert low < high
@@ -168,7 +170,8 @@ def test_several_meshes_are_drawn_side_by_side_by_the_command(tmp_path, capsys):
 
 
 def sheet(*meshes, look=Look(), bar=True, names="abcdef", **page):  # noqa: B008
-    scene = Scene.of(look, page=Page(**page), bar=ColourBarStyle(TextPlace.BELOW if bar else TextPlace.NONE))
+    page = replace(look.page, **page)
+    scene = Scene.of(look, page=page, bar=ColourBarStyle(TextPlace.BELOW if bar else TextPlace.NONE))
     return draw_page(scene, [PageMesh.of(mesh, name) for mesh, name in zip(meshes, names, strict=False)])
 
 
@@ -193,24 +196,24 @@ def test_a_picture_has_the_size_asked_for_with_room_for_the_bar_or_not(size):
 def asked(mesh, *words):
     parser = argparse.ArgumentParser(allow_abbrev=False)
     command.arguments(parser)
-    return look_of(parser.parse_args(["a.vtk", "-o", "a.png", *words]), mesh).clip
+    return look_of(parser.parse_args(["a.vtk", "-o", "a.png", *words]), mesh).cut
 
 
 def test_planes_are_named_by_axis_or_normal_and_position():
     mesh = grid(4)
-    assert asked(mesh) is None
-    assert asked(mesh, "--clip", "x:0.25") == PlaneClip.at((1, 0, 0), (1, 0, 0))
-    assert asked(mesh, "--clip", "z", "--flip", "--smooth") == PlaneClip.at((0, 0, -1), (0, 0, 2), False)
-    slanted = parse_plane("1,1,0:0.5").of(mesh)
+    assert asked(mesh) == Cut()
+    assert asked(mesh, "--clip", "x:0.25") == Cut.at((1, 0, 0), (1, 0, 0))
+    assert asked(mesh, "--clip", "z", "--flip", "--smooth") == Cut.at((0, 0, -1), (0, 0, 2), CutStyle.SMOOTH)
+    slanted = parse_plane("1,1,0:0.5").on(mesh)
     assert slanted.signed_distance(np.array([[2.0, 2.0, 0.0]]))[0] == pytest.approx(0)
-    assert parse_plane("1e300,0,0:0.25").of(mesh) == ClipPlane((1, 0, 0), (1, 0, 0))
+    assert parse_plane("1e300,0,0:0.25").on(mesh) == Plane((1, 0, 0), point=(1, 0, 0))
 
 
 def test_several_planes_and_boxes_are_asked_for():
     mesh = grid(4)
     two = asked(mesh, "--clip", "x:0.25", "--clip", "y:0.5", "--notch")
-    assert two == PlaneClip((ClipPlane((1, 0, 0), (1, 0, 0)), ClipPlane((0, 1, 0), (0, 2, 0))), True, True)
-    assert asked(mesh, "--clip-box", "0,0.5,0.25,1,0,1") == BoxClip((0, 1, 0), (2, 4, 4))
+    assert two == Cut((Plane((1, 0, 0), point=(1, 0, 0)), Plane((0, 1, 0), point=(0, 2, 0))), notch=True)
+    assert asked(mesh, "--clip-box", "0,0.5,0.25,1,0,1") == Cut(box=Box((0, 1, 0), (2, 4, 4)))
     with pytest.raises(ParameterError, match="the lower first"):
         asked(mesh, "--clip-box", "0.5,0,0,1,0,1")
 
@@ -218,15 +221,15 @@ def test_several_planes_and_boxes_are_asked_for():
 def test_nodes_that_no_hex_uses_do_not_count():
     mesh = grid(4)
     stray = Mesh(np.vstack([mesh.points, [[100.0, 0.0, 0.0]]]), mesh.hexes)
-    assert parse_plane("x").of(stray) == ClipPlane((1, 0, 0), (2, 0, 0))
+    assert parse_plane("x").on(stray) == Plane((1, 0, 0), point=(2, 0, 0))
 
 
 def test_looks_are_values():
     figures = measure(grid(2).points, grid(2).hexes)
     assert figures.n_inverted == 0
     assert Look() == Look()
-    with pytest.raises(ValueError, match="expected a nonzero vector"):
-        ClipPlane((0, 0, 0))
+    with pytest.raises(ParameterError, match="expected a nonzero vector"):
+        Plane((0, 0, 0), point=(0, 0, 0))
 
 
 def test_a_picture_has_the_format_of_its_suffix(tmp_path, capsys):
@@ -247,11 +250,12 @@ def test_a_picture_has_the_format_of_its_suffix(tmp_path, capsys):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("panels", [1, 2])
-@pytest.mark.parametrize("lines", [{"edges": True}, {"outline": True}, {"structure": Structure(sharp=True)}])
+@pytest.mark.parametrize("lines", [{"lines": LineStyle()}, {"show": Show()}, {"structure": Structure.of("sharp")}])
 def test_lines_are_as_thick_on_paper_in_every_size(panels, lines):
     if QOpenGLContext.currentContext() is not None:
         QOpenGLContext.currentContext().doneCurrent()  # a window's, in which VTK would draw by another library
-    look = Look(**{"edges": False, "outline": False, "shading": False} | lines)
+    bare = {"lines": LineStyle(edges=0.0), "show": Show(outline=False), "page": Page(shading=False)}
+    look = Look(**bare | lines)
     shares = []
     for size in ((1440, 900), (2880, 1800)):
         page = sheet(*[grid(2)] * panels, look=look, pixels=size, supersampling=1)

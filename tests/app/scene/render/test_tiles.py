@@ -29,7 +29,7 @@ def images(scene, **how):
 @pytest.mark.parametrize(
     "tables",
     [
-        {"structure": Structure(sharp=True, irregular=True, fixed=True), "cut": Cut((Plane((0, 0, 1), 0.6),))},
+        {"structure": Structure.of("sharp", "irregular", "fixed"), "cut": Cut((Plane((0, 0, 1), 0.6),))},
         {
             "camera": Camera((0.3, -1.0, 0.2), parallel=True),
             "cut": Cut((Plane((1, 1, 0), 0.4),), style=CutStyle.SMOOTH),

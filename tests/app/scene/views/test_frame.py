@@ -8,7 +8,10 @@ import pytest
 from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend_app.picture.appearance import ColourScale, Look, Structure
+from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.colours import Colours
+from hexmend_app.picture.page import LineStyle
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame, same_hexes
 from hexmend_app.scene.views.pane import Pane
@@ -77,7 +80,7 @@ def test_moved_nodes_update_positions_only(watched):
 
 def test_another_movement_is_measured(watched):
     draw, viewport = watched
-    look = Look(scale=ColourScale("moved-most"))
+    look = Look(colours=Colours(metric="moved-most"))
     draw(Frame(MESH, FIGURES, None, look))
     movement = Displacement(MESH, ReferenceState(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
     assert draw(Frame(MESH, FIGURES, movement, look)) == {"move", "measure"}
@@ -88,13 +91,16 @@ def test_another_movement_is_measured(watched):
 def test_another_look_is_measured_only_if_its_colours_differ(watched):
     draw, _ = watched
     draw(Frame(MESH, FIGURES))
-    assert draw(Frame(MESH, FIGURES, look=Look(edges=False))) == {"rebuild"}
-    assert draw(Frame(MESH, FIGURES, look=Look(edges=False, scale=ColourScale("edge-ratio")))) == {"rebuild", "measure"}
+    assert draw(Frame(MESH, FIGURES, look=Look(lines=LineStyle(edges=0.0)))) == {"rebuild"}
+    assert draw(Frame(MESH, FIGURES, look=Look(lines=LineStyle(edges=0.0), colours=Colours(metric="edge-ratio")))) == {
+        "rebuild",
+        "measure",
+    }
 
 
 def test_other_pins_are_drawn(watched):
     draw, viewport = watched
-    look = Look(structure=Structure(free=True), peel=1)
+    look = Look(structure=Structure.of("free"), show=Show(peel=1))
     draw(Frame(MESH, FIGURES, look=look))
     pinned = np.zeros(MESH.n_nodes, bool)
     pinned[62] = True  # the centre
@@ -113,7 +119,7 @@ def test_equality_of_hexes_does_not_depend_on_positions():
 
 def test_a_matching_frame_has_the_same_look_and_reference_state():
     movement = Displacement(MESH, ReferenceState(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
-    first = Frame(MESH, FIGURES, movement, Look(edges=False))
+    first = Frame(MESH, FIGURES, movement, Look(lines=LineStyle(edges=0.0)))
     other = Frame(MESH.with_points(MESH.points * 2), FIGURES).matching(first)
     assert other.look is first.look
     assert other.movement.before is movement.before

@@ -6,8 +6,9 @@ import pytest
 from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.quality import measure
 from hexmend_app.picture import Page, Scene
-from hexmend_app.picture.appearance import Arrows, ColourScale, Look, RangeMode, Traces
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.appearance import Arrows, Look, Traces
+from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
 from hexmend_app.scene.render.stage import Stage
@@ -132,8 +133,8 @@ def test_a_wipe_shows_one_mesh_on_either_side(panes, pixels):
 
 
 def test_a_fitted_range_of_colours_spans_all_views_and_shrinks_again(panes):
-    scale = ColourScale(mode=RangeMode.FITTED)
-    look_at(panes, Look(scale=scale))
+    scale = Colours(range=Range.FITTED)
+    look_at(panes, Look(colours=scale))
     alone = panes.first.colouring.low, panes.first.colouring.high
     panes.show([shown(mesh) for mesh in OTHERS[:2]])
     ranges = {(view.colouring.low, view.colouring.high) for view in panes.all}
@@ -141,16 +142,16 @@ def test_a_fitted_range_of_colours_spans_all_views_and_shrinks_again(panes):
     (low, high), q = ranges.pop(), [shown(mesh)[1] for mesh in OTHERS[:2]]
     assert low == pytest.approx(min(one.q[~one.inverted].min() for one in q))
     assert high >= 1 - 1e-6
-    look_at(panes, Look(scale=ColourScale(mode=RangeMode.PINNED, pinned=(0.2, 0.3))))
+    look_at(panes, Look(colours=Colours(range=(0.2, 0.3))))
     assert {(view.colouring.low, view.colouring.high) for view in panes.all} == {(0.2, 0.3)}
-    look_at(panes, Look(scale=scale))
+    look_at(panes, Look(colours=scale))
     panes.show([])
     assert (panes.first.colouring.low, panes.first.colouring.high) == alone
 
 
 def test_a_cut_leaves_the_same_elements_in_all_views(panes):
     panes.show([shown(mesh) for mesh in OTHERS])
-    look_at(panes, Look(clip=PlaneClip.at((1, 0, 0), (2, 2, 2))))
+    look_at(panes, Look(cut=Cut.at((1, 0, 0), (2, 2, 2))))
     first, *others = (view.kept() for view in panes.all)
     assert 0 < first.sum() < first.size
     for kept in others:
@@ -180,7 +181,7 @@ def found(panes, x):
 def test_meshes_with_other_hexes_are_shown_too(panes):
     small = hexes(2)
     panes.show([shown(small)])
-    look_at(panes, Look(clip=PlaneClip.at((1, 0, 0), (1, 0, 0))))
+    look_at(panes, Look(cut=Cut.at((1, 0, 0), (1, 0, 0))))
     assert [view.kept().size for view in panes.all] == [MESH.n_hexes, small.n_hexes]
 
 
@@ -218,7 +219,7 @@ def test_a_page_shows_all_meshes_with_captions():
 
 def test_all_views_have_the_same_reference_state(panes):
     first, second = (measure(one.points, MESH.hexes) for one in (MESH, OTHERS[0]))
-    look = Look(scale=ColourScale("moved-most", mode=RangeMode.FITTED), traces=Traces(arrows=Arrows.ALL))
+    look = Look(movement=Traces(arrows=Arrows.ALL), colours=Colours(metric="moved-most", range=Range.FITTED))
     look_at(panes, look, Displacement(MESH, ReferenceState(MESH.points, first, "then"), MESH.points, first))
     panes.show([(OTHERS[2], measure(OTHERS[2].points, MESH.hexes))])
     other = panes.all[1]

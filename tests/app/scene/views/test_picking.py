@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
@@ -43,7 +43,7 @@ def test_nothing_is_picked_outside_the_mesh(seen):
 
 
 def test_the_picked_point_on_a_section_lies_on_the_plane(seen):
-    seen.draw(Frame(MESH, FIGURES, look=Look(clip=PlaneClip.at((0, 0, 1), (2.5, 2.5, 2.3), False))))
+    seen.draw(Frame(MESH, FIGURES, look=Look(cut=Cut.at((0, 0, 1), (2.5, 2.5, 2.3), CutStyle.SMOOTH))))
     hit = seen.pick(100, 100)
     assert hit.place[2] == pytest.approx(2.3, abs=1e-6)
     assert MESH.points[MESH.hexes[hit.hex]][:, 2].tolist().count(2.0) == 4

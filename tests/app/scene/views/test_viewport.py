@@ -5,8 +5,12 @@ import pytest
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend_app.picture.appearance import ColourScale, Look, RangeMode, ValueRange
-from hexmend_app.picture.cut_planes import ClipPlane, PlaneClip
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.page import LineStyle
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
@@ -17,7 +21,7 @@ from hexmend_app.scene.views.viewport import Viewport
 from tests.core.grids import grid, scrambled
 
 MESH = grid(4)
-INSIDE = PlaneClip.at((0, 0, 1), (0, 0, 2), False)
+INSIDE = Cut.at((0, 0, 1), (0, 0, 2), CutStyle.SMOOTH)
 
 
 def figures_of(mesh):
@@ -69,7 +73,7 @@ def test_pixels_follow_the_points_and_come_back_with_them(seen):
 @pytest.mark.parametrize("crinkle", [True, False])
 def test_inside_a_cut_elements_turn_over_and_back(seen, crinkle):
     viewport, pixels = seen
-    show(viewport, look=Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 2), crinkle)))
+    show(viewport, look=Look(cut=Cut.at((0, 0, 1), (0, 0, 2), CutStyle.CRINKLE if crinkle else CutStyle.SMOOTH)))
     before = pixels()
     assert magenta(before) == 0
     tangled = scrambled(MESH, 1.5)
@@ -82,16 +86,16 @@ def test_inside_a_cut_elements_turn_over_and_back(seen, crinkle):
 
 def test_a_cut_through_nodes_is_closed(seen):
     viewport, pixels = seen
-    show(viewport, look=Look(edges=False))
+    show(viewport, look=Look(lines=LineStyle(edges=0.0)))
     whole = pixels()
-    show(viewport, look=Look(edges=False, clip=INSIDE))
+    show(viewport, look=Look(cut=INSIDE, lines=LineStyle(edges=0.0)))
     middle = np.s_[60:90, 85:115]
     assert np.abs(pixels()[middle] - whole[middle]).max() <= 2  # q = 1 everywhere, lit alike
 
 
 def test_faces_turned_inside_out_are_seen(seen):
     viewport, pixels = seen
-    show(viewport, look=Look(edges=False, outline=False))
+    show(viewport, look=Look(lines=LineStyle(edges=0.0), show=Show(outline=False)))
     background = pixels()[0, 0]
     drawn = (pixels() != background).any(axis=2).sum()
     mirrored = MESH.with_points(MESH.points * [-1, 1, 1] + [4, 0, 0])
@@ -111,18 +115,18 @@ def test_edges_are_drawn_or_not(seen):
     viewport, pixels = seen
     middle = np.s_[40:110, 65:135]
     assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) > 1
-    show(viewport, look=Look(edges=False))
+    show(viewport, look=Look(lines=LineStyle(edges=0.0)))
     assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) == 1
 
 
 def test_the_same_picture_however_its_look_was_reached(seen):
     viewport, pixels = seen
     tangled = scrambled(MESH, 0.6)
-    look = Look(clip=INSIDE, quality_range=ValueRange("q", 0.3, 0.9), scale=ColourScale(map="plasma"))
+    look = Look(cut=INSIDE, show=Show(quality=(0.3, 0.9)), colours=Colours(map="plasma"))
     show(viewport, look=look)
     show(viewport, tangled)
     moved = pixels()
-    lower = Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 1)))
+    lower = Look(cut=Cut.at((0, 0, 1), (0, 0, 1)))
     show(viewport, look=lower)
     crinkle = pixels()
     assert np.abs(crinkle - moved).max() > 50
@@ -139,16 +143,14 @@ def white(image):
 
 
 @pytest.mark.parametrize("edges", [True, False])
-@pytest.mark.parametrize(
-    "clip", [None, PlaneClip.at((0, 0, 1), (0, 0, 2)), PlaneClip.at((0, 0, 1), (0, 0, 2.2), False)]
-)
-def test_inverted_elements_that_are_seen_are_outlined(seen, edges, clip):
+@pytest.mark.parametrize("cut", [Cut(), Cut.at((0, 0, 1), (0, 0, 2)), Cut.at((0, 0, 1), (0, 0, 2.2), CutStyle.SMOOTH)])
+def test_inverted_elements_that_are_seen_are_outlined(seen, edges, cut):
     viewport, pixels = seen
-    show(viewport, look=Look(edges=edges, clip=clip))
+    show(viewport, look=Look(cut=cut, lines=LineStyle(edges=None if edges else 0.0)))
     before = pixels()
     assert white(before) == 0
     tangled = scrambled(MESH, 1.5)
-    if clip is None:  # the skin's own nodes are held; an element at its corner is turned over through one of them
+    if not cut.active:  # the skin's own nodes are held; an element at its corner is turned over through one of them
         tangled = MESH.with_points(
             MESH.points + 1.5 * (MESH.points == MESH.points.max(axis=0)).all(axis=1)[:, None] * -1
         )
@@ -174,19 +176,19 @@ def test_inverted_elements_that_are_hidden_are_not_outlined(seen):
     viewport, pixels = seen
     tangled = scrambled(MESH, 1.5)
     show(viewport, tangled)
-    show(viewport, look=Look(quality_range=ValueRange("q", 1.5, 2)))  # nothing
+    show(viewport, look=Look(show=Show(quality=(1.5, 2))))  # nothing
     assert white(pixels()) == 0
 
 
 def test_a_fitted_range_follows_the_points(seen):
     viewport, _ = seen
-    show(viewport, look=Look(scale=ColourScale(mode=RangeMode.FITTED)))
+    show(viewport, look=Look(colours=Colours(range=Range.FITTED)))
     assert viewport.colouring.high - viewport.colouring.low < 1e-5
     other = scrambled(MESH, 0.2)
     figures = figures_of(other)
     show(viewport, other)
     assert (viewport.colouring.low, viewport.colouring.high) == (figures.q.min(), figures.q.max())
-    show(viewport, look=Look(scale=ColourScale("scaled-jacobian", mode=RangeMode.FITTED)))
+    show(viewport, look=Look(colours=Colours(metric="scaled-jacobian", range=Range.FITTED)))
     assert viewport.colouring.title == "Scaled Jacobian"
     assert viewport.colouring.low == figures.scaled_jacobian.min()
 
@@ -206,7 +208,7 @@ def test_setting_the_plane_does_not_report_a_drag(pane):
     pane.window.Render()
     widget = PlaneWidget(pane, dragged.append)
     widget.set_bounds((0, 4, 0, 4, 0, 4))
-    for plane in (INSIDE.planes[0], ClipPlane((1, 0, 0), (1, 0, 0)), None, INSIDE.planes[0]):
+    for plane in (INSIDE.planes[0], Plane((1, 0, 0), point=(1, 0, 0)), None, INSIDE.planes[0]):
         widget.set(plane)
     assert dragged == []
     widget.widget.InvokeEvent("InteractionEvent")  # what VTK does as the user drags
@@ -222,7 +224,7 @@ def test_picking_finds_the_visible_hex(seen):
     assert h in np.flatnonzero(MESH.points[MESH.hexes][:, :, 2].max(axis=1) == MESH.points[:, 2].max())
     assert node in MESH.hexes[h]
     assert viewport.pick(1, 1) is None
-    show(viewport, look=Look(clip=INSIDE))  # cut through at z = 2: the section is what is seen
+    show(viewport, look=Look(cut=INSIDE))  # cut through at z = 2: the section is what is seen
     pixels()
     below = viewport.pick(100, 75).hex
     assert MESH.points[MESH.hexes[below]][:, 2].min() < 2

@@ -5,7 +5,8 @@ import pytest
 
 from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.quality import measure, summarise
-from hexmend_app.picture.appearance import ColourScale, Isolation, ValueRange
+from hexmend_app.picture.colours import Colours
+from hexmend_app.picture.visibility import Isolate
 from hexmend_app.scene.colour.colouring import resolve
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.hex_groups import GROUPS, hexes_of_group
@@ -26,7 +27,7 @@ def test_groups_have_as_many_hexes_as_the_summary_counts():
 
 def test_every_special_colour_of_the_colour_bar_has_a_group():
     for metric in ("q", "q-change"):
-        for colour in resolve(ColourScale(metric), FIGURES.q, FIGURES.inverted).special_colours:
+        for colour in resolve(Colours(metric=metric), FIGURES.q, FIGURES.inverted).special_colours:
             assert colour.name in GROUPS
             assert hexes_of_group(colour.name, MESH, FIGURES).dtype == np.int64
 
@@ -54,12 +55,12 @@ def test_isolated_hexes_are_shown_whatever_the_other_filters(qapp):
     document = Document()
     document.replace(State.of(MESH), None)
     view = ViewModel(document)
-    view.change(quality_range=ValueRange("q", 0.5, 1.0), peel=2)
+    view.change(show={"quality": (0.5, 1.0), "peel": 2})
     view.dig(3)
     view.isolate(np.array([], np.int64))
-    assert view.look.quality_range is not None
+    assert view.look.show.quality is not None
     view.isolate(np.array([3, 8]))
-    assert (view.look.peel, view.look.dug) == (0, frozenset())
-    assert view.look.isolation == Isolation((3, 8), rings=view.rings)
-    assert view.look.quality_range is None
+    assert (view.look.show.peel, view.look.show.hidden) == (0, frozenset())
+    assert view.look.show.isolate == Isolate((3, 8), rings=view.rings)
+    assert view.look.show.quality is None
     assert view.rings == 1  # for the next isolation

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session import session_file
 from hexmend.iteration import StoppingCriteria
 from hexmend.run.recipe import Stage
@@ -15,6 +16,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.codec import codec
 from hexmend_app.state.run.run_setup import RunSetupData
 from hexmend_app.state.session import session_data
+from tests.app.state.session.former_look import former_look
 
 _FILES = Path(__file__).parent / "files"
 
@@ -46,6 +48,9 @@ def test_a_surface_tolerance_of_0_means_no_limit_up_to_version_3(tmp_path, monke
     monkeypatch.setattr(session_file, "VERSION", version)
     session_data.write(tmp_path / "old.hexmend", data)
     monkeypatch.undo()
+    _, content = read_archive(tmp_path / "old.hexmend", "Hexmend session", version)
+    content["window"]["view"]["look"] = former_look()
+    write_archive(tmp_path / "old.hexmend", "Hexmend session", version, content)
     assert session_data.read(tmp_path / "old.hexmend").run_setup.stage.smoother.surface_tolerance == read
 
 

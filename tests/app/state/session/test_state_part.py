@@ -7,8 +7,8 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.codec.codec import DecodeError
 from hexmend_app.state.mesh.document import State
+from hexmend_app.state.session.earlier_versions import _with_features
 from hexmend_app.state.session.session import Session
-from hexmend_app.state.session.session_data import _with_features
 from hexmend_app.state.session.state_part import StatePart
 from tests.core.grids import grid
 

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from hexmend.optimise.maxmin.corner_measure import SCALED_JACOBIAN
 from hexmend.optimise.maxmin.slp import ActiveCorners
 from hexmend.smoothers.mend.maxmin import active_set
 from hexmend.smoothers.mend.messages import limit_message
@@ -19,6 +20,7 @@ def stand_in(places=(), locked=()):
     values.ravel()[list(locked)] = -0.125
     asked = []
     corners = SimpleNamespace(
+        measure=SCALED_JACOBIAN,
         values=values,
         groups=lambda _: np.array(places),
         locked_below=lambda value: asked.append(value) or np.array(locked, np.int64),

@@ -1,7 +1,5 @@
 """How groups of corners that hold each other are left behind, on a stand-in that only says where it ends."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -19,7 +17,7 @@ class StandIn:
     """Makes some steps, then ends at the next of some limits; records what is done about each."""
 
     def __init__(self, limits, steps=0, releases=0):
-        self.points, self.corners = np.zeros((8, 3)), SimpleNamespace(active_minimum=-1.0)
+        self.points, self.least = np.zeros((8, 3)), -1.0
         self._limits, self._steps, self._releases = iter(limits), steps, releases
         self.asked, self.frozen, self.released = [], [], []
 

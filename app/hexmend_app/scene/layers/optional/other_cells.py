@@ -7,7 +7,7 @@ import pyvista as pv
 
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.picture.cut_planes import Clip
+from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface, edges_of, with_lengths
 from hexmend_app.scene.views.frame import Frame
@@ -43,22 +43,22 @@ class OtherCells(TranslucentSurface, OptionalLayer):
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         super().__init__(pane, pixel_ratio)
-        self._drawn: tuple[Mesh | None, Clip | None] = (None, None)
+        self._drawn: tuple[Mesh | None, Cut] = (None, Cut())
         self._nodes = np.empty(0, np.int64)
         self._lines = pv.PolyData()
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
         """Draw the cells of a frame; an unchanged surface is not rebuilt, but moves with its nodes."""
-        mesh, clip = frame.mesh, frame.look.clip
+        mesh, cut = frame.mesh, frame.look.cut.with_hexes(None)
         if not any(cells.dimension == 3 for cells in mesh.cells):
             self.hide()
             return
-        last, last_clip = self._drawn
-        if last is None or last.cells is not mesh.cells or last.hexes is not mesh.hexes or last_clip != clip:
-            self._build(mesh, clip)
+        last, last_cut = self._drawn
+        if last is None or last.cells is not mesh.cells or last.hexes is not mesh.hexes or last_cut != cut:
+            self._build(mesh, cut)
         elif last.points is not mesh.points and self.poly.n_cells:
             self._move(mesh.points[self._nodes])
-        self._drawn = mesh, clip
+        self._drawn = mesh, cut
         self.show()
 
     @classmethod
@@ -68,8 +68,8 @@ class OtherCells(TranslucentSurface, OptionalLayer):
             (OTHER_CELLS, False, f"{len(cells.nodes):,} {cells.kind}") for cells in mesh.cells if cells.dimension == 3
         ]
 
-    def _build(self, mesh: Mesh, clip: Clip | None) -> None:
-        faces = outer_faces(mesh, clip)
+    def _build(self, mesh: Mesh, cut: Cut) -> None:
+        faces = outer_faces(mesh, cut)
         edges = edges_of(*faces)
         self._nodes = np.unique(edges)
         self._lines = pv.PolyData()
@@ -85,19 +85,19 @@ class OtherCells(TranslucentSurface, OptionalLayer):
         self._lines.SetPoints(self.poly.GetPoints())
 
 
-def outer_faces(mesh: Mesh, clip: Clip | None = None) -> tuple[np.ndarray, np.ndarray]:
+def outer_faces(mesh: Mesh, cut: Cut | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Return triangles, (k, 3), and quads, (l, 4), of non-hexahedral cells that no other cell shares.
 
     Parameters
     ----------
     mesh : Mesh
-    clip : PlaneClip or BoxClip, optional
+    cut : Cut, optional
         Omits the cells whose centre it cuts away, which exposes faces of their neighbours.
     """
     found: dict[int, list[np.ndarray]] = {3: [], 4: []}
     for cells in mesh.cells:
         if cells.dimension == 3:
-            nodes = cells.nodes[_uncut(mesh.points, cells, clip)]
+            nodes = cells.nodes[_uncut(mesh.points, cells, cut)]
             for face in FACES[cells.kind.rstrip("0123456789")]:
                 found[len(face)].append(nodes[:, face])
     triangles, quads = (
@@ -113,9 +113,9 @@ def _single(faces: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     return faces[counts[group.ravel()[: len(faces)]] == 1]
 
 
-def _uncut(points: np.ndarray, cells: Cells, clip: Clip | None) -> np.ndarray:
-    if clip is None:
+def _uncut(points: np.ndarray, cells: Cells, cut: Cut | None) -> np.ndarray:
+    if cut is None or not cut.active:
         return np.ones(len(cells.nodes), bool)
     centres = points[cells.nodes].mean(axis=1)
-    beyond = np.stack([plane.signed_distance(centres) > 0 for plane in clip.planes])
-    return ~(beyond.all(axis=0) if clip.notch else beyond.any(axis=0))
+    beyond = np.stack([plane.signed_distance(centres) > 0 for plane in cut.sides])
+    return ~(beyond.all(axis=0) if cut.notch else beyond.any(axis=0))

@@ -13,6 +13,7 @@ from hexmend.mesh.structure import Structure as MeshStructure
 from hexmend.mesh.structure import find_structure
 from hexmend.quality import ElementQuality, locked_hexes
 from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.marks import Marks
@@ -113,7 +114,7 @@ class StructureLayers:
         self._look, self._keep, self._faces = look, keep, faces
         for marks in self._edge_marks:
             marks.hide()
-        if look.structure.edges:
+        if not look.structure.on.isdisjoint(EDGE_LAYERS):
             self._draw_edges(look.structure, points)
         self._draw_nodes(points, figures)
         self._update_detail()
@@ -151,7 +152,7 @@ class StructureLayers:
         if self._structure is None:
             self._structure = find_structure(self._mesh)
         structure = self._structure
-        if switches.irregular:
+        if switches.is_on("irregular"):
             shown = self._shown(structure.interior, points)
             edges, colours = structure.interior[shown], valence_colours(structure.interior_valence[shown])
             nodes = np.intersect1d(structure.nodes, edges)[:, None]
@@ -161,10 +162,10 @@ class StructureLayers:
             self.irregular_inside.show(edges, colours, points, opacity)
             self._ends.show(nodes, ends, points)
             self._ends_inside.show(nodes, ends, points, opacity)
-        if switches.boundary:
+        if switches.is_on("boundary"):
             shown = self._shown(structure.boundary, points)
             self._boundary.show(structure.boundary[shown], valence_colours(structure.boundary_valence[shown]), points)
-        if switches.sharp:
+        if switches.is_on("sharp"):
             edges = structure.sharp[self._shown(structure.sharp, points)]
             self.sharp.show(edges, _rgb(SHARP).repeat(len(edges), axis=0), points)
 
@@ -178,12 +179,12 @@ class StructureLayers:
 
     def _draw_nodes(self, points: np.ndarray, figures: ElementQuality) -> None:
         switches = self._look.structure
-        if not (switches.fixed or switches.free or switches.locked or switches.kinds):
+        if switches.on.isdisjoint(("fixed", "free", "locked", "kinds")):
             self.nodes.hide()
             self._locked.hide()
             return
         places = self._faces.places(points)
-        if switches.kinds and self._kinds is None:
+        if switches.is_on("kinds") and self._kinds is None:
             self._kinds = node_classes(self._mesh, FEATURE_ANGLE)
         kinds = node_marks(self._mesh, points, figures, switches, self._kinds)[self._faces.nodes]
         marked = (kinds > 0) & points_kept_by_cut(self._look, places)
@@ -226,27 +227,29 @@ def node_marks(
         Boundary class of each node.
     """
     marks = np.zeros(mesh.n_nodes, np.uint8)
-    if switches.fixed:
+    if switches.is_on("fixed"):
+        if mesh.interfaces is not None:  # kept like the boundary
+            marks[mesh.interfaces.interface_nodes & mesh.fixed] = _BOUNDARY
         if mesh.pinned is not None:
             marks[mesh.pinned] = _PINNED
         marks[mesh.topology.boundary] = _BOUNDARY
-    if switches.kinds and kinds is not None:
+    if switches.is_on("kinds") and kinds is not None:
         boundary = kinds > 0
         marks[boundary] = _LOCKED + kinds[boundary]
-    if switches.free:
+    if switches.is_on("free"):
         marks[mesh.free] = _FREE
-    if switches.locked and figures.n_inverted:
+    if switches.is_on("locked") and figures.n_inverted:
         marks[mesh.hexes[locked_hexes(points, mesh.hexes, mesh.fixed, figures.inverted)]] = _LOCKED
     return marks
 
 
 def points_kept_by_cut(look: Look, points: np.ndarray) -> np.ndarray | bool:
     """Return True for points, (k, 3), that a smooth cut leaves; True if there is no smooth cut."""
-    clip = look.clip
-    if clip is None or clip.crinkle:
+    cut = look.cut
+    if not cut.smooth:
         return True
-    beyond = [plane.signed_distance(points) > 0 for plane in clip.planes]
-    return ~(np.all(beyond, axis=0) if clip.notch else np.any(beyond, axis=0))
+    beyond = [plane.signed_distance(points) > 0 for plane in cut.sides]
+    return ~(np.all(beyond, axis=0) if cut.notch else np.any(beyond, axis=0))
 
 
 def _rgb(colour: str) -> np.ndarray:

@@ -12,7 +12,8 @@ from hexmend.cli.arguments.run_arguments import given_limits, method_settings, s
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.output.rich_tables import print_table
 from hexmend.cli.process.interrupts import FinishWriting
-from hexmend.io import read, write, writer_for
+from hexmend.io import Original, read, write_as_given, writer_for
+from hexmend.io.format_lookup import copy_suffix
 from hexmend.report import comparison_rows, output_folder, record_table, write_documents
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
@@ -27,9 +28,11 @@ def run(args: argparse.Namespace) -> int:
     mesh = read(args.mesh)
     check_memory(args, smoothers, mesh, "compare fewer methods (--methods)")
     folder = output_folder(args.output)
-    suffix = Path(args.mesh).suffix
+    suffix, original = copy_suffix(args.mesh), Original(Path(args.mesh), mesh)
     if args.write_meshes:
-        writer_for(folder / f"mesh{suffix}")  # raises now, and not after the runs, for a format that is only read
+        writer_for(
+            folder / f"mesh{suffix}", args.mesh
+        )  # raises now, and not after the runs, for a format that is only read
     with FinishWriting():
         with Progress() as progress:
             comparison = compare(mesh, smoothers, limits, watch=progress.show)
@@ -39,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
         for row in comparison.rows if args.write_meshes else ():
             if row.mesh is not None:
                 paths.append(folder / f"{mesh.name}-{re.sub(r'[^A-Za-z0-9]+', '-', row.method)}{suffix}")
-                write(paths[-1], row.mesh)
+                write_as_given(paths[-1], row.mesh, None if suffix else original)
         print_table(table)
         print(f"Written to {args.output}: {', '.join(path.name for path in paths)}.")
         if comparison.interrupted:

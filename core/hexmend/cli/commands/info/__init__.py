@@ -20,6 +20,8 @@ class Info:
         text = "show where each problem is, and the command that repairs it"
         parser.add_argument("--doctor", action="store_true", help=text)
         parser.add_argument("--metrics", action="store_true", help="add minimum, mean and maximum of every metric")
+        text = "judge the mesh by a solver's own checks: openfoam, abaqus, ansys, lsdyna or nastran"
+        parser.add_argument("--for", dest="solver", metavar="SOLVER", help=text)
         parser.add_argument("--json", action="store_true", help="print JSON for other programs")
 
     def run(self, args: argparse.Namespace) -> int:

@@ -6,6 +6,8 @@ import argparse
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from hexmend.cli.output.mesh_messages import print_notes
 from hexmend.cli.output.text_tables import print_spreads, print_summaries
 from hexmend.doctor import examine
@@ -23,6 +25,8 @@ from hexmend.quality import (
     summarise,
     summarise_second_order,
 )
+from hexmend.quality.material_volumes import material_volumes
+from hexmend.terminal_text import printable
 
 #: Places of a problem that are printed.
 _MAX_PLACES = 10
@@ -30,6 +34,7 @@ _MAX_PLACES = 10
 
 def run(args: argparse.Namespace) -> int:
     """Measure the mesh and print the report, as text or as JSON."""
+    solver = None if args.solver is None else _known_solver(args.solver)  # before a long read
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
     quality = measure(mesh.points, mesh.hexes)
@@ -38,17 +43,21 @@ def run(args: argparse.Namespace) -> int:
     second_order = summarise_second_order(mesh)
     layers = describe_layers(find_layers(mesh, quality), mesh, quality)
     if args.json:
-        _print_json(args, mesh, summary, metrics, second_order, layers)
+        _print_json(args, mesh, summary, metrics, second_order, quality, layers)
         return 0
     print_summaries(args.mesh, [""], [summary])
     if summary.locked_inverted:
         _print_locked(mesh, quality, summary.locked_inverted)
+    if mesh.materials is not None:
+        _print_materials(mesh)
     if second_order is not None:
         print(f"Second order: {second_order.phrase}.")
     for wall in layers:
         print(_layer_line(wall))
     if args.metrics:
         print_spreads(metrics)
+    if solver is not None:
+        _print_checks(mesh, solver, quality)
     _print_problems(args, mesh)
     return 0
 
@@ -59,6 +68,7 @@ def _print_json(
     summary: Summary,
     metrics: Mapping[str, MetricStatistics],
     second_order: SecondOrder | None,
+    quality: ElementQuality,
     layers: list[dict[str, Any]],
 ) -> None:
     from hexmend.report import to_json  # not loaded for a report in words
@@ -66,13 +76,55 @@ def _print_json(
     answer = summary.to_dict()
     if args.metrics:
         answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
+    if mesh.materials is not None:
+        counts, volumes = np.bincount(mesh.materials.of_hex).tolist(), material_volumes(mesh).items()
+        pairs = zip(volumes, counts, strict=True)
+        answer["materials"] = {name: {"hexes": count, "volume": volume} for (name, volume), count in pairs}
+        answer["interface_nodes"] = int(np.count_nonzero(mesh.materials.interface_nodes))
     if second_order is not None:
         answer["second_order"] = second_order.to_dict()
     if layers:
         answer["layers"] = layers
+    if args.solver is not None:
+        answer |= _checks(mesh, args.solver, quality)
     if args.doctor:
         answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in examine(mesh)]
     print(to_json(answer))
+
+
+def _print_materials(mesh: Mesh) -> None:
+    """Print the materials with their numbers of hexes, and what happens to the interfaces between them."""
+    from hexmend.run.interface_messages import describe_interfaces  # loaded only for a mesh of several materials
+
+    materials = mesh.materials
+    counts = np.bincount(materials.of_hex).tolist()
+    named = [f"{name} ({count:,})" for name, count in zip(materials.names, counts, strict=True)]
+    more = len(named) - _MAX_PLACES
+    listed = ", ".join(named[:_MAX_PLACES]) + (f" and {more:,} more" if more > 0 else "")
+    print(f"{describe_interfaces(mesh)} Hexes: {printable(listed)}.")
+
+
+def _known_solver(name: str) -> str:
+    """Return the name of a solver; raises `ParameterError`, naming those that are known."""
+    from hexmend.solver_checks import SOLVERS  # loaded only for --for
+
+    return SOLVERS[name.lower()].name
+
+
+def _checks(mesh: Mesh, solver: str, quality: ElementQuality) -> dict[str, object]:
+    """Return the solver's checks for JSON."""
+    from hexmend.solver_checks import check_mesh
+
+    report = check_mesh(mesh, _known_solver(solver), quality)
+    checks = [result.to_dict() for result in report.results]
+    return {"checks": checks, "solver": report.solver.name, "verdict": report.verdict}
+
+
+def _print_checks(mesh: Mesh, solver: str, quality: ElementQuality) -> None:
+    from hexmend.cli.output.check_table import print_checks
+    from hexmend.solver_checks import check_mesh
+
+    print_checks(check_mesh(mesh, solver, quality))
 
 
 def _layer_line(wall: dict[str, Any]) -> str:

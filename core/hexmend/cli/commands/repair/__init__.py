@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.arguments.options import add_repeated
+from hexmend.cli.arguments.options import add_repeated, add_rewrite
 from hexmend.cli.command import CoreCommand
 
 _HELP = "Repair what hexmend info --doctor finds: numbering, unmerged blocks, duplicates, unused nodes."
@@ -13,6 +13,7 @@ _HELP = "Repair what hexmend info --doctor finds: numbering, unmerged blocks, du
 def _arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", metavar="MESH", help="the mesh file")
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the repaired mesh to write")
+    add_rewrite(parser)
     add_repeated(parser, "--only", "KIND", "one kind of problem; may be repeated")
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.output.mesh_messages import print_notes, warn_of_losses
+from hexmend.cli.output.mesh_messages import print_notes
+from hexmend.cli.output.mesh_output import MeshOutput
 from hexmend.doctor import AILMENTS, examine, repair
 from hexmend.io import read, writer_for
 
@@ -13,12 +14,14 @@ def run(args: argparse.Namespace) -> int:
     """Repair the mesh, write it, and print what was repaired and what remains."""
     for name in args.only:
         AILMENTS[name]  # raises for an unknown name before the mesh is read
-    write = writer_for(args.output)
+    writer_for(args.output, None if args.rewrite else args.mesh)
     mesh = read(args.mesh, as_is=True, nodes_without_place=True)
     print_notes(mesh)
-    warn_of_losses(args.output, mesh)
-    mesh, repaired = repair(mesh, args.only)
-    write(args.output, mesh)
+    given = mesh
+    mesh, repaired = repair(given, args.only)
+    output = MeshOutput(args.output, args.mesh, given, args.rewrite)
+    output.warn_of_losses(mesh)
+    written = output.write(mesh)
     for finding in repaired:
         print(f"Repaired: {finding.message} Done: {AILMENTS[finding.kind].action}.")
     remaining = examine(mesh)
@@ -26,5 +29,5 @@ def run(args: argparse.Namespace) -> int:
         print(f"Remaining: {finding.message} {finding.remedy}".rstrip())
     if not repaired and not remaining and not mesh.notes:
         print("No problems were found.")
-    print(f"Written to {args.output}.")
+    print(written)
     return 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.arguments.options import add_force, add_mesh, add_method, add_repeated, add_surface
+from hexmend.cli.arguments.options import add_force, add_mesh, add_method, add_motion, add_rewrite, add_surface
 from hexmend.cli.command import CoreCommand
 
 _HELP = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run and writes the result so far."
@@ -13,9 +13,10 @@ _HELP = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run and
 def _arguments(parser: argparse.ArgumentParser) -> None:
     add_mesh(parser)
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the smoothed mesh to write")
+    add_rewrite(parser)
     add_method(parser)
     add_surface(parser)
-    add_repeated(parser, "--fix", "SET", "fix the nodes of this set; may be repeated")
+    add_motion(parser)
     parser.add_argument("--only", metavar="SET", help="smooth only the hexes of this set, or 'inverted' ones")
     text = "with --only: also K rings of hexes around (default 1)"
     parser.add_argument("--rings", metavar="K", type=int, default=1, help=text)

@@ -7,16 +7,18 @@ import sys
 
 from hexmend.advice import advise
 from hexmend.cli.arguments.checks import check_memory, check_targets
-from hexmend.cli.arguments.run_arguments import method_and_limits, with_surface
+from hexmend.cli.arguments.run_arguments import method_and_limits, motion_rules, with_surface
 from hexmend.cli.commands.smooth.suggested_command import suggested_command
-from hexmend.cli.output.mesh_messages import print_notes, print_problems, warn_of_losses
+from hexmend.cli.output.mesh_messages import print_notes, print_problems
+from hexmend.cli.output.mesh_output import MeshOutput
 from hexmend.cli.output.progress import follow
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.io import read, writer_for
 from hexmend.iteration import Result
-from hexmend.mesh.fixing import with_region_free, with_sets_fixed
+from hexmend.mesh.fixing import with_region_free
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import summarise_second_order
 from hexmend.quality.selection import hexes_in_set
 from hexmend.report import record, write_history, write_json
@@ -27,15 +29,15 @@ from hexmend.run.recipe_files import write_recipe
 def run(args: argparse.Namespace) -> int:
     """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still inverted."""
     method, limits = method_and_limits(args)
-    write = writer_for(args.output)  # raises now, and not after the run, for a file that cannot be written
+    writer_for(args.output, None if args.rewrite else args.mesh)  # raises before the run, and not after it
     check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
     print_problems(args.mesh, mesh)
-    warn_of_losses(args.output, mesh)
-    pinned = mesh.pinned  # as in the file, for the output: --fix and --only hold for this run alone
-    if args.fix:
-        mesh = with_sets_fixed(mesh, *args.fix)
+    output = MeshOutput(args.output, args.mesh, mesh, args.rewrite)
+    output.warn_of_losses(mesh)
+    pinned = mesh.pinned  # as in the file, for the output: --only holds for this run alone
+    mesh = with_rules(mesh, motion_rules(args))
     if args.only:
         mesh = with_region_free(mesh, hexes_in_set(mesh, args.only), max(args.rings, 0))
     check_memory(args, [method], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
@@ -47,12 +49,12 @@ def run(args: argparse.Namespace) -> int:
     with FinishWriting():
         follow(smoothing)
         result = smoothing.result()
-        write(args.output, result.mesh.replace(pinned=pinned))
-        _report(args, mesh, method.title, result)
+        written = output.write(result.mesh.replace(pinned=pinned))
+        _report(args, mesh, method.title, result, written)
     return 4 if result.after.inverted else 0
 
 
-def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) -> None:
+def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, written: str) -> None:
     """Write the files of --json and --history, and print the change of the mesh."""
     second_order = {"before": summarise_second_order(mesh), "after": summarise_second_order(result.mesh)}
     if args.json:
@@ -73,10 +75,10 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) ->
             print(f"Second order, {time}: {summary.phrase}.")
     if result.surface is not None:
         print(result.surface.sentence)
-    print(f"Written to {args.output}.")
+    print(written)
     if advice is not None:
         print(advice.state)
         for suggestion in advice.suggestions:
             print(f"Try next: {suggestion.text}")
-            if line := suggested_command(suggestion, args.mesh, args.output):
+            if line := suggested_command(suggestion, args.mesh, args.output, mesh.node_rules.rules):
                 print(f"      {line}")

@@ -33,4 +33,5 @@ register(
     stored_names=frozenset({"abaqus:type", "abaqus:types"}),
     limitations=deferred("hexmend.io.formats.abaqus.writer:limitations"),
     matches=_matches,
+    locate=deferred("hexmend.io.formats.abaqus.coordinates:locate"),
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,12 +11,14 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
+from hexmend.io.formats.abaqus.deck_file import Piece
 
 _KEYWORD = re.compile(rb"^[ \t]*\*(?!\*)[^\n]*", re.MULTILINE)
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
 _FIELD = re.compile(r'(?:[^,"]|"[^"]*"?)+')
-#: Blank fields, and exponents with the letter D, which NumPy does not parse.
-_BLANK_FIELD = re.compile(rb",[ \t]*,|^[ \t]*,|[dD]", re.MULTILINE)
+_BLANKS = b" \t\r\v\f"
+#: Blank fields, and exponents with the letter D, which NumPy does not parse; in data lines without blanks.
+_IRREGULAR = (b",,", b"\n,", b"d", b"D")
 
 
 @dataclass(frozen=True)
@@ -50,20 +52,43 @@ class Deck:
     path : Path
         The file; errors name it.
     data : bytes
-        Its content.
+        Content of the file, joined with those that it includes.
+    pieces : sequence of Piece
+        Parts of files in the content, see `hexmend.io.formats.abaqus.deck_file`; empty for a file without others.
+    hidden : sequence of tuple of int
+        Byte ranges of the lines that include a file, which are read as blank: the data lines of a keyword may follow.
+
+    Attributes
+    ----------
+    given : bytes
+        The content as it is.
+    data : bytes
+        The content, with blanks in place of comments and lines that end in "\\n"; offsets are those of `given`.
     """
 
-    def __init__(self, path: Path, data: bytes):
+    def __init__(self, path: Path, data: bytes, pieces: Sequence[Piece] = (), hidden: Sequence[tuple[int, int]] = ()):
+        self.given, self.pieces = data, pieces
+        for begin, end in hidden:
+            data = data[:begin] + b" " * (end - begin) + data[end:]
         if b"\r" in data:
-            data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+            data = data.replace(b"\r\n", b" \n").replace(b"\r", b"\n")
         if b"**" in data:
-            data = _COMMENT.sub(b"", data)
+            data = _COMMENT.sub(lambda comment: b" " * len(comment.group()), data)
         self.path, self.data = path, data
         self._cursor = ByteCursor(path, data.replace(b",", b" "))
 
     def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
         """Make the error to raise."""
         return FileError(self.path, problem, remedy)
+
+    def place(self, card: Card) -> str:
+        """Describe the place of a card, such as "line 12", or "line 3 of nodes.inp" in an included file."""
+        at = card.begin - 1
+        for piece in self.pieces:
+            if piece.begin <= at <= piece.begin + piece.length and piece.file.reference is not None:
+                line = piece.file.data.count(b"\n", 0, piece.file_begin + at - piece.begin) + 1
+                return f"line {line} of {piece.file.path.name}"
+        return f"line {card.line}"
 
     def cards(self) -> Iterator[Card]:
         """Iterate over all cards in order."""
@@ -97,11 +122,13 @@ class Deck:
     def nodes(self, card: Card) -> tuple[np.ndarray, np.ndarray]:
         """Return the numbers, (k,) int64, and coordinates, (k, 3) float64, of a *NODE card; blank fields are 0."""
         text = self.data[card.begin : card.end]
-        first = text.lstrip().split(b"\n", 1)[0].strip().removesuffix(b",")
+        bare = text.translate(None, _BLANKS)
+        first = bare.lstrip(b"\n").split(b"\n", 1)[0].removesuffix(b",")
         width = first.count(b",") + 1 if first else 0
-        lines = len(text.split()) and sum(1 for line in text.split(b"\n") if line.strip())
+        breaks = np.frombuffer(b"\n" + bare, np.uint8) == ord("\n")
+        lines = int(np.count_nonzero(breaks[:-1] & ~breaks[1:]))
         values = None
-        if width >= 4 and not _BLANK_FIELD.search(text):
+        if width >= 4 and not bare.startswith(b",") and not any(mark in bare for mark in _IRREGULAR):
             values = self.numbers(card, "*NODE", np.float64)
         if values is not None and values.size == lines * width:
             rows = values.reshape(lines, width)[:, :4]
@@ -112,7 +139,9 @@ class Deck:
         numbers = np.where(np.isfinite(rows[:, 0]) & (np.abs(rows[:, 0]) < 2**53), rows[:, 0], 0.5)
         wrong = np.flatnonzero(numbers != np.floor(numbers))
         if wrong.size:
-            raise self.error(f"*NODE in line {card.line} has the number {rows[wrong[0], 0]:g}: expected a whole number")
+            raise self.error(
+                f"*NODE in {self.place(card)} has the number {rows[wrong[0], 0]:g}: expected a whole number"
+            )
         return numbers.astype(np.int64), np.ascontiguousarray(rows[:, 1:])
 
     def numbers(self, card: Card, label: str, dtype: type) -> np.ndarray:

@@ -10,10 +10,11 @@ from typing import NoReturn
 
 import numpy as np
 
-from hexmend.io.base.cursor import quoted, read_text_bytes
+from hexmend.io.base.cursor import quoted
 from hexmend.io.formats.abaqus.content import to_mesh
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.elements import kind_of
+from hexmend.io.formats.abaqus.includes import read_deck
 from hexmend.io.formats.abaqus.model import ElementCard, Instance, Part, element_card, placement
 from hexmend.io.formats.abaqus.sets import SetDefinition, is_number, name_key, unquoted
 from hexmend.mesh.mesh import Mesh
@@ -23,7 +24,7 @@ from hexmend.terminal_text import count_phrase
 _GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL")
 _EXPAND = "Write the file with all nodes and elements expanded, as Abaqus/CAE does."
 #: Cards without data of the mesh, which no note mentions.
-_IGNORED = ("HEADING", "PREPRINT", "ASSEMBLY", "END ASSEMBLY")
+_IGNORED = ("HEADING", "INCLUDE", "PREPRINT", "ASSEMBLY", "END ASSEMBLY")
 #: Nodes of all instances that are never too many; more need a file of as many bytes.
 _ALWAYS_ALLOWED = 1_000_000
 
@@ -42,11 +43,11 @@ def read(path: Path) -> Mesh:
     Raises
     ------
     FileError
-        For a malformed card, one that generates nodes or elements, or one that names another file.
+        For a malformed card, one that generates nodes or elements, or an included file that cannot be read.
     MeshError
         From `Mesh`.
     """
-    deck = Deck(path, read_text_bytes(path))
+    deck = read_deck(path)
     return to_mesh(deck, *_Reader(deck).model())
 
 
@@ -67,7 +68,7 @@ class _Reader:
         for card in self.deck.cards():
             count += 1
             reader = _CARDS.get(card.name)
-            if card.name in _GENERATING or card.name == "INCLUDE" or (reader and "INPUT" in card.options):
+            if card.name in _GENERATING:
                 self._refuse(card)
             elif reader is not None:
                 reader(self, card)
@@ -88,17 +89,15 @@ class _Reader:
         return [replace(one, part=one.part.merged(one.own)) for one in instances], self.assembly, notes
 
     def _refuse(self, card: Card) -> NoReturn:
-        """Raise the error for a card whose data are elsewhere or have to be generated."""
-        if card.name == "INCLUDE" or "INPUT" in card.options:
-            where = quoted(card.options.get("INPUT", ""))
-            problem = f"*{card.name} in line {card.line} reads its data from another file, {where}"
-            raise self.deck.error(problem, "Insert its content in place of the line: one file is read at a time.")
-        raise self.deck.error(f"*{card.name} in line {card.line} generates nodes or elements from others", _EXPAND)
+        """Raise the error for a card whose data have to be generated."""
+        raise self.deck.error(
+            f"*{card.name} in {self.deck.place(card)} generates nodes or elements from others", _EXPAND
+        )
 
     def read_node(self, card: Card) -> None:
         """*NODE, NSET=..."""
         if card.options.get("SYSTEM", "R").upper() not in ("R", ""):
-            raise self.deck.error(f"*NODE in line {card.line} has other coordinates than x, y and z", _EXPAND)
+            raise self.deck.error(f"*NODE in {self.deck.place(card)} has other coordinates than x, y and z", _EXPAND)
         ids, points = self.deck.nodes(card)
         self.part.node_ids.append(ids)
         self.part.points.append(points)
@@ -132,7 +131,7 @@ class _Reader:
         sets = self.part.node_sets if card.name == "NSET" else self.part.element_sets
         name = card.options.get(card.name, "")
         if not name:
-            raise self.deck.error(f"*{card.name} in line {card.line} has no name")
+            raise self.deck.error(f"*{card.name} in {self.deck.place(card)} has no name")
         definition = _definition(sets, name)
         if "INSTANCE" in card.options:
             instance = name_key(card.options["INSTANCE"])
@@ -143,7 +142,7 @@ class _Reader:
                 continue
             numbers = [int(word) for word in row if is_number(word)]
             if len(numbers) != len(row) or not 2 <= len(numbers) <= 3 or 0 in numbers[2:]:
-                problem = f"*{card.name} in line {card.line} holds {quoted(', '.join(row))}"
+                problem = f"*{card.name} in {self.deck.place(card)} holds {quoted(', '.join(row))}"
                 raise self.deck.error(f"{problem}: expected first, last and step")
             definition.ranges.append((*numbers, 1)[:3])
 
@@ -168,7 +167,9 @@ class _Reader:
         part = self.parts.get(name_key(card.options.get("PART", "")))
         if part is None:
             name = quoted(card.options.get("PART", ""))
-            raise self.deck.error(f"*INSTANCE in line {card.line} refers to the part {name}, which does not exist")
+            raise self.deck.error(
+                f"*INSTANCE in {self.deck.place(card)} refers to the part {name}, which does not exist"
+            )
         self.part = Part(part.name)
         translation, rotation = placement(self.deck, self.deck.fields(card))
         name = unquoted(card.options.get("NAME", ""))

@@ -14,6 +14,7 @@ from hexmend.io.formats.cgns.tree import CGNSNode
 from hexmend.io.formats.cgns.unstructured import read_unstructured
 from hexmend.io.formats.cgns.zone import Zone
 from hexmend.mesh.components import components
+from hexmend.mesh.materials import STRUCTURED_BLOCKS
 
 #: Greatest distance between matching nodes of an interface, relative to the diagonal of the bounding box.
 _MATCH_TOLERANCE = 1e-5
@@ -42,6 +43,7 @@ def content(path: Path) -> Content:
         contact = joined if n_pairs else f"; the file does not say where they meet. {JOIN_HINT}"
         notes.append(f"{len(zones)} zones are read as one mesh{contact}")
     blocks, node_sets, side_sets, n_hexes = [], {}, {}, 0
+    grids = [zone.name for zone in zones if zone.shape is not None and not zone.family] if len(zones) > 1 else []
     for k, zone in enumerate(zones):
         for block in zone.blocks:
             sets = dict(block.sets)
@@ -57,7 +59,9 @@ def content(path: Path) -> Content:
     node_data = {name: values[kept] for name, values in node_data.items()}
     node_sets = {name: np.unique(np.concatenate(parts)) for name, parts in node_sets.items()}
     side_sets = {name: np.concatenate(parts) for name, parts in side_sets.items()}
-    return Content(points[kept], tuple(blocks), node_data, node_sets, side_sets, notes=tuple(notes))
+    # Structured zones without a family are blocks of a grid: where they meet is no interface between materials.
+    fields = {STRUCTURED_BLOCKS: grids} if grids else {}
+    return Content(points[kept], tuple(blocks), node_data, node_sets, side_sets, field_data=fields, notes=tuple(notes))
 
 
 def _zones(path: Path, root: CGNSNode) -> tuple[list[Zone], list[str]]:

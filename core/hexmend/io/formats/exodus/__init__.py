@@ -43,4 +43,5 @@ register(
     stored_names=frozenset({IDS, QA, INFORMATION}),
     limitations=deferred("hexmend.io.formats.exodus.writer:limitations"),
     matches=matches,
+    locate=deferred("hexmend.io.formats.exodus.coordinates:locate"),
 )

@@ -127,6 +127,10 @@ class ClassicReader:
             values = np.fromfile(file, variable.dtype, variable.count)
         return values.astype(variable.dtype.newbyteorder("=")).reshape(variable.shape)
 
+    def variable(self, name: str) -> Variable:
+        """Variable of the header."""
+        return self._variables[name]
+
     def attribute(self, variable: str, name: str) -> object:
         """Attribute of a variable, a string or an array; None where it has none of that name."""
         return self._variables[variable].attributes.get(name)

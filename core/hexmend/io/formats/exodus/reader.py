@@ -33,6 +33,11 @@ def content(path: Path) -> Content:
         return _Reader(path, store).content()
 
 
+def points(path: Path, store: ExodusStore) -> np.ndarray:
+    """Read the coordinates of the nodes alone, (n, 3) float64."""
+    return _Reader(path, store).points()
+
+
 class _Reader:
     """Reader of one file, with the notes, unread cells and ids found so far."""
 

@@ -55,6 +55,10 @@ class HDF5Store:
             dataset = _StepView(dataset, record)
         return hdf5.read_dataset(self.path, dataset)
 
+    def dataset(self, name: str) -> object:
+        """Dataset of a variable, h5py.Dataset."""
+        return self._datasets[name]
+
     def attribute(self, variable: str, name: str) -> object:
         with hdf5.library_errors(self.path):
             value = self._datasets[variable].attrs.get(name)

@@ -26,4 +26,5 @@ register(
     stored_names=frozenset({"gmsh:physical"}),
     limitations=deferred("hexmend.io.formats.gmsh.writer:limitations"),
     matches=_matches,
+    locate=deferred("hexmend.io.formats.gmsh.coordinates:locate"),
 )

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
-from hexmend.io.formats.gmsh import version_1, version_2, version_4
+from hexmend.io.formats.gmsh import periodic, version_1, version_2, version_4
 from hexmend.io.formats.gmsh.content import to_mesh
 from hexmend.io.formats.gmsh.data import DATA, read_data
 from hexmend.io.formats.gmsh.sections import Sections
@@ -16,14 +16,14 @@ from hexmend.mesh.mesh import Mesh
 #: Readers of sections by version and keyword.
 _READERS = {
     1: {"$NOD": version_1.read_nodes, "$ELM": version_1.read_elements},
-    2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements},
+    2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements, "$Periodic": periodic.read_version_2},
     4: {"$Entities": version_4.read_entities, "$PartitionedEntities": version_4.read_partitioned_entities}
-    | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements},
+    | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements, "$Periodic": periodic.read_version_4},
 }
 
 
 def read(path: Path) -> Mesh:
-    """Read a Gmsh file: physical groups become sets, tags of nodes and elements ids.
+    """Read a Gmsh file: physical groups become sets, tags ids, periodic surfaces pairs of node sets.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def read(path: Path) -> Mesh:
     while not source.at_end:
         key = source.next_line()
         if key == "$MeshFormat":
-            version, order = _read_format(source)
+            version, order = read_format(source)
         elif key in _READERS[version or 1]:  # the first version has no $MeshFormat
             version = version or 1
             _READERS[version][key](source, order, sections)
@@ -57,7 +57,7 @@ def read(path: Path) -> Mesh:
         elif version and key in DATA:
             read_data(source, order, key, sections)
         elif key.startswith("$") and not key.startswith("$End"):
-            _skip_section(source, key)
+            skip_section(source, key)
             skipped[quoted(key)[1:-1]] = None
         elif not version:
             raise source.error("does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
@@ -67,10 +67,10 @@ def read(path: Path) -> Mesh:
         raise source.error("has no section $MeshFormat")
     if skipped:
         sections.notes.append(f"Sections that are not kept ({', '.join(list(skipped)[:6])}) are left out.")
-    return to_mesh(path, sections)
+    return periodic.with_periodic_surfaces(path, to_mesh(path, sections), sections)
 
 
-def _read_format(source: ByteCursor) -> tuple[int, str]:
+def read_format(source: ByteCursor) -> tuple[int, str]:
     """Version, 2 or 4, and byte order, "<" or ">", of a binary file or "" of a text."""
     words = source.next_line().split()
     if len(words) != 3:
@@ -105,7 +105,8 @@ def _read_physical_names(source: ByteCursor, sections: Sections) -> None:
         raise source.error(f"$PhysicalNames holds {len(sections.names)} names: expected {count}")
 
 
-def _skip_section(source: ByteCursor, key: str) -> None:
+def skip_section(source: ByteCursor, key: str) -> None:
+    """Skip the rest of a section, of its keyword."""
     end = f"$End{key[1:]}".encode()
     at = source.data.find(end, source.pos)
     if at < 0:

@@ -51,6 +51,24 @@ class DataSection:
     values: np.ndarray
 
 
+@dataclass(frozen=True, eq=False)
+class PeriodicLink:
+    """Nodes of an entity that follow those of another.
+
+    Parameters
+    ----------
+    dimension, entity, master : int
+        Dimension, tag of the entity, and tag of the one that it follows.
+    nodes : (k, 2) int64
+        Tag of a node, and of its partner in the master.
+    """
+
+    dimension: int
+    entity: int
+    master: int
+    nodes: np.ndarray
+
+
 @dataclass(eq=False)
 class Sections:
     """Content of the sections read so far."""
@@ -66,4 +84,5 @@ class Sections:
     #: Partition of each partitioned entity by (dimension, tag).
     partitions: dict[tuple[int, int], int] = field(default_factory=dict)
     data: list[DataSection] = field(default_factory=list)
+    periodic: list[PeriodicLink] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)

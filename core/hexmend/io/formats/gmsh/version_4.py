@@ -10,7 +10,7 @@ from hexmend.io.formats.gmsh.sections import ElementBlock, Sections
 from hexmend.io.formats.gmsh.version_2 import node_tags
 
 
-class _SectionNumbers:
+class SectionNumbers:
     """The numbers of a section, one after the other; of a text all are parsed at once, as numbers of `dtype`.
 
     `order` is the byte order, "<" or ">", and "" for text.
@@ -46,7 +46,7 @@ class _SectionNumbers:
 
 def read_entities(source: ByteCursor, order: str, sections: Sections) -> None:
     """Read $Entities: points, curves, surfaces and volumes with their physical groups."""
-    numbers = _SectionNumbers(source, order, "Entities", np.float64)
+    numbers = SectionNumbers(source, order, "Entities", np.float64)
     for dimension, count in enumerate(numbers.integers(4)):
         for _ in range(count):
             (tag,) = numbers.integers(1, "i4")
@@ -59,7 +59,7 @@ def read_partitioned_entities(source: ByteCursor, order: str, sections: Sections
 
     They follow the number of partitions and the entities of ghost elements, which no other section refers to.
     """
-    numbers = _SectionNumbers(source, order, "PartitionedEntities", np.float64)
+    numbers = SectionNumbers(source, order, "PartitionedEntities", np.float64)
     ghosts = numbers.integers(2)[1]
     numbers.take(2 * ghosts, "i4")
     for dimension, count in enumerate(numbers.integers(4)):
@@ -74,7 +74,7 @@ def read_partitioned_entities(source: ByteCursor, order: str, sections: Sections
     numbers.close()
 
 
-def _groups(numbers: _SectionNumbers, dimension: int) -> list[int]:
+def _groups(numbers: SectionNumbers, dimension: int) -> list[int]:
     """Take the rest of an entity after its tag: its box, its physical groups, which are returned, and its boundary."""
     numbers.take(6 if dimension else 3, "f8")
     groups = numbers.integers(numbers.integers(1)[0], "i4")
@@ -85,7 +85,7 @@ def _groups(numbers: _SectionNumbers, dimension: int) -> list[int]:
 
 def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
     """Read $Nodes: the tags of each entity's nodes, then their coordinates."""
-    numbers = _SectionNumbers(source, order, "Nodes", np.float64)
+    numbers = SectionNumbers(source, order, "Nodes", np.float64)
     blocks, count = numbers.integers(4)[:2]
     tags, points = [np.zeros(0, np.int64)], [np.zeros((0, 3))]
     for _ in range(blocks):
@@ -102,7 +102,7 @@ def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
 
 def read_elements(source: ByteCursor, order: str, sections: Sections) -> None:
     """Read $Elements: the tags and nodes of the elements of each entity and type."""
-    numbers = _SectionNumbers(source, order, "Elements", np.int64)
+    numbers = SectionNumbers(source, order, "Elements", np.int64)
     blocks, count = numbers.integers(4)[:2]
     sections.elements, seen = [], 0
     for _ in range(blocks):

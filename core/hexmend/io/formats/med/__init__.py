@@ -33,4 +33,5 @@ register(
     capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS, Capability.FIELD_DATA},
     limitations=deferred("hexmend.io.formats.med.writer:limitations"),
     matches=_matches,
+    locate=deferred("hexmend.io.formats.med.coordinates:locate"),
 )

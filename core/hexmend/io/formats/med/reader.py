@@ -28,12 +28,12 @@ def content(path: Path) -> Content:
     FileError
         For a file that is damaged, or whose first mesh is structured or not in space.
     """
-    with _open(path) as file:
+    with open_med(path) as file:
         return _content(path, file)
 
 
 @contextmanager
-def _open(path: Path) -> Iterator[Mapping]:
+def open_med(path: Path) -> Iterator[Mapping]:
     """Open a file for reading; errors of h5py inside become `FileError`."""
     try:
         with hdf5.open_file(path) as file:
@@ -51,13 +51,10 @@ def _content(path: Path, file: Mapping) -> Content:
     meshes, notes = list(file["ENS_MAA"]), []
     if len(meshes) > 1:
         notes.append(f"Of {len(meshes)} meshes the first, {meshes[0]}, is read.")
-    mesh = _first_step(path, meshes[0], file["ENS_MAA"][meshes[0]], notes)
+    mesh = first_step(path, meshes[0], file["ENS_MAA"][meshes[0]], notes)
     families = file["FAS"][meshes[0]] if "FAS" in file and meshes[0] in file["FAS"] else {}
 
-    coordinates = read_array(path, mesh["NOE"], "COO")
-    if coordinates.ndim != 1 or coordinates.size % 3 or coordinates.dtype.kind != "f":
-        raise FileError(path, f"its {coordinates.size} coordinates are not three for each node", DAMAGED)
-    points = np.ascontiguousarray(coordinates.reshape(3, -1).T, np.float64)
+    points = read_points(path, mesh)
     node_ids = _ids(path, mesh["NOE"], len(points))
     node_sets = _sets(path, mesh["NOE"], len(points), families.get("NOEUD", {}))
     blocks, left_out = [], []
@@ -75,7 +72,7 @@ def _content(path: Path, file: Mapping) -> Content:
     return Content(points, tuple(blocks), {**fields["NOE"], **node_ids}, node_sets, notes=tuple(notes))
 
 
-def _first_step(path: Path, name: str, mesh: Mapping, notes: list[str]) -> Mapping:
+def first_step(path: Path, name: str, mesh: Mapping, notes: list[str]) -> Mapping:
     """Group of the first step of a mesh, with its nodes (NOE) and cells (MAI)."""
     if int(mesh.attrs.get("TYP", 0)) != 0:
         raise FileError(path, f"the mesh {name} is structured", "Export it as an unstructured mesh.")
@@ -89,6 +86,14 @@ def _first_step(path: Path, name: str, mesh: Mapping, notes: list[str]) -> Mappi
     if len(steps) > 1:
         notes.append(f"Of {len(steps)} steps of the mesh the first is read.")
     return mesh[steps[0]]
+
+
+def read_points(path: Path, mesh: Mapping) -> np.ndarray:
+    """Coordinates of the nodes of a mesh, (n, 3) float64."""
+    coordinates = read_array(path, mesh["NOE"], "COO")
+    if coordinates.ndim != 1 or coordinates.size % 3 or coordinates.dtype.kind != "f":
+        raise FileError(path, f"its {coordinates.size} coordinates are not three for each node", DAMAGED)
+    return np.ascontiguousarray(coordinates.reshape(3, -1).T, np.float64)
 
 
 def _block(path: Path, type: str, cells: Mapping, n_nodes: int, families: Mapping) -> Block:

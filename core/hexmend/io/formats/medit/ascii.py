@@ -9,6 +9,8 @@ import numpy as np
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.base.format import register
+from hexmend.io.coordinates.located import CoordinatesError
+from hexmend.io.coordinates.text_coordinates import TextCoordinates, blanked, fields_of_words, word_ranges
 from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
 from hexmend.mesh.mesh import Mesh
 
@@ -17,7 +19,7 @@ _KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexae
 
 def read(path: Path) -> Mesh:
     """Read a Medit file; coordinates are read as float64 in every version of the format."""
-    cursor = ByteCursor(path, _without_comments(path.read_bytes()))
+    cursor = ByteCursor(path, blanked(path.read_bytes(), b"#"))
     if cursor.next_word() != "MeshVersionFormatted":
         raise cursor.error("does not begin with MeshVersionFormatted", "Is it a Medit file? Check its suffix.")
     cursor.parse_count(cursor.next_word(), "the version")
@@ -70,11 +72,20 @@ def _skip(cursor: ByteCursor) -> None:
             return
 
 
-def _without_comments(data: bytes) -> bytes:
-    """Remove comments; lines keep their numbers."""
-    if b"#" not in data:
-        return data
-    return b"\n".join(line.split(b"#", 1)[0] for line in data.split(b"\n"))
+def locate(path: Path) -> TextCoordinates:
+    """Find the coordinates of a file that the reader has accepted."""
+    data = path.read_bytes()
+    cursor = ByteCursor(path, blanked(data, b"#"))
+    while not cursor.at_end:
+        if cursor.next_word() == "Vertices":
+            count = cursor.parse_count(cursor.next_word(), "the number of Vertices")
+            begin = cursor.pos
+            rows = cursor.read_numbers("Vertices", count, 4, np.float64)
+            first, last = word_ranges(cursor.data, begin, cursor.pos)
+            words = 4 * np.arange(count)[:, None] + np.arange(3)
+            fields = fields_of_words(first[words], last[words])
+            return TextCoordinates(data, np.ascontiguousarray(rows[:, :3]), fields)
+    raise CoordinatesError("it has no section Vertices")
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
@@ -91,4 +102,4 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write(b"End\n")
 
 
-register("medit", "Medit", (".mesh",), ("ascii",), read, write, **DECLARATION)
+register("medit", "Medit", (".mesh",), ("ascii",), read, write, locate=locate, **DECLARATION)

@@ -10,6 +10,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.format import register
+from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, BinaryCoordinates, BinaryPiece
 from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
 from hexmend.mesh.mesh import Mesh
 
@@ -20,7 +21,17 @@ _BY_CODE = {section.code: section for section in SECTIONS.values()}
 
 def read(path: Path) -> Mesh:
     """Read a binary Medit file of either byte order."""
-    cursor = ByteCursor(path, path.read_bytes(), is_text=False)
+    return to_mesh(path, *_sections(ByteCursor(path, path.read_bytes(), is_text=False))[:3])
+
+
+def locate(path: Path) -> BinaryCoordinates:
+    """Find the coordinates of a file that the reader has accepted."""
+    points, _, _, piece = _sections(ByteCursor(path, path.read_bytes(), is_text=False))
+    return BinaryCoordinates(path, points, (piece,))
+
+
+def _types(cursor: ByteCursor) -> tuple[str, str, str, str]:
+    """Read the head: the byte order, and the types of whole numbers, coordinates and offsets."""
     head = cursor.read_bytes(4, "the head")
     order = {b"\x01\x00\x00\x00": "<", b"\x00\x00\x00\x01": ">"}.get(head)
     if order is None:
@@ -30,9 +41,13 @@ def read(path: Path) -> Mesh:
         raise cursor.error(f"is of version {version}: expected 1 to 4")
     integer = f"{order}i8" if version == 4 else f"{order}i4"
     real = f"{order}f4" if version == 1 else f"{order}f8"
-    offset = f"{order}q" if version >= 3 else f"{order}i"
+    return order, integer, real, f"{order}q" if version >= 3 else f"{order}i"
 
-    points = refs = None
+
+def _sections(cursor: ByteCursor) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray], BinaryPiece]:
+    """Read coordinates, references, other sections by name, and the place of the coordinates."""
+    order, integer, real, offset = _types(cursor)
+    points = refs = piece = None
     sections: dict[str, np.ndarray] = {}
     seen = 0
     while cursor.pos < len(cursor.data):
@@ -53,6 +68,9 @@ def read(path: Path) -> Mesh:
             if count < 0:
                 raise cursor.error(f"the number of {name} at byte {at} is {count}: expected a natural number")
             if code == _VERTICES:
+                size = 3 * np.dtype(real).itemsize + np.dtype(integer).itemsize
+                strides = (size, np.dtype(real).itemsize)
+                piece = BinaryPiece(cursor.pos, np.dtype(real), strides, slice(0, count), ALL_COLUMNS)
                 rows = cursor.read_binary(name, count, 1, [("x", real, 3), ("ref", integer)])
                 points, refs = rows["x"][:, 0].astype(np.float64), rows["ref"][:, 0].astype(np.int64)
             else:
@@ -63,7 +81,7 @@ def read(path: Path) -> Mesh:
             cursor.pos = after  # an unused section
     if points is None:
         raise cursor.error(f"has no section Vertices among its {seen}")
-    return to_mesh(path, points, refs, sections)
+    return points, refs, sections, piece
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
@@ -94,4 +112,4 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write(struct.pack(offset, 0))
 
 
-register("medit-binary", "binary Medit", (".meshb",), ("binary",), read, write, **DECLARATION)
+register("medit-binary", "binary Medit", (".meshb",), ("binary",), read, write, locate=locate, **DECLARATION)

@@ -44,4 +44,5 @@ register(
     limitations=deferred("hexmend.io.formats.nastran.writer:limitations"),
     exact=False,  # a column has room for 12 to 14 digits
     matches=_matches,
+    locate=deferred("hexmend.io.formats.nastran.coordinates:locate"),
 )

@@ -38,7 +38,7 @@ def read(path: Path) -> Mesh:
         From `Mesh`.
     """
     bulk = BulkData(path, read_text_bytes(path).replace(b"\r\n", b"\n").replace(b"\r", b"\n"))
-    model = _Model(bulk)
+    model = BulkModel(bulk)
     for item in bulk.cards_and_blocks({"GRID", *KINDS_OF_CARD}):
         if not isinstance(item, CardBlock):
             model.add_card(*item)
@@ -74,7 +74,7 @@ class _RowBuffer:
             self._single = []
 
 
-class _Model:
+class BulkModel:
     """Grid points and elements of the cards read so far."""
 
     def __init__(self, bulk: BulkData):

@@ -11,7 +11,7 @@ FACE_WEIGHT = Metric(
     full_range=(0.0, 0.5),
     acceptable=(0.05, 0.5),
     better=1,
-    meaning="Low values mean a thin hex beside a thick one: interpolation to the face uses nearly one hex alone.",
+    meaning="Low values mean a thin hex next to a thick one: interpolation to the face uses nearly one hex alone.",
     of=of_hexes("weight"),
     of_mesh=of_mesh("weight"),
 ).register()

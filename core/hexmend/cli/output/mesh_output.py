@@ -1,0 +1,65 @@
+"""Output file of a command that changes a mesh: the given file with other coordinates, or a new one."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from hexmend.cli.output.mesh_messages import warn_of_losses
+from hexmend.errors import FileError
+from hexmend.io import Original, replaces_coordinates, write, write_as_given
+from hexmend.io.coordinates.replacement import ChangedFileError
+from hexmend.io.format_lookup import unused_path
+from hexmend.mesh.mesh import Mesh
+
+
+class MeshOutput:
+    """Output file of a mesh.
+
+    Parameters
+    ----------
+    path : str
+    source : str
+        File of the mesh.
+    mesh : Mesh
+        As read from it.
+    rewrite : bool
+        Write the file anew even if it has the format of `source`.
+    """
+
+    def __init__(self, path: str, source: str, mesh: Mesh, rewrite: bool):
+        self.path = path
+        self._source = None if rewrite else source
+        self._original = None if rewrite else Original(Path(source), mesh)
+
+    def warn_of_losses(self, mesh: Mesh) -> None:
+        """Print a warning for each part of the mesh that is lost; none is where coordinates are replaced."""
+        if not replaces_coordinates(self.path, self._original):
+            warn_of_losses(self.path, mesh, self._source)
+
+    def write(self, mesh: Mesh) -> str:
+        """Write the mesh; print notes on standard error, and return a sentence about the file.
+
+        Raises
+        ------
+        FileError
+            Where the file cannot be written. If the given file has changed meanwhile and would be overwritten, the
+            mesh is saved beside it.
+        """
+        expected = replaces_coordinates(self.path, self._original)
+        try:
+            written = write_as_given(self.path, mesh, self._original)
+        except ChangedFileError as error:
+            spare = unused_path(self.path)
+            write(spare, mesh)
+            remedy = f"The result was written anew to {spare}."
+            raise FileError(error.path, error.problem, remedy) from None
+        for note in written.notes:
+            print(f"hexmend: {note}", file=sys.stderr)
+        if not written.replaced:
+            if expected:
+                warn_of_losses(self.path, mesh, self._source)
+            return f"Written to {self.path}."
+        where = self.path if written.in_place else f"a copy of {self._original.path.name}"
+        kept = f"Coordinates replaced in {where}; everything else is as it was."
+        return kept if written.in_place else f"{kept}\nWritten to {self.path}."

@@ -1,0 +1,120 @@
+"""Replacement of coordinates in a copy of a mesh's file, where the format of the copy is that of the file."""
+
+from __future__ import annotations
+
+import logging
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.errors import FileError
+from hexmend.io.base.format import Format
+from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates
+from hexmend.io.coordinates.original import Original, difference
+from hexmend.io.storage.atomic import atomic_write
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import was_turned
+
+_LOGGER = logging.getLogger(__name__)
+_REWRITE = "Choose another name, or write the file anew (--rewrite)."
+_TURNED = "Hexes that have been turned keep the order of nodes that they have in the file."
+#: Differences of coordinates, relative to the largest, that count as rounding: of a file that keeps seven digits.
+_ROUNDING = 1e-6
+
+
+class ChangedFileError(FileError):
+    """File whose nodes are not those that were read from it."""
+
+
+@dataclass(frozen=True)
+class Written:
+    """Way in which a mesh was written.
+
+    Parameters
+    ----------
+    replaced : bool
+        True if coordinates were replaced in a copy of the original file; False for a file written anew.
+    notes : tuple of str
+        Sentences for the user: why the file was written anew although the original has its format, or a loss of digits.
+    in_place : bool
+        True if the original file itself was changed.
+    """
+
+    replaced: bool
+    notes: tuple[str, ...] = ()
+    in_place: bool = False
+
+
+def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Format) -> Written:
+    """Write the original file with the coordinates of a mesh; all else in it stays, byte for byte where possible.
+
+    Parameters
+    ----------
+    path : Path
+        File to write; may be the original.
+    mesh : Mesh
+        Differs from the original's in the positions of its nodes alone.
+    original : Original
+    format : Format
+        Of the original file.
+
+    Returns
+    -------
+    Written
+
+    Raises
+    ------
+    ChangedFileError
+        If the original file has other nodes than the original mesh.
+    CoordinatesError
+        If the file cannot hold the mesh in this way.
+    FileError
+        If a file cannot be read or written.
+    """
+    different = difference(original.mesh, mesh, format.capabilities)
+    if different:
+        raise CoordinatesError(f"the mesh has {different} than {original.path.name}")
+    located = _located(original, format)
+    in_place = is_same_mesh(format, path, original.path)
+    turned = (_TURNED,) if was_turned(original.mesh) else ()
+    if format.place:  # a folder, in which the format replaces files itself
+        return Written(True, (*located.write(path, path, mesh.points), *turned), in_place)
+    with atomic_write(path) as file:
+        notes = located.write(file, path, mesh.points)
+    return Written(True, (*notes, *turned), in_place)
+
+
+def _located(original: Original, format: Format) -> LocatedCoordinates:
+    """Find the coordinates of the original file, after a check that they are those of its mesh."""
+    path, given = original.path, original.mesh.points
+    changed = ChangedFileError(path, "has changed since it was read", _REWRITE)
+    try:
+        located = format.locate(path)
+    except FileError:
+        raise changed from None
+    except (OSError, ValueError, LookupError) as error:
+        _LOGGER.debug("the coordinates of %s were not found", path, exc_info=True)
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else "it has changed since"
+        raise ChangedFileError(path, f"cannot be read again ({reason})", _REWRITE) from None
+    points = located.points
+    if points.shape != given.shape:
+        raise changed
+    different = ~((points == given) | ~np.isfinite(points))
+    if (np.abs(points[different] - given[different]) > _ROUNDING * np.abs(given).max()).any():
+        raise changed
+    return located
+
+
+def is_same_mesh(format: Format, a: Path, b: Path) -> bool:
+    """Return True if two paths lead to one existing file or case."""
+    return format.place.is_same(a, b) if format.place else is_same_file(a, b)
+
+
+def is_same_file(a: str | os.PathLike[str], b: str | os.PathLike[str]) -> bool:
+    """Return True if two paths lead to one existing file."""
+    try:
+        return os.path.samefile(a, b)
+    except OSError:
+        return False

@@ -1,0 +1,145 @@
+"""Coordinates as decimals in a text file: the byte range of each, and their replacement."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.io.base.decimals import parse_numbers
+from hexmend.io.coordinates.edits import Edits, gather, text_lengths, write_edited
+from hexmend.io.coordinates.located import CoordinatesError
+from hexmend.io.coordinates.number_texts import number_texts, replace_lines, scientific_style
+
+#: Fields that are checked at a time, which limits the memory.
+_CHUNK = 1 << 17
+#: Numbers of the file that tell its style.
+_SAMPLE = 300
+
+
+@dataclass(frozen=True, eq=False)
+class TextFields:
+    """Byte ranges of the three coordinates of nodes, without blanks around them.
+
+    Parameters
+    ----------
+    begin, end : (n, 3) int64
+        Equal for a blank field.
+    space : (n, 3) int64
+        Blanks before the number that belong to its field.
+    absent : (n, 3) bool
+        True for fields that a line ends before; they are written behind a comma at `begin`.
+    aligned : bool
+        True for columns of a fixed width, in which a number keeps its right end.
+    """
+
+    begin: np.ndarray
+    end: np.ndarray
+    space: np.ndarray
+    absent: np.ndarray
+    aligned: bool = False
+
+    def edits(self, changed: np.ndarray, texts: bytes) -> Edits:
+        """Return the edits that write new numbers.
+
+        Parameters
+        ----------
+        changed : (n, 3) bool
+            The fields to write; with any of a line, those that it lacks have to be among them.
+        texts : bytes
+            The new numbers, one a line.
+        """
+        begin, end, space, absent = (part[changed] for part in (self.begin, self.end, self.space, self.absent))
+        if absent.any():
+            lines = texts.split(b"\n")
+            texts = replace_lines(texts, np.flatnonzero(absent), lambda k: b", " + lines[k])
+        padding = space
+        if self.aligned:  # the number grows into its blanks, all but one
+            padding = np.maximum(np.minimum(space, 1), space + end - begin - text_lengths(texts))
+        order = np.argsort(begin, kind="stable")
+        if (order[1:] > order[:-1]).all():
+            return Edits(begin - space, end, padding, texts)
+        lines = texts.split(b"\n")
+        texts = b"".join(lines[k] + b"\n" for k in order.tolist())
+        return Edits((begin - space)[order], end[order], padding[order], texts)
+
+
+@dataclass(frozen=True, eq=False)
+class TextCoordinates:
+    """Coordinates of a text file, see `hexmend.io.coordinates.located.LocatedCoordinates`.
+
+    Parameters
+    ----------
+    data : bytes
+        Content of the file.
+    points : (n, 3) float64
+        As the reader of the format gives them.
+    fields : TextFields
+    width : int
+        Most characters of a number; 0 for no limit.
+    notes : tuple of str
+    """
+
+    data: bytes
+    points: np.ndarray
+    fields: TextFields
+    width: int = 0
+    notes: tuple[str, ...] = ()
+
+    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
+        """Write the file with new coordinates; see `LocatedCoordinates.write`."""
+        with open(file, "wb") as out:
+            write_edited(out, self.data, self.edits(points))
+        return self.notes
+
+    def edits(self, points: np.ndarray) -> Edits:
+        """Return the edits that replace the coordinates that differ from `points`, (n, 3) float64."""
+        changed = ~(points == self.points)  # not a number differs from everything
+        self._check(changed)
+        changed |= changed.any(axis=1)[:, None] & self.fields.absent
+        return self.fields.edits(changed, number_texts(points[changed], self._style(), self.width))
+
+    def _check(self, changed: np.ndarray) -> None:
+        """Raise `CoordinatesError` unless the fields to be replaced hold the numbers that the reader has found."""
+        begin, end, values = self.fields.begin[changed], self.fields.end[changed], self.points[changed]
+        blank, data = begin == end, np.frombuffer(self.data, np.uint8)
+        good = not values[blank].any()
+        begin, end, values = begin[~blank], end[~blank], values[~blank]
+        for low in range(0, len(begin), _CHUNK):
+            part = slice(low, low + _CHUNK)
+            sizes = end[part] - begin[part]
+            text = gather(data, begin[part], sizes)
+            text = np.insert(text, np.cumsum(sizes), ord(" ")).tobytes().replace(b"D", b"e").replace(b"d", b"e")
+            found = parse_numbers(text, np.float64)
+            good &= found is not None and np.array_equal(found, values[part], equal_nan=True)
+        if not good:
+            raise CoordinatesError("its layout is not one in which coordinates can be replaced")
+
+    def _style(self) -> str | None:
+        begin, end = self.fields.begin.ravel(), self.fields.end.ravel()
+        step = max(1, len(begin) // _SAMPLE)
+        ranges = zip(begin[::step].tolist(), end[::step].tolist(), strict=True)
+        style = scientific_style(self.data[first:last] for first, last in ranges if last > first)
+        return None if style is None or self.width else style
+
+
+def word_ranges(data: bytes, begin: int, end: int) -> tuple[np.ndarray, np.ndarray]:
+    """Byte ranges of the words between two offsets: their begins and their ends, (k,) int64 each."""
+    letters = np.zeros(end - begin + 2, bool)
+    letters[1:-1] = np.frombuffer(data, np.uint8, end - begin, begin) > ord(" ")
+    edges = np.flatnonzero(letters[1:] != letters[:-1]) + begin
+    return edges[::2], edges[1::2]
+
+
+def fields_of_words(begin: np.ndarray, end: np.ndarray) -> TextFields:
+    """Fields of the words of a text between blanks, of their ranges, (n, 3) int64 each."""
+    return TextFields(begin, end, np.zeros_like(begin), np.zeros(begin.shape, bool))
+
+
+def blanked(data: bytes, mark: bytes) -> bytes:
+    """Replace comments, from a mark to the end of the line, by as many blanks."""
+    if mark not in data:
+        return data
+    lines = (line.partition(mark) for line in data.split(b"\n"))
+    return b"\n".join(text + b" " * (len(sign) + len(comment)) for text, sign, comment in lines)

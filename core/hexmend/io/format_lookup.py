@@ -1,0 +1,109 @@
+"""Lookup of the format of a file, by its place, suffix and content."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import NoReturn
+
+from hexmend.errors import FileError
+from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.base.plugins import plugin_formats
+
+#: Bytes from which the format of a file is recognised.
+_HEAD = 4096
+
+
+def every_format() -> tuple[Format, ...]:
+    """Return all formats, those of plug-ins last."""
+    return *FORMATS.values(), *plugin_formats()
+
+
+def suffixes_of(formats: Iterable[Format]) -> tuple[str, ...]:
+    """Return the suffixes of formats, each once."""
+    return tuple(dict.fromkeys(suffix for format in formats for suffix in format.suffixes))
+
+
+def format_by_place(path: Path) -> Format | None:
+    """Find the format of a folder, or of a file that is part of one; None for other files."""
+    try:
+        return next((format for format in FORMATS.values() if format.place and format.place.contains(path)), None)
+    except (OSError, ValueError):  # as of an invalid name, which is reported when it is read
+        return None
+
+
+def format_of(path: Path) -> Format:
+    """Find the format of a file: by its place or suffix, unless the content is of another format."""
+    placed = format_by_place(path)
+    if placed is not None:
+        return placed
+    named = [format for format in FORMATS.values() if path.suffix.lower() in format.suffixes]
+    with open(path, "rb") as file:
+        head = file.read(_HEAD)
+    for format in named:
+        if format.matches is None or format.matches(head):
+            return format
+    for format in FORMATS.values():
+        if format.matches is not None and format.matches(head):
+            return format
+    for format in plugin_formats():  # loaded only if none of ours matches
+        if format.matches is not None and format.matches(head):
+            return format
+        if not named and path.suffix.lower() in format.suffixes:
+            return format
+    return named[0] if named else _unknown(path, "read", every_format())
+
+
+def unused_path(path: str | os.PathLike[str]) -> Path:
+    """Return the path of a new file beside another one, for a result that cannot be written there.
+
+    >>> unused_path("dir/part.inp").as_posix()
+    'dir/part-hexmend.inp'
+    """
+    path = Path(path)
+    placed = format_by_place(path)
+    if placed is None:
+        return path.with_stem(f"{path.stem}-hexmend")
+    folder = path.parent if path.is_file() else path
+    return folder.with_name(f"{folder.name}-hexmend") / f"mesh{placed.suffixes[0]}"
+
+
+def copy_suffix(path: str | os.PathLike[str]) -> str:
+    """Return the suffix that a copy of a mesh gets: that of the file, or none for a mesh of several files."""
+    return "" if format_by_place(Path(path)) else Path(path).suffix
+
+
+def writable_format(path: Path, source: Path | None = None) -> Format:
+    """Return the format that a file is written in.
+
+    Parameters
+    ----------
+    path : Path
+        Its place or suffix chooses the format.
+    source : Path, optional
+        File that the mesh was read from; a case is written as a case where the suffix chooses nothing.
+
+    Raises
+    ------
+    FileError
+        For an unknown suffix.
+    """
+    placed = format_by_place(path)
+    if placed is not None and placed.write:
+        return placed
+    for formats in (FORMATS.values, plugin_formats):  # plug-ins are loaded only if none of ours writes it
+        for format in formats():
+            if format.write and path.suffix.lower() in format.suffixes:
+                return format
+    copied = None if source is None else format_by_place(source)
+    if copied is not None and copied.write:
+        return copied
+    return _unknown(path, "write", [format for format in every_format() if format.write])
+
+
+def _unknown(path: Path, verb: str, formats: Iterable[Format]) -> NoReturn:
+    titles = {suffix: format.title for format in reversed(tuple(formats)) for suffix in reversed(format.suffixes)}
+    known = ", ".join(f"{suffix} ({title})" for suffix, title in reversed(titles.items()))
+    problem = f"the suffix {path.suffix!r} is unknown" if path.suffix else "the name has no suffix"
+    raise FileError(path, problem, f"Hexmend can {verb} {known}.")

@@ -1,0 +1,177 @@
+"""Coordinates of an Abaqus file in the data lines of its *NODE cards."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.io.base.cursor import quoted
+from hexmend.io.coordinates.located import CoordinatesError
+from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields
+from hexmend.io.formats.abaqus.deck import Card, Deck
+from hexmend.io.formats.abaqus.included_output import write_files
+from hexmend.io.formats.abaqus.includes import read_deck
+from hexmend.io.formats.abaqus.model import Instance, Part, placement
+from hexmend.io.formats.abaqus.sets import name_key
+
+#: Characters of a real number that Abaqus and CalculiX read.
+_WIDTH = 20
+#: Differences of a part's instances that count as rounding, relative to the size of the part.
+_ROUNDING = 1e-9
+
+
+def locate(path: Path) -> AbaqusCoordinates:
+    """Find the coordinates of a file that the reader has accepted."""
+    deck = read_deck(path)
+    return AbaqusCoordinates(deck, _placed_cards(deck))
+
+
+@dataclass(frozen=True, eq=False)
+class _PlacedCards:
+    """The *NODE cards of an instance, or of the assembly: an instance without a name."""
+
+    instance: Instance
+    cards: tuple[Card, ...]
+
+
+class AbaqusCoordinates:
+    """Coordinates of all instances, see `hexmend.io.coordinates.located.LocatedCoordinates`.
+
+    Parameters
+    ----------
+    deck : Deck
+    placed : list of _PlacedCards
+        In the order of the mesh's nodes.
+    """
+
+    def __init__(self, deck: Deck, placed: list[_PlacedCards]):
+        self._deck, self._placed = deck, placed
+        self._rows: dict[int, np.ndarray] = {}  # by the line of the card
+        self._cards = {card.line: card for one in placed for card in one.cards}
+        for one in placed:
+            for card in one.cards:
+                if card.line not in self._rows:
+                    self._rows[card.line] = deck.nodes(card)[1]
+                one.instance.part.points.append(self._rows[card.line])
+        self.points = np.concatenate([one.instance.points() for one in placed])
+
+    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
+        """Write the file with new coordinates; see `LocatedCoordinates.write`."""
+        new_rows: dict[int, np.ndarray] = {}
+        first = 0
+        for one in self._placed:
+            for line in (card.line for card in one.cards):
+                own = slice(first, first + len(self._rows[line]))
+                first = own.stop
+                rows = _in_part(one.instance, self.points[own], points[own], self._rows[line])
+                if line in new_rows and not _same(new_rows[line], rows):
+                    name = quoted(one.instance.part.name)
+                    raise CoordinatesError(f"instances of the part {name} share its nodes and have moved differently")
+                new_rows.setdefault(line, rows)
+        given = np.concatenate(list(self._rows.values()))
+        cards = [self._cards[line] for line in self._rows]
+        fields = _joined([node_fields(self._deck.data, card.begin, card.end) for card in cards])
+        coordinates = TextCoordinates(self._deck.given, given, fields, _WIDTH)
+        points = np.concatenate([new_rows[line] for line in self._rows])
+        if not self._deck.pieces:
+            return coordinates.write(file, target, points)
+        return write_files(self._deck, coordinates.edits(points), file, target)
+
+
+def _placed_cards(deck: Deck) -> list[_PlacedCards]:
+    """Cards of the nodes of all instances, or of all parts where there are no instances, and of the assembly."""
+    assembly: list[Card] = []
+    parts: dict[str, tuple[str, list[Card]]] = {}
+    instances: list[tuple[Instance, list[Card], list[Card]]] = []
+    cards = assembly
+    for card in deck.cards():
+        if card.name == "NODE":
+            cards.append(card)
+        elif card.name == "PART":
+            cards = []
+            parts[name_key(card.options.get("NAME", ""))] = (card.options.get("NAME", ""), cards)
+        elif card.name == "INSTANCE":
+            name, of_part = parts[name_key(card.options.get("PART", ""))]
+            cards = []
+            instance = Instance("", Part(name), *placement(deck, deck.fields(card)))
+            instances.append((instance, of_part, cards))
+        elif card.name in ("END PART", "END INSTANCE"):
+            cards = assembly
+    if not instances:
+        instances = [(Instance(name, Part(name)), own, []) for name, own in parts.values()]
+    placed = [_PlacedCards(instance, (*of_part, *own)) for instance, of_part, own in instances]
+    return [*placed, _PlacedCards(Instance("", Part("")), tuple(assembly))]
+
+
+def _in_part(instance: Instance, before: np.ndarray, after: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Coordinates of a part's nodes, (k, 3), of those in the assembly; as in the file where they have not changed."""
+    if np.array_equal(instance.rotation, np.eye(3)):
+        return np.where(before == after, rows, after - instance.translation)
+    moved = ~(before == after).all(axis=1)
+    return np.where(moved[:, None], (after - instance.translation) @ instance.rotation, rows)
+
+
+def _same(a: np.ndarray, b: np.ndarray) -> bool:
+    """Return True if nodes coincide up to rounding."""
+    size = np.ptp(a, axis=0).max(initial=0.0)
+    return bool((np.abs(a - b) <= _ROUNDING * size).all())
+
+
+def node_fields(data: bytes, begin: int, end: int) -> TextFields:
+    """Fields of the coordinates in the data lines of a *NODE card, which follow the number of the node.
+
+    Parameters
+    ----------
+    data : bytes
+    begin, end : int
+        Byte range of the data lines.
+
+    Returns
+    -------
+    TextFields
+        A row for each line that is not blank.
+    """
+    letters = np.frombuffer(data, np.uint8, end - begin, begin)
+    if not (letters > ord(" ")).any():
+        none = np.zeros((0, 3), np.int64)
+        return TextFields(none, none, none, none.astype(bool), True)
+    breaks, commas = np.flatnonzero(letters == ord("\n")), np.flatnonzero(letters == ord(","))
+    start, stop = np.append(0, breaks + 1), np.append(breaks, len(letters))
+    start, stop = start[start < len(letters)], stop[start < len(letters)]
+    filled = np.logical_or.reduceat(letters > ord(" "), start)
+    start, stop = start[filled], stop[filled]
+    first = np.searchsorted(commas, start)
+    count = np.searchsorted(commas, stop) - first
+    commas = np.append(commas, [0] * 4)  # never read for fields that are absent
+    _, last = _trimmed(letters, start, stop)
+    low, high = np.empty((len(start), 3), np.int64), np.empty((len(start), 3), np.int64)
+    absent = count[:, None] <= np.arange(3)
+    for k in range(3):
+        low[:, k] = np.where(absent[:, k], last, commas[first + k] + 1)
+        high[:, k] = np.where(absent[:, k], last, np.where(count > k + 1, commas[first + k + 1], last))
+    begins, ends = _trimmed(letters, low, np.maximum(low, high))
+    blank = begins == ends
+    begins, ends = np.where(blank, low, begins), np.where(blank, low, ends)  # a blank field is written at its begin
+    inner = ~absent[:, :2] & (count[:, None] > np.arange(1, 3))
+    widths = (high - low)[:, :2][inner]
+    aligned = len(start) > 1 and not absent.any() and widths.size > 0 and bool((widths == widths[0]).all())
+    return TextFields(begins + begin, ends + begin, begins - low, absent, aligned)
+
+
+def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Ranges without blanks at their ends."""
+    begin, end = begin.copy(), end.copy()
+    while (blank := (begin < end) & (letters[np.minimum(begin, len(letters) - 1)] <= ord(" "))).any():
+        begin += blank
+    while (blank := (begin < end) & (letters[end - 1] <= ord(" "))).any():
+        end -= blank
+    return begin, end
+
+
+def _joined(parts: list[TextFields]) -> TextFields:
+    """Fields of several cards, one after the other."""
+    names = ("begin", "end", "space", "absent")
+    arrays = [np.concatenate([getattr(part, name) for part in parts]) for name in names]
+    return TextFields(*arrays, aligned=all(part.aligned for part in parts))

@@ -1,0 +1,132 @@
+"""Output of a deck with the files that it includes: copies of those with moved nodes, next to the deck."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path, PurePosixPath
+
+import numpy as np
+
+from hexmend.io.coordinates.edits import Edits, write_edited
+from hexmend.io.coordinates.located import CoordinatesError
+from hexmend.io.coordinates.replacement import is_same_file
+from hexmend.io.formats.abaqus.deck import Deck
+from hexmend.io.formats.abaqus.deck_file import DeckFile
+from hexmend.io.storage.atomic import atomic_write
+
+
+def write_files(deck: Deck, edits: Edits, file: Path, target: Path) -> tuple[str, ...]:
+    """Write a deck and the files that it includes with other coordinates.
+
+    Where the deck replaces itself, so do its files. Else a file with moved nodes is written next to the new deck with
+    the name of that deck behind its own, which the new deck refers to; others are copied where they are missing.
+
+    Parameters
+    ----------
+    deck : Deck
+        With pieces.
+    edits : Edits
+        Of the joined text.
+    file, target : Path
+        As of `LocatedCoordinates.write`.
+
+    Returns
+    -------
+    tuple of str
+        Notes about the files.
+    """
+    root = deck.pieces[0].file
+    own = {one: part for one in root.walk() if len(part := _of_file(deck, edits, one))}
+    paths = [one.path.resolve() for one in root.walk()]
+    if twice := [one for one in own if paths.count(one.path.resolve()) > 1]:
+        raise CoordinatesError(f"{twice[0].path.name} is included twice, and its nodes have moved")
+    if is_same_file(root.path, target):
+        for one, part in own.items():
+            if one is not root:
+                with atomic_write(one.path) as copy:
+                    _write(copy, one, part)
+        _write(file, root, own.get(root, _none()))
+        changed = sorted(one.path.name for one in own if one is not root)
+        return (f"Coordinates are replaced in {', '.join(changed)} too.",) if changed else ()
+    notes, renamed = [], {}
+    for one in reversed(list(root.walk())[1:]):  # included files before those that include them
+        part = own.get(one, _none())
+        part = _with_names(part, [(child.reference, renamed[child]) for child in one.included if child in renamed])
+        if len(part):
+            renamed[one] = _renamed(one, target)
+            with atomic_write(_place(target, renamed[one])) as copy:
+                _write(copy, one, part)
+            notes.append(f"{one.reference.name} is written as {renamed[one]}.")
+        else:
+            notes += _copied(one, root, target)
+    part = own.get(root, _none())
+    _write(file, root, _with_names(part, [(one.reference, renamed[one]) for one in root.included if one in renamed]))
+    return tuple(reversed(notes))
+
+
+def _none() -> Edits:
+    nothing = np.zeros(0, np.int64)
+    return Edits(nothing, nothing, nothing, b"")
+
+
+def _write(path: Path, file: DeckFile, edits: Edits) -> None:
+    with open(path, "wb") as out:
+        write_edited(out, file.data, edits)
+
+
+def _of_file(deck: Deck, edits: Edits, file: DeckFile) -> Edits:
+    """Edits of the joined text that lie in a file, with its offsets."""
+    lines, parts = edits.texts.split(b"\n"), []
+    for piece in deck.pieces:
+        if piece.file is file:
+            low, high = np.searchsorted(edits.begin, [piece.begin, piece.begin + piece.length])
+            high += int(np.searchsorted(edits.begin[high:], piece.begin + piece.length, "right"))  # at its end
+            shift = piece.file_begin - piece.begin
+            texts = b"".join(line + b"\n" for line in lines[low:high])
+            part = slice(low, high)
+            parts.append(Edits(edits.begin[part] + shift, edits.end[part] + shift, edits.padding[part], texts))
+    return _merged(parts)
+
+
+def _merged(parts: list[Edits]) -> Edits:
+    """Edits of several parts of a file, in the order of the file."""
+    arrays = [np.concatenate([getattr(part, name) for part in parts]) for name in ("begin", "end", "padding")]
+    lines = b"".join(part.texts for part in parts).split(b"\n")
+    order = np.argsort(arrays[0], kind="stable")
+    return Edits(*(values[order] for values in arrays), b"".join(lines[k] + b"\n" for k in order.tolist()))
+
+
+def _with_names(edits: Edits, names: list[tuple[object, str]]) -> Edits:
+    """Edits and the new names of included files."""
+    parts = [edits]
+    for reference, name in names:
+        quote = b'"' if reference.parent.data[reference.begin : reference.begin + 1] == b'"' else b""
+        place = np.array([reference.begin]), np.array([reference.end]), np.zeros(1, np.int64)
+        parts.append(Edits(*place, quote + name.encode() + quote + b"\n"))
+    return _merged(parts)
+
+
+def _renamed(file: DeckFile, target: Path) -> str:
+    """Name of the copy of an included file: that of the new deck is appended; a file elsewhere comes next to it."""
+    name = PurePosixPath(file.reference.name.replace("\\", "/"))
+    name = name.with_name(f"{name.stem}-{target.stem}{name.suffix}")
+    return name.name if name.is_absolute() or ".." in name.parts else str(name)
+
+
+def _place(target: Path, name: str) -> Path:
+    """Path of a file next to the new deck, in a folder that exists."""
+    path = target.parent / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path
+
+
+def _copied(file: DeckFile, root: DeckFile, target: Path) -> list[str]:
+    """Copy an included file that stays as it is to where the new deck looks for it; returns notes."""
+    name = Path(file.reference.name)
+    if name.is_absolute() or is_same_file(root.path.parent, target.parent):
+        return []
+    if ".." in name.parts or (target.parent / name).exists():
+        same = is_same_file(file.path, target.parent / name)
+        return [] if same else [f"The new deck includes {name}, which was not copied: check that it is the right file."]
+    shutil.copyfile(file.path, _place(target, str(name)))
+    return [f"{name} is copied next to the new deck."]

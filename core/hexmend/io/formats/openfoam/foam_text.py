@@ -1,0 +1,114 @@
+"""Files of a new polyMesh, as text or binary."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.io.base.decimals import format_rows, row_chunks
+from hexmend.io.base.numbering import runs
+from hexmend.io.formats.openfoam.boundary import ZONE_FILES, Patch
+from hexmend.io.formats.openfoam.points import vector_rows
+from hexmend.io.formats.openfoam.topology import PolyTopology
+
+_LABEL, _SCALAR = np.dtype("<i4"), np.dtype("<f8")
+_RULE = b"\n// ************************************************************************* //\n"
+
+
+def write_poly_mesh(folder: Path, mesh: PolyTopology, encoding: str) -> None:
+    """Write points, faces, owner, neighbour, boundary and zones into a folder; `encoding` is "ascii" or "binary"."""
+    binary = encoding == "binary"
+    counts = f"nPoints: {len(mesh.points)} nCells: {mesh.n_cells} nFaces: {len(mesh.owner)}"
+    note = f"{counts} nInternalFaces: {len(mesh.neighbour)}"
+    _write(folder / "points", "vectorField", encoding, _vectors(mesh.points, binary))
+    kind = "faceCompactList" if binary else "faceList"
+    _write(folder / "faces", kind, encoding, _compact(mesh.loops) if binary else _faces(mesh.loops))
+    _write(folder / "owner", "labelList", encoding, _labels(mesh.owner, binary), note)
+    _write(folder / "neighbour", "labelList", encoding, _labels(mesh.neighbour, binary), note)
+    _write(folder / "boundary", "polyBoundaryMesh", "ascii", _boundary(mesh.patches))
+    zones = {"cellZones": mesh.cell_zones, "faceZones": mesh.face_zones, "pointZones": mesh.point_zones}
+    for name, members in zones.items():
+        if members:
+            _write(folder / name, "regIOobject", encoding, _zones(name, members, binary))
+
+
+def _write(path: Path, kind: str, encoding: str, body: Iterator[bytes], note: str = "") -> None:
+    lines = [
+        "version     2.0;",
+        f"format      {encoding};",
+        'arch        "LSB;label=32;scalar=64";',
+        f"class       {kind};",
+    ]
+    lines += [f'note        "{note}";'] if note else []
+    lines += ['location    "constant/polyMesh";', f"object      {path.name};"]
+    with open(path, "wb") as file:
+        file.write("\n".join(["FoamFile", "{", *(f"    {line}" for line in lines), "}", "", ""]).encode())
+        for part in body:
+            file.write(part)
+        file.write(_RULE)
+
+
+def _vectors(points: np.ndarray, binary: bool) -> Iterator[bytes]:
+    yield b"%d\n(" % len(points)
+    if binary:
+        yield points.astype(_SCALAR).tobytes()
+    else:
+        yield b"\n"
+        for part in row_chunks(len(points)):
+            yield vector_rows(points[part])
+    yield b")\n"
+
+
+def _labels(values: np.ndarray, binary: bool) -> Iterator[bytes]:
+    yield b"%d\n(" % len(values)
+    if binary:
+        yield values.astype(_LABEL).tobytes()
+    else:
+        yield b"\n"
+        for part in row_chunks(len(values)):
+            yield format_rows(values[part])
+    yield b")\n"
+
+
+def _faces(loops: np.ndarray) -> Iterator[bytes]:
+    widths = 4 - (loops[:, 3] < 0)
+    yield b"%d\n(\n" % len(loops)
+    for run in runs(widths):
+        width = int(widths[run.start])
+        for part in row_chunks(run.stop - run.start):
+            rows = format_rows(loops[run][part, :width])
+            yield (b"%d(" % width) + rows[:-1].replace(b"\n", b")\n%d(" % width) + b")\n"
+    yield b")\n"
+
+
+def _compact(loops: np.ndarray) -> Iterator[bytes]:
+    yield from _labels(np.concatenate([[0], np.cumsum(4 - (loops[:, 3] < 0))]), True)
+    yield from _labels(loops[loops >= 0], True)
+
+
+def _boundary(patches: list[Patch]) -> Iterator[bytes]:
+    yield b"%d\n(\n" % len(patches)
+    for patch in patches:
+        lines = [f"type            {patch.type};"]
+        lines += [f"neighbourPatch  {patch.neighbour};"] if patch.neighbour else []
+        lines += [f"nFaces          {patch.count};", f"startFace       {patch.first};"]
+        body = "".join(f"        {line}\n" for line in lines)
+        yield f"    {patch.name}\n    {{\n{body}    }}\n".encode()
+    yield b")\n"
+
+
+def _zones(name: str, zones: Mapping[str, object], binary: bool) -> Iterator[bytes]:
+    yield b"%d\n(\n" % len(zones)
+    for title, members in zones.items():
+        faces, flips = members if name == "faceZones" else (members, None)
+        yield f"{title}\n{{\n    type {name[:-1]};\n    {ZONE_FILES[name]} List<label> ".encode()
+        yield from _labels(faces, binary)
+        yield b";\n"
+        if flips is not None:
+            yield b"    flipMap List<bool> %d\n(" % len(flips)
+            yield flips.astype(np.uint8).tobytes() if binary else b" ".join(b"%d" % flip for flip in flips)
+            yield b")\n;\n"
+        yield b"}\n"
+    yield b")\n"

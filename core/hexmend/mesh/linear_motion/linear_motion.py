@@ -1,0 +1,248 @@
+"""Linear constraints on the displacements of nodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.arrays import as_immutable, mask
+from hexmend.errors import MeshError
+from hexmend.mesh.linear_motion import subspaces
+from hexmend.mesh.linear_motion.ties import resolved
+from hexmend.mesh.validation import as_array, as_integers, as_reals
+
+#: Largest error of a projector or rotation that is given.
+_MATRIX_ERROR = 1e-6
+
+
+def _no_nodes() -> np.ndarray:
+    return np.empty(0, np.int32)
+
+
+def _no_matrices() -> np.ndarray:
+    return np.empty((0, 3, 3))
+
+
+@dataclass(frozen=True, eq=False)
+class LinearMotion:
+    """Linear constraints on the displacements of nodes: they move in planes, along lines, or as others do.
+
+    The arrays are brought to a standard form: each node is there once, nodes ascend, the restrictions of a tied node
+    become restrictions of its master, and chains of ties end at one master. Where constraints of a node meet, its
+    displacements are those that all of them admit.
+
+    Parameters
+    ----------
+    nodes : (k,) int32
+        Nodes whose directions are restricted.
+    projectors : (k, 3, 3) float64
+        Orthogonal projectors onto their admissible displacements. Nodes with projector 0 stay.
+    tied : (t,) int32
+        Nodes that follow another.
+    master : (t,) int32
+        Node that each of them follows.
+    rotations : (t, 3, 3) float64
+        The displacement of tied[i] is rotations[i] times that of master[i].
+
+    Raises
+    ------
+    MeshError
+        For arrays of other shapes and types, and for matrices that are no projectors or no rotations.
+
+    Examples
+    --------
+    >>> motion = LinearMotion.in_planes([3, 4], [[0, 0, 1], [1, 1, 0]]).merge(LinearMotion.in_planes([4], [0, 0, 2]))
+    >>> motion.nodes.tolist(), motion.ranks.tolist()
+    ([3, 4], [2, 1])
+    """
+
+    nodes: np.ndarray = field(default_factory=_no_nodes)
+    projectors: np.ndarray = field(default_factory=_no_matrices)
+    tied: np.ndarray = field(default_factory=_no_nodes)
+    master: np.ndarray = field(default_factory=_no_nodes)
+    rotations: np.ndarray = field(default_factory=_no_matrices)
+
+    def __post_init__(self) -> None:
+        nodes, tied, master = (_as_numbers(getattr(self, name), name) for name in ("nodes", "tied", "master"))
+        projectors = _as_matrices(self.projectors, "projectors", nodes.size)
+        rotations = _as_matrices(self.rotations, "rotations", tied.size)
+        if master.size != tied.size:
+            raise MeshError(f"{tied.size} tied nodes have {master.size} masters: expected one for each")
+        _check(nodes, "projector", "symmetric with P P = P", projectors @ projectors.transpose(0, 2, 1) - projectors)
+        _check(tied, "rotation", "R R^T = 1", rotations @ rotations.transpose(0, 2, 1) - np.eye(3))
+        tied, master, rotations, axis_nodes, axes = resolved(tied, master, subspaces.rounded(rotations))
+        nodes, projectors = np.concatenate([nodes, axis_nodes]), np.concatenate([projectors, axes])
+        row = np.searchsorted(tied, nodes)
+        own = np.flatnonzero(tied[np.minimum(row, tied.size - 1)] == nodes) if tied.size else row[:0]
+        nodes[own] = master[row[own]]
+        projectors[own] = subspaces.rotated(projectors[own], rotations[row[own]].transpose(0, 2, 1))
+        nodes, projectors = subspaces.combined(nodes, subspaces.rounded(projectors))
+        restricted = subspaces.ranks(projectors) < 3
+        self._set(nodes=nodes[restricted].astype(np.int32), projectors=projectors[restricted])
+        self._set(tied=tied, master=master, rotations=rotations)
+
+    def _set(self, **values: np.ndarray) -> None:
+        for name, value in values.items():
+            object.__setattr__(self, name, as_immutable(value))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return LinearMotion, (self.nodes, self.projectors, self.tied, self.master, self.rotations)
+
+    @classmethod
+    def in_planes(cls, nodes: np.ndarray, normals: np.ndarray) -> LinearMotion:
+        """Restrict nodes to planes through their positions.
+
+        Parameters
+        ----------
+        nodes : (k,) int
+            A node of several planes is there once for each: it moves along a line, or stays.
+        normals : (k, 3) or (3,) float
+            Normal of the plane of each node, or of all, of any length but 0.
+
+        Returns
+        -------
+        LinearMotion
+
+        Raises
+        ------
+        MeshError
+            For arrays of another shape or type, and for a normal of length 0.
+        """
+        nodes = _as_numbers(nodes, "nodes")
+        return cls(nodes, subspaces.plane_projectors(_as_vectors(normals, "normals", nodes)))
+
+    @classmethod
+    def along_lines(cls, nodes: np.ndarray, directions: np.ndarray) -> LinearMotion:
+        """Restrict nodes (k,) to lines through their positions with directions (k, 3) or (3,); see `in_planes`."""
+        nodes = _as_numbers(nodes, "nodes")
+        return cls(nodes, subspaces.line_projectors(_as_vectors(directions, "directions", nodes)))
+
+    @classmethod
+    def keeping(cls, nodes: np.ndarray) -> LinearMotion:
+        """Keep nodes (k,) where they are, and with them the nodes that are tied to them."""
+        nodes = _as_numbers(nodes, "nodes")
+        return cls(nodes, np.zeros((nodes.size, 3, 3)))
+
+    @classmethod
+    def tying(cls, tied: np.ndarray, master: np.ndarray, rotation: np.ndarray | None = None) -> LinearMotion:
+        """Tie nodes to others, all by one rotation.
+
+        Parameters
+        ----------
+        tied, master : (t,) int
+            A node can be tied to several, to nodes that are tied themselves, and to itself: on the axis of a rotation
+            it moves along the axis.
+        rotation : (3, 3) float, optional
+            Takes the displacement of a master to that of its tied node; none by default, as for translated copies.
+
+        Returns
+        -------
+        LinearMotion
+
+        Raises
+        ------
+        MeshError
+            For arrays of another shape or type, and for a matrix that is no rotation.
+        """
+        tied = _as_numbers(tied, "tied")
+        matrix = np.eye(3) if rotation is None else _as_matrices([rotation], "rotation", 1)[0]
+        return cls(tied=tied, master=master, rotations=np.tile(matrix, (tied.size, 1, 1)))
+
+    def merge(self, other: LinearMotion) -> LinearMotion:
+        """Combine the constraints of both; a displacement is admissible if it is so for both."""
+        names = ("nodes", "projectors", "tied", "master", "rotations")
+        return LinearMotion(*(np.concatenate([getattr(self, name), getattr(other, name)]) for name in names))
+
+    def renumbered(self, number: np.ndarray) -> LinearMotion:
+        """Return the constraints in other node numbers.
+
+        Parameters
+        ----------
+        number : (n,) int
+            New number of each node, -1 if it is removed. Nodes that followed a removed one follow one of them.
+
+        Returns
+        -------
+        LinearMotion
+        """
+        stay = number[self.tied] >= 0
+        tied, master, rotations = self.tied[stay], self.master[stay], self.rotations[stay]
+        # The first node tied to a removed master takes its place; it is then tied to itself.
+        orphans, heir = np.unique(master[number[master] < 0], return_inverse=True)
+        rows = np.flatnonzero(number[master] < 0)
+        first = rows[np.unique(heir, return_index=True)[1]]
+        nodes, projectors = self.nodes.copy(), self.projectors.copy()
+        for node, row in zip(orphans, first, strict=True):
+            own = nodes == node
+            nodes[own] = tied[row]
+            projectors[own] = subspaces.rotated(projectors[own], rotations[[row]])
+        turns, names = rotations[first][heir], tied[first][heir]
+        master, rotations = master.copy(), rotations.copy()
+        rotations[rows] = rotations[rows] @ turns.transpose(0, 2, 1)
+        master[rows] = names
+        kept = number[nodes] >= 0
+        return LinearMotion(number[nodes[kept]], projectors[kept], number[tied], number[master], rotations)
+
+    @cached_property
+    def ranks(self) -> np.ndarray:
+        """Number of directions in which each of `nodes` may move, (k,) int64: 0 to 2."""
+        return subspaces.ranks(self.projectors)
+
+    @cached_property
+    def largest_node(self) -> int:
+        """The largest node number, -1 if there is none."""
+        return int(max(part.max(initial=-1) for part in (self.nodes, self.tied, self.master)))
+
+    def roots(self, n: int) -> np.ndarray:
+        """Node that each of n nodes moves with: the master of a tied node, else itself; (n,) int64."""
+        roots = np.arange(n)
+        roots[self.tied] = self.master
+        return roots
+
+    def marks(self, n: int) -> np.ndarray:
+        """Mark the nodes, of n, that are restricted, tied, or followed by others, (n,) bool."""
+        return mask(np.concatenate([self.nodes, self.tied, self.master]), n)
+
+    def __bool__(self) -> bool:
+        return self.largest_node >= 0
+
+
+def _as_numbers(values: object, label: str) -> np.ndarray:
+    """Convert node numbers to (k,) int64."""
+    array = as_integers(np.atleast_1d(as_array(values, label)), label, ("row",))
+    if array.ndim != 1:
+        raise MeshError(f"{label} have shape {array.shape}: expected one node number a row")
+    if array.size and not 0 <= int(array.min()) <= int(array.max()) < 2**31:
+        raise MeshError(f"{label} hold a number outside 0 to 2^31 - 1: expected numbers of nodes")
+    return array.astype(np.int64)
+
+
+def _as_matrices(values: object, label: str, count: int) -> np.ndarray:
+    array = as_reals(values, label)
+    if array.shape != (count, 3, 3) and array.size + count:
+        raise MeshError(f"{label} have shape {array.shape}: expected ({count}, 3, 3), one for each node")
+    return array.reshape(count, 3, 3)
+
+
+def _as_vectors(values: object, label: str, nodes: np.ndarray) -> np.ndarray:
+    """Convert vectors, one for each node or one for all, to (k, 3)."""
+    array = as_reals(values, label)
+    if array.shape not in ((3,), (nodes.size, 3)):
+        raise MeshError(f"{label} have shape {array.shape}: expected (3,) or ({nodes.size}, 3)")
+    array = np.broadcast_to(array, (nodes.size, 3))
+    wrong = np.flatnonzero(~(np.isfinite(array).all(axis=1) & (array != 0).any(axis=1)))
+    if wrong.size:
+        row = wrong[0]
+        raise MeshError(
+            f"{label} of node {nodes[row]} are {array[row].tolist()}: expected a finite vector other than 0"
+        )
+    return array
+
+
+def _check(nodes: np.ndarray, kind: str, expected: str, error: np.ndarray) -> None:
+    """Raise `MeshError` for a matrix with an error (k, 3, 3) beyond rounding, or that is not finite."""
+    wrong = np.flatnonzero(~(np.abs(error) < _MATRIX_ERROR).all(axis=(1, 2)))
+    if wrong.size:
+        raise MeshError(f"the {kind} of node {nodes[wrong[0]]} is none: expected a matrix with {expected}")

@@ -1,0 +1,80 @@
+"""Nodes and faces of the named sets of a mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.arrays import mask
+from hexmend.errors import MeshError
+from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.mesh import Mesh
+
+
+def set_names(mesh: Mesh) -> list[str]:
+    """List the names of all sets of nodes, hexes, sides and other cells, each once."""
+    cells = (name for cells in mesh.cells for name in cells.sets)
+    return list(dict.fromkeys([*mesh.node_sets, *mesh.hex_sets, *mesh.side_sets, *cells]))
+
+
+def nodes_in_set(mesh: Mesh, name: str) -> np.ndarray:
+    """Find the nodes of a set: of nodes, hexes, sides, or other cells such as the quads of a surface.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    name : str
+
+    Returns
+    -------
+    (k,) int
+        Ascending, except of a node set, which is returned as it is.
+
+    Raises
+    ------
+    MeshError
+        For a set that does not exist; the message lists the sets.
+    """
+    if name in mesh.node_sets:
+        return np.asarray(mesh.node_sets[name])
+    if name in mesh.hex_sets:
+        return np.unique(mesh.hexes[mesh.hex_sets[name]])
+    if name in mesh.side_sets:
+        rows = np.asarray(mesh.side_sets[name])
+        return np.unique(mesh.hexes[rows[:, :1], FACES[rows[:, 1]]])
+    found = [cells.nodes[cells.sets[name]].ravel() for cells in mesh.cells if name in cells.sets]
+    if found:
+        return np.unique(np.concatenate(found))
+    known = ", ".join(map(repr, set_names(mesh))) or "none"
+    raise MeshError(f"there is no set {name!r}: there are {known}")
+
+
+def boundary_faces_in_sets(mesh: Mesh) -> dict[str, np.ndarray]:
+    """Mark the boundary faces of each side set, set of quads, and node set that holds all four nodes of a face.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    dict of str to (k,) bool
+        For the faces of `Topology.boundary_faces`; sets without a face, and with all faces, are left out.
+    """
+    faces, found = mesh.topology.boundary_faces, {}
+    if mesh.side_sets:
+        hexes, sides = np.nonzero(mesh.topology.face_neighbours < 0)
+        number = np.full((mesh.n_hexes, 6), len(faces))
+        number[hexes, sides] = np.arange(len(faces))
+        for name, rows in mesh.side_sets.items():
+            marks = np.zeros(len(faces) + 1, dtype=bool)
+            marks[number[rows[:, 0], rows[:, 1]]] = True
+            found[f"side set {name}"] = marks[:-1]
+    weights = np.random.default_rng(0).integers(1, 2**62, mesh.n_nodes) if mesh.cells else None
+    for cells in mesh.cells:
+        if cells.kind == "quad" and cells.sets:
+            keys, own = (weights[nodes].sum(axis=1) for nodes in (faces, cells.nodes))  # overflow does no harm
+            for name, rows in cells.sets.items():
+                found[f"quads {name}"] = np.isin(keys, own[rows])
+    for name, nodes in mesh.node_sets.items():
+        found[f"node set {name}"] = mask(nodes, mesh.n_nodes)[faces].all(axis=1)
+    return {name: marks for name, marks in found.items() if marks.any() and not marks.all()}

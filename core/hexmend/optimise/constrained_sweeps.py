@@ -1,0 +1,124 @@
+"""Sweeps over nodes with a linear motion: each independent node steps with its tied ones, by a line search of its own.
+
+The kernels of local methods move single nodes; these sweeps are theirs for nodes that move with others, in planes and
+along lines. Independent nodes of one colour share no hex, so that their steps are found at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+
+from hexmend.arrays import index_of
+from hexmend.energy import LinearMotionEnergy, MeshEnergy
+from hexmend.energy.assembled_hessian import unpack_symmetric
+from hexmend.kernels.line_search import LineSearch
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import Topology
+
+#: Function of energies (k,), gradients (k, 3), Hessians (k, 3, 3) of single nodes and p; gives their directions (k, 3).
+NodeDirections: TypeAlias = Callable[[np.ndarray, np.ndarray, np.ndarray, float], np.ndarray]
+
+#: Share of the largest eigenvalue to which smaller ones are raised (A.4).
+_LEAST_EIGENVALUE = 1e-3
+
+
+def steepest_descents(values: np.ndarray, gradients: np.ndarray, hessians: np.ndarray, p: float) -> np.ndarray:
+    """Algorithm A.2 for single nodes: minus the gradients of (3.3), the p-th roots of the energies."""
+    return -(np.power(np.maximum(values, np.finfo(float).tiny), 1 / p - 1) / p)[:, None] * gradients
+
+
+def newton_steps(values: np.ndarray, gradients: np.ndarray, hessians: np.ndarray, p: float) -> np.ndarray:
+    """Algorithm A.4 for single nodes: Newton's steps with the small eigenvalues of the Hessians raised."""
+    eigenvalues, vectors = np.linalg.eigh(hessians)
+    least = _LEAST_EIGENVALUE * np.abs(eigenvalues).max(axis=1, keepdims=True)
+    least = np.maximum(least, np.finfo(float).tiny)
+    along = np.einsum("kij,ki->kj", vectors, gradients) / np.maximum(eigenvalues, least)
+    return -np.einsum("kij,kj->ki", vectors, along)
+
+
+class ConstrainedSweeps:
+    """Sweeps over some nodes of a mesh and those tied to them, colour after colour.
+
+    Parameters
+    ----------
+    energy : MeshEnergy
+        Of a mesh with a linear motion.
+    chosen : (n,) bool
+        Nodes that move; fixed ones stay.
+    """
+
+    def __init__(self, energy: MeshEnergy, chosen: np.ndarray):
+        mesh = energy.mesh
+        root = mesh.linear_motion.roots(mesh.n_nodes)
+        moves = np.zeros(mesh.n_nodes, dtype=bool)
+        moves[root[chosen & mesh.free]] = True
+        colours = Topology(root[mesh.hexes], mesh.n_nodes).colouring(moves)
+        self._parts = [_Colour(energy, root, colours[i]) for i in range(len(colours))]
+
+    def __call__(self, x: np.ndarray, delta: float, directions: NodeDirections, search: LineSearch) -> None:
+        """Sweep once.
+
+        Parameters
+        ----------
+        x : (n, 3) float64
+            Points in mean edge lengths; changed.
+        delta : float
+            In cubes of the mean edge length.
+        directions : callable
+            `steepest_descents` or `newton_steps`.
+        search : LineSearch
+        """
+        for part in self._parts:
+            part.step(x, delta, directions, search)
+
+
+class _Colour:
+    """Independent nodes that share no hex, with the hexes at them and at the nodes tied to them."""
+
+    def __init__(self, energy: MeshEnergy, root: np.ndarray, nodes: np.ndarray):
+        mesh = energy.mesh
+        index = index_of(nodes, mesh.n_nodes)
+        hexes = np.flatnonzero((index[root[mesh.hexes]] >= 0).any(axis=1))
+        self._nodes = np.union1d(mesh.hexes[hexes], nodes)
+        self._nodes = np.union1d(self._nodes, root[self._nodes])
+        number = index_of(self._nodes, mesh.n_nodes)
+        own = Mesh(mesh.points[self._nodes], number[mesh.hexes[hexes]])
+        own = own.with_linear_motion(mesh.linear_motion.renumbered(number))
+        own = own.with_fixed(index[root[self._nodes]] < 0)
+        self._energy = LinearMotionEnergy(energy.on_part(own, hexes))
+        # The one independent node at each hex, as a row of the gradient.
+        rows = index_of(self._energy.nodes, own.n_nodes)[number[root[self._nodes]]]
+        self._row = rows[own.hexes].max(axis=1)
+
+    def step(self, x: np.ndarray, delta: float, directions: NodeDirections, search: LineSearch) -> None:
+        """Step with each node by its own line search; x (n, 3) is changed."""
+        energy, here = self._energy, x[self._nodes]
+        if not energy.nodes.size:
+            return
+        value, gradient = self._values(here, delta), energy.gradient(here, delta)
+        hessian = unpack_symmetric(energy.hessian(here, delta).assembled(np.float64).diagonal_blocks)
+        sound = np.isfinite(value) & np.isfinite(gradient).all(axis=1) & np.isfinite(hessian).all(axis=(1, 2))
+        gradient = np.where(sound[:, None], gradient, 0.0)
+        hessian = np.where(sound[:, None, None], hessian, np.eye(3))
+        step = directions(np.where(sound, value, 1.0), gradient, hessian, energy.norm.p)
+        slope = np.einsum("ki,ki->k", step, gradient)
+        alpha = np.where(sound & (slope < 0) & np.isfinite(step).all(axis=1), search.initial_step, 0.0)
+        open_, step = alpha > 0, np.where(np.isfinite(step), step, 0.0)
+        for _ in range(search.max_backtracks + 1):  # A.5
+            after = self._values(energy.moved(here, alpha[:, None] * step), delta)
+            open_ &= ~(after <= value + search.c1 * alpha * slope)
+            if not open_.any():
+                break
+            alpha[open_] *= search.backtrack_factor
+        alpha[open_] = 0.0
+        x[self._nodes] = energy.moved(here, alpha[:, None] * step)
+
+    def _values(self, x: np.ndarray, delta: float) -> np.ndarray:
+        """Energy of the hexes at each node and its tied ones, (k,) float64."""
+        p, offset = self._energy.norm
+        eta = self._energy.hex_energies(x, delta, offset)
+        with np.errstate(over="ignore"):
+            return np.bincount(self._row, np.power(eta, p), self._energy.nodes.size)

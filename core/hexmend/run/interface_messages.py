@@ -1,0 +1,69 @@
+"""Messages about the interfaces between the materials of a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality.material_volumes import MaterialVolume
+from hexmend.terminal_text import count_phrase
+
+#: Displacements below this share of the mean edge length are rounding.
+_ROUNDING = 1e-9
+
+
+def describe_interfaces(mesh: Mesh) -> str:
+    """Describe the interfaces of a mesh, and what its rules make of them; "" for one material.
+
+    >>> from hexmend.gallery import make
+    >>> cube = make("cube", size=64).replace(hex_sets={"low": np.arange(32), "high": np.arange(32, 64)})
+    >>> describe_interfaces(cube)
+    '2 materials; 9 nodes on their interfaces are kept (--interfaces slide or free lets them move).'
+    """
+    materials = mesh.materials
+    if materials is None:
+        return ""
+    nodes = count_phrase(_inner_nodes(mesh).size, "node on their interfaces is", "nodes on their interfaces are")
+    fates = {
+        "keep": "kept (--interfaces slide or free lets them move)",
+        "slide": "to slide along them",
+        "free": "free to move",
+    }
+    return f"{len(materials)} materials; {nodes} {fates[mesh.node_rules.interfaces]}."
+
+
+def interface_message(before: Mesh, after: Mesh, volumes: Mapping[str, MaterialVolume]) -> str:
+    """Tell what a run did to the interfaces of a mesh; "" for one material.
+
+    Parameters
+    ----------
+    before, after : Mesh
+    volumes : mapping of str to MaterialVolume
+        Volumes of the materials.
+    """
+    if before.materials is None:
+        return ""
+    nodes = _inner_nodes(before)
+    displacements = np.linalg.norm(after.points[nodes] - before.points[nodes], axis=1)
+    moved = int(np.count_nonzero(displacements > _ROUNDING * (before.mean_edge_length or 1.0)))
+    many = f"{len(before.materials)} materials"
+    if not moved:
+        kept = count_phrase(nodes.size, "node on their interfaces was", "nodes on their interfaces were")
+        return f"{many}: {kept} kept."
+    motion = (
+        "moved off them freely"
+        if before.interfaces is None or before.node_rules.free is not None
+        else "slid along them"
+    )
+    largest = max((abs(volume.change) for volume in volumes.values()), default=0.0)
+    return (
+        f"{many}: {moved:,} of {nodes.size:,} nodes on their interfaces {motion}; no material's volume changed by more "
+        f"than {100 * largest:.2g} %."
+    )
+
+
+def _inner_nodes(mesh: Mesh) -> np.ndarray:
+    """Nodes of the interfaces that are not on the boundary, (k,) int64."""
+    return np.flatnonzero(mesh.materials.interface_nodes & ~mesh.topology.boundary)

@@ -1,0 +1,90 @@
+"""A solver's checks together, their registry, and the report on a mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality.measure import ElementQuality
+from hexmend.registry import Registry
+from hexmend.solver_checks.check import Check, CheckResult
+from hexmend.solver_checks.measures import Measures
+from hexmend.terminal_text import count_phrase
+
+
+@dataclass(frozen=True)
+class Solver:
+    """Checks of a solver.
+
+    Parameters
+    ----------
+    name, title : str
+    checks : tuple of Check
+    omitted : str
+        Sentence on the solver's checks that are left out, and why.
+    """
+
+    name: str
+    title: str
+    checks: tuple[Check, ...]
+    omitted: str
+
+    def register(self) -> Solver:
+        """Add the solver to `SOLVERS` under its name and return it; raises `ValueError` if the name is taken."""
+        return SOLVERS.add(self.name, self)
+
+
+@dataclass(frozen=True)
+class Report:
+    """Results of a solver's checks on a mesh.
+
+    Parameters
+    ----------
+    solver : Solver
+    results : tuple of CheckResult
+        Of the checks for which the mesh has values: one without internal faces has no non-orthogonality.
+    """
+
+    solver: Solver
+    results: tuple[CheckResult, ...]
+
+    @property
+    def verdict(self) -> str:
+        """The worst verdict: "failed", "warning" or "passed"."""
+        verdicts = {result.verdict for result in self.results}
+        return next((verdict for verdict in ("failed", "warning") if verdict in verdicts), "passed")
+
+    @property
+    def sentence(self) -> str:
+        """The verdict as a sentence."""
+        failed, warned = (sum(one.verdict == verdict for one in self.results) for verdict in ("failed", "warning"))
+        words = [count_phrase(failed, "check fails", "checks fail")] * bool(failed)
+        words += [count_phrase(warned, "check gives a warning", "checks give a warning")] * bool(warned)
+        return f"{self.solver.title}: {', '.join(words) or 'every value is within its limit'}."
+
+
+def check_mesh(mesh: Mesh, solver: str, quality: ElementQuality | None = None) -> Report:
+    """Apply a solver's checks to a mesh.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    solver : str
+        Name in `SOLVERS`.
+    quality : ElementQuality, optional
+        Quality of the hexes, if it is measured already.
+
+    Returns
+    -------
+    Report
+
+    Raises
+    ------
+    ParameterError
+        For a solver that does not exist.
+    """
+    chosen, measures = SOLVERS[solver], Measures(mesh, quality)
+    return Report(chosen, tuple(result for check in chosen.checks if (result := check.on(measures)).total))
+
+
+SOLVERS: Registry[Solver] = Registry("solver")

@@ -1,0 +1,50 @@
+"""`--goal`: the short form of `--set goal=`, for methods that have goals."""
+
+import pytest
+
+from hexmend.cli.main import main
+from hexmend.gallery import make
+from hexmend.io import read, write
+from hexmend.parameters import declared
+from hexmend.quality.corner_heights import least_heights
+from hexmend.smoothers import METHODS
+
+
+@pytest.fixture
+def mesh(tmp_path):
+    path = tmp_path / "cube.vtk"
+    write(path, make("cube", size=64, scramble=0.3))
+    return path
+
+
+def step_of(path):
+    mesh = read(path)
+    return least_heights(mesh.points, mesh.hexes).min()
+
+
+def test_the_goal_is_that_of_the_setting(mesh, tmp_path, capsys):
+    short, long = tmp_path / "short.vtk", tmp_path / "long.vtk"
+    assert main(["smooth", str(mesh), "-o", str(short), "--goal", "time-step"]) == 0
+    assert "The least time step of the corners" in capsys.readouterr().out
+    assert main(["smooth", str(mesh), "-o", str(long), "--set", "goal=time-step"]) == 0
+    assert step_of(short) == step_of(long) > step_of(mesh)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--goal", "time-step", "--set", "goal=shape"], "--goal and --set goal=... set the same value"),
+        (["--goal", "shape", "--method", "laplacian"], "only mend has goals, not laplacian"),
+        (["--goal", "shape", "--recipe", "absent.toml"], "--recipe names its methods and their values"),
+    ],
+)
+def test_what_contradicts_is_told(mesh, tmp_path, options, said, capsys):
+    assert main(["smooth", str(mesh), "-o", str(tmp_path / "out.vtk"), *options]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_only_mend_has_goals_and_the_option_lists_them():
+    with_goals = [name for name, method in METHODS.items() if "goal" in {one.name for one in declared(method)}]
+    assert with_goals == ["mend"]
+    (goal,) = (one for one in declared(METHODS["mend"]) if one.name == "goal")
+    assert goal.choices == ("shape", "scaled-jacobian", "time-step")

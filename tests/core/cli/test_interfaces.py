@@ -1,0 +1,80 @@
+"""Options of `smooth` for interfaces and sets, and what `smooth` and `info` print of materials."""
+
+import json
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.cli.main import main
+from hexmend.mesh.rules import MotionRules
+from hexmend.run.recipe_files import read_recipe
+from tests.core.grids import grid, scrambled
+
+CUBE = grid(4)
+LOW = CUBE.points[CUBE.hexes].mean(axis=1)[:, 0] < 2
+SETS = {"low": np.flatnonzero(LOW), "high": np.flatnonzero(~LOW)}
+FLOOR = {"floor": np.flatnonzero(CUBE.points[:, 2] == 0), "roof": np.flatnonzero(CUBE.points[:, 2] == 4)}
+
+
+@pytest.fixture
+def path(tmp_path):
+    path = tmp_path / "two.vtu"
+    mesh = CUBE.replace(hex_sets=SETS, node_sets=FLOOR)
+    moved = mesh.points + 0.3 * (mesh.materials.interface_nodes & ~mesh.topology.boundary)[:, None] * [0.3, 1, 0.5]
+    io.write(path, scrambled(mesh.with_points(moved), 0.2))
+    return path
+
+
+def smoothed(path, *words):
+    out = path.with_name("out.vtu")
+    assert main(["smooth", str(path), "-o", str(out), *words]) == 0
+    return io.read(out)
+
+
+def test_interfaces_are_kept_and_the_report_has_the_volumes(path, tmp_path, capsys):
+    report = tmp_path / "report.json"
+    after, mesh = smoothed(path, "--json", str(report)), io.read(path)
+    on = mesh.materials.interface_nodes
+    np.testing.assert_array_equal(after.points[on], mesh.points[on])
+    assert "2 materials: 9 nodes on their interfaces were kept." in capsys.readouterr().out
+    volumes = json.loads(report.read_text())["materials"]
+    assert list(volumes) == ["low", "high"]
+    for volume in volumes.values():
+        assert volume["volume_after"] == pytest.approx(volume["volume_before"], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("words", "on_itself"),
+    [(["--interfaces", "free"], False), (["--interfaces", "slide"], True), (["--free", "low"], False)],
+)
+def test_options_let_interfaces_move(path, words, on_itself, capsys):
+    after, mesh = smoothed(path, *words), io.read(path)
+    on = mesh.materials.interface_nodes & ~mesh.topology.boundary
+    assert np.linalg.norm(after.points - mesh.points, axis=1)[on].max() > 0.1
+    assert (np.abs(after.points[on, 0] - 2).max() > 0.01) == on_itself  # without interface it ends at the lattice
+    assert ("slid along them" if on_itself else "moved off them freely") in capsys.readouterr().out
+    assert after.pinned is None
+
+
+def test_info_names_the_materials_and_their_interface(path, capsys):
+    main(["info", str(path)])
+    assert "2 materials; 9 nodes on their interfaces are kept" in capsys.readouterr().out
+    main(["info", str(path), "--json"])
+    found = json.loads(capsys.readouterr().out)
+    assert {name: entry["hexes"] for name, entry in found["materials"].items()} == {"low": 32, "high": 32}
+    assert found["interface_nodes"] == 25
+
+
+def test_a_recipe_has_the_rules_and_repeats_them(path, tmp_path):
+    recipe = tmp_path / "recipe.toml"
+    words = ["--interfaces", "slide", "--fix", "low", "--plane", "floor", "--periodic", "floor", "roof"]
+    first = smoothed(path, *words, "--save-recipe", str(recipe))
+    assert read_recipe(recipe).rules == MotionRules("slide", "low", plane="floor", periodic=[("floor", "roof")])
+    np.testing.assert_array_equal(smoothed(path, "--recipe", str(recipe)).points, first.points)
+
+
+def test_an_unknown_set_is_an_error_that_lists_the_sets(path, capsys):
+    assert main(["smooth", str(path), "-o", str(path.with_name("out.vtu")), "--slide", "nowhere"]) == 3
+    assert "there is no set 'nowhere': there are 'floor', 'roof', 'low', 'high'" in capsys.readouterr().err
+    assert not path.with_name("out.vtu").exists()

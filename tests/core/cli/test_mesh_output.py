@@ -1,0 +1,81 @@
+"""Commands that change a mesh keep all else in a file of the same format, and say so."""
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.cli.main import main
+from hexmend.cli.output import mesh_output
+from hexmend.gallery import make
+
+END = "*MATERIAL, NAME=Steel\n*STEP\n** the end\n*END STEP\n"
+
+
+@pytest.fixture
+def deck(tmp_path):
+    path = tmp_path / "deck.inp"
+    io.write(path, make("bridge-sharp", size=1000, scramble=0.3, seed=1))
+    path.write_text("** ours\n" + path.read_text() + END)
+    return path
+
+
+def smooth(deck, out, *words):
+    return main(["smooth", str(deck), "-o", str(out), "--method", "local-sd", "--max-iterations", "3", *words])
+
+
+def test_smooth_replaces_coordinates_and_says_so(deck, tmp_path, capsys):
+    smooth(deck, tmp_path / "out.inp")
+    said = capsys.readouterr()
+    assert "Coordinates replaced in a copy of deck.inp; everything else is as it was." in said.out
+    assert "cannot hold" not in said.err
+    before, after = (path.read_text().split("\n") for path in (deck, tmp_path / "out.inp"))
+    n_changed = sum(a != b for a, b in zip(before, after, strict=True))
+    given, got = io.read(deck), io.read(tmp_path / "out.inp")
+    assert n_changed == np.count_nonzero((given.points != got.points).any(axis=1)) > 0
+    assert (given.points == got.points)[given.fixed].all()
+
+
+def test_smooth_may_write_its_own_input(deck, capsys):
+    smooth(deck, deck)
+    assert f"Coordinates replaced in {deck}; everything else is as it was." in capsys.readouterr().out
+    assert deck.read_text().endswith(END)
+
+
+def test_rewrite_writes_anew(deck, tmp_path, capsys):
+    smooth(deck, tmp_path / "out.inp", "--rewrite")
+    assert "Coordinates replaced" not in capsys.readouterr().out
+    assert "** ours" not in (tmp_path / "out.inp").read_text()
+
+
+def test_another_format_warns_of_losses(deck, tmp_path, capsys):
+    smooth(deck, tmp_path / "out.su2")
+    said = capsys.readouterr()
+    assert "cannot hold" in said.err
+    assert "Coordinates replaced" not in said.out
+
+
+def test_repair_keeps_a_file_of_which_it_changes_nothing_else(deck, tmp_path, capsys):
+    assert main(["repair", str(deck), "-o", str(tmp_path / "out.inp")]) == 0
+    assert (tmp_path / "out.inp").read_bytes() == deck.read_bytes()
+
+
+def test_repair_writes_anew_where_nodes_go_and_says_why(deck, tmp_path, capsys):
+    deck.write_text(deck.read_text().replace("*NODE\n", "*NODE\n999999, 0., 0., 77.\n"))
+    assert main(["repair", str(deck), "-o", str(tmp_path / "out.inp")]) == 0
+    said = capsys.readouterr()
+    assert "written anew: the mesh has other nodes than deck.inp" in said.err
+    assert io.read(tmp_path / "out.inp").n_nodes == io.read(deck).n_nodes - 1
+
+
+def test_a_result_is_not_lost_where_the_input_has_changed_meanwhile(deck, monkeypatch, capsys):
+    write = mesh_output.write_as_given
+
+    def late(path, mesh, original):
+        deck.write_text(deck.read_text().replace("*NODE\n", "*NODE\n999999, 0., 0., 77.\n"))
+        return write(path, mesh, original)
+
+    monkeypatch.setattr(mesh_output, "write_as_given", late)
+    assert smooth(deck, deck) == 3
+    assert "has changed since it was read" in capsys.readouterr().err
+    assert "999999" in deck.read_text()
+    assert io.read(deck.with_name("deck-hexmend.inp")).n_nodes == io.read(deck).n_nodes - 1

@@ -1,0 +1,105 @@
+"""Derivatives of the energy under linear constraints, against differences."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.boundary import SlidingBoundary
+from hexmend.energy import LinearMotionEnergy, MeshEnergy, ObjectiveNorm, SlidingEnergy, energy_of
+from hexmend.mesh.linear_motion import LinearMotion
+from tests.core.boundary.solids import cylinder
+from tests.core.grids import grid, scrambled
+from tests.core.linear_motions import face, planes, turn
+
+BLOCK = scrambled(grid(3, 2, 2), 0.2)
+X0, X1 = face(BLOCK, 0, 0), face(BLOCK, 0, 3)
+INNER = np.flatnonzero(~BLOCK.topology.boundary)
+PLANES = planes(BLOCK)
+MOTIONS = {
+    "planes": PLANES,
+    "axes and skew planes": PLANES.merge(LinearMotion.in_planes(INNER, [0.3, 1.0, 0])),
+    "skew plane inside": LinearMotion.in_planes(INNER[:1], [1.0, 2, 3]).merge(
+        LinearMotion.along_lines(X1, [1.0, 1, 0])
+    ),
+    "translation": LinearMotion.tying(X1, X0),
+    "rotation": LinearMotion.tying(X1, X0, turn(25)),
+    "within hexes": LinearMotion.tying(BLOCK.hexes[0][1:4], BLOCK.hexes[0][[0, 0, 0]], turn(70, 1)),
+    "rotation and planes": LinearMotion.tying(X1, X0, turn(90)).merge(LinearMotion.in_planes(X0, [0.2, 1.0, 0])),
+    "several": LinearMotion.tying(X1, X0).merge(LinearMotion.tying(face(BLOCK, 1, 2), face(BLOCK, 1, 0))),
+}
+cases = given(st.sampled_from(sorted(MOTIONS)), st.integers(0, 2**32 - 1), st.sampled_from([1.0, 2.0, 3.5]))
+
+
+def at(name, seed, p):
+    """Return the energy of the block with a linear motion, its points in mean edge lengths, and an admissible step."""
+    mesh = BLOCK.with_linear_motion(MOTIONS[name])
+    energy = energy_of(mesh, ObjectiveNorm(p))
+    step = np.random.default_rng(seed).uniform(-1, 1, (energy.nodes.size, 3))
+    return energy, energy.to_edge_units(mesh.points), step - energy.reduction.inadmissible(step)
+
+
+@settings(max_examples=40, deadline=None)
+@cases
+def test_gradient_is_that_of_differences(name, seed, p):
+    energy, x, step = at(name, seed, p)
+    t, delta = 1e-6, 0.05
+    rise = energy.value(energy.moved(x, step, t), delta) - energy.value(energy.moved(x, step, -t), delta)
+    gradient = energy.gradient(x, delta)
+    assert rise / (2 * t) == pytest.approx((gradient * step).sum(), rel=1e-5, abs=1e-5 * np.abs(gradient).sum())
+    assert not energy.reduction.inadmissible(gradient).any() or np.abs(
+        energy.reduction.inadmissible(gradient)
+    ).max() < (1e-12 * np.abs(gradient).max())
+
+
+@settings(max_examples=40, deadline=None)
+@cases
+def test_hessian_is_that_of_differences(name, seed, p):
+    energy, x, step = at(name, seed, p)
+    t, delta = 1e-6, 0.05
+    rise = energy.gradient(energy.moved(x, step, t), delta) - energy.gradient(energy.moved(x, step, -t), delta)
+    product = energy.hessian(x, delta).matvec(step.ravel()).reshape(-1, 3)
+    np.testing.assert_allclose(rise / (2 * t), product, rtol=1e-4, atol=1e-5 * np.abs(product).max())
+
+
+@settings(max_examples=40, deadline=None)
+@cases
+def test_the_assembled_hessian_has_the_same_products(name, seed, p):
+    energy, x, step = at(name, seed, p)
+    hessian = energy.hessian(x, 0.05).shifted(0.3)
+    product = hessian.matvec(step.ravel())
+    matrix = hessian.assembled(np.float64)
+    for _ in range(2):  # then in the storage of the first
+        np.testing.assert_allclose(matrix @ step.ravel(), product, rtol=1e-8, atol=1e-8 * np.abs(product).max())
+        assert np.linalg.matrix_rank(matrix.matrix().toarray()) == matrix.shape[0]
+        single = hessian.assembled(np.float32)
+        np.testing.assert_allclose(single @ step.ravel(), product, atol=1e-4 * np.abs(product).max())
+        matrix = hessian.assembled(np.float64, matrix)
+
+
+@pytest.mark.parametrize("name", sorted(MOTIONS))
+def test_steps_keep_the_constraints(name):
+    energy, x, step = at(name, 1, 2.0)
+    points = energy.to_mesh_units(energy.moved(x, step, 0.3))
+    np.testing.assert_allclose(energy.mesh.constrained(points), points, atol=1e-14)
+    np.testing.assert_allclose(points, energy.moved(x, step, 0.3) * energy.unit, atol=1e-13)
+
+
+def test_a_mesh_without_linear_motion_has_the_plain_energy():
+    assert type(energy_of(BLOCK)) is MeshEnergy
+
+
+def test_nodes_on_flat_parts_of_a_sliding_boundary_move_linearly_and_others_are_projected():
+    sliding = SlidingBoundary(BLOCK)
+    energy = energy_of(BLOCK, sliding=sliding)
+    assert not energy.faceted
+    np.testing.assert_array_equal(energy.nodes, np.flatnonzero(sliding.mesh.free))
+    sliding = SlidingBoundary(cylinder(16, 3))
+    mixed = energy_of(sliding.mesh, sliding=sliding)
+    assert isinstance(mixed, LinearMotionEnergy)
+    assert mixed.faceted
+    assert 0 < mixed.energy.sliding_nodes.size < sliding.nodes.size
+    x, whole = mixed.to_edge_units(sliding.mesh.points), SlidingEnergy(sliding)
+    gradient = whole.gradient(x)
+    np.testing.assert_allclose(mixed.gradient(x), gradient, atol=1e-9 * np.abs(gradient).max())
+    np.testing.assert_array_equal(mixed.nodes, whole.nodes)

@@ -1,0 +1,52 @@
+"""Parts of a text are replaced, whatever their number, place and length."""
+
+from io import BytesIO
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend.io.coordinates.edits import Edits, write_edited
+from hexmend.io.coordinates.number_texts import number_texts, replace_lines, scientific_style
+
+
+@given(st.data())
+def test_parts_are_replaced_as_by_a_loop(data):
+    text = data.draw(st.binary(max_size=60))
+    places = sorted(data.draw(st.lists(st.integers(0, len(text)), max_size=12)))
+    begin, end = places[: len(places) // 2 * 2 : 2], places[1::2]
+    words = [data.draw(st.sampled_from([b"", b"7", b"-1.25", b"3.0000000001"])) for _ in begin]
+    blanks = [data.draw(st.integers(0, 3)) for _ in begin]
+    expected, at = b"", 0
+    for first, last, count, word in zip(begin, end, blanks, words, strict=True):
+        expected, at = expected + text[at:first] + b" " * count + word, last
+    arrays = [np.array(values, np.int64) for values in (begin, end, blanks)]
+    window = data.draw(st.sampled_from([1, 7, 1 << 21]))
+    file = BytesIO()
+    write_edited(file, text, Edits(*arrays, b"".join(word + b"\n" for word in words)), window)
+    assert file.getvalue() == expected + text[at:]
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), max_size=20))
+def test_numbers_are_read_back_as_they_were_unless_a_width_limits_them(values):
+    array = np.array(values)
+    assert [float(word) for word in number_texts(array).split()] == values
+    assert [float(word) for word in number_texts(array, "%.16E").split()] == values
+    words = number_texts(array, width=20).split()
+    assert all(len(word) <= 20 for word in words)
+    np.testing.assert_allclose([float(word) for word in words], array, rtol=1e-12)
+
+
+def test_whole_numbers_have_a_point():
+    assert number_texts(np.array([0.0, -3.0, 1e6])) == b"0.0\n-3.0\n1000000.0\n"
+
+
+def test_lines_are_replaced_by_their_index():
+    assert replace_lines(b"a\nbb\n\nc\n", np.array([1, 3]), lambda k: b"%d" % k) == b"a\n1\n\n3\n"
+    assert replace_lines(b"", np.zeros(0, np.int64), bytes) == b""
+
+
+def test_a_style_is_that_of_all_words():
+    assert scientific_style([]) is None
+    assert scientific_style([b"1.00e+00", b"1.000e+00"]) is None
+    assert scientific_style([b"-1.00e+00", b"1.00e-10"]) == "%.16e"

@@ -1,0 +1,101 @@
+"""Decks that include other files are read as one, and keep their files when coordinates are replaced."""
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.io import Original, write_as_given
+from hexmend.mesh.hexahedron import UNIT_CUBE
+
+NODES = "".join(f"{k}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 1))
+HEX = "*ELEMENT, TYPE=C3D8, ELSET=BODY\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+MATERIAL = "** materials\n*MATERIAL, NAME=S\n*ELASTIC\n210000., 0.3"
+DECKS = {
+    "node data": ("*NODE, NSET=ALL, INPUT=sub/nodes.txt\n", NODES),
+    "data after a keyword": ("*NODE\n*INCLUDE, INPUT=sub/nodes.txt\n", NODES),
+    "whole keywords": ('** ours\n*Include,\n input = "sub/nodes.txt"\n', "*NODE\n" + NODES),
+    "without a line end": ("*INCLUDE, INPUT=sub/nodes.txt\n", "*NODE\n" + NODES.rstrip("\n")),
+}
+
+
+@pytest.fixture(params=DECKS)
+def deck(request, tmp_path):
+    head, nodes = DECKS[request.param]
+    folder = tmp_path / "given"
+    (folder / "sub").mkdir(parents=True)
+    (folder / "sub/nodes.txt").write_text(nodes)
+    (folder / "material.inp").write_text(MATERIAL)
+    (folder / "in.inp").write_text(head + HEX + "*INCLUDE, INPUT=material.inp\n*STEP\n*END STEP\n")
+    return folder / "in.inp"
+
+
+def moved(deck):
+    mesh = io.read(deck)
+    np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
+    points = mesh.points.copy()
+    points[[2, 7]] += [0.125, 0.25, 0.5]
+    return mesh, mesh.with_points(points)
+
+
+def lines(path):
+    return path.read_text().split("\n")
+
+
+@pytest.mark.parametrize("folder", ["given", "other"])
+def test_files_with_moved_nodes_are_written_next_to_the_deck_under_a_new_name(deck, folder, tmp_path):
+    given, mesh = moved(deck)
+    before = {path: path.read_bytes() for path in deck.parent.rglob("*") if path.is_file()}
+    target = tmp_path / folder / "out.inp"
+    target.parent.mkdir(exist_ok=True)
+    written = write_as_given(target, mesh, Original(deck, given))
+    assert written.replaced
+    assert "sub/nodes.txt is written as sub/nodes-out.txt." in written.notes
+    np.testing.assert_array_equal(io.read(target).points, mesh.points)
+    assert before == {path: path.read_bytes() for path in before}
+    assert target.read_text() == deck.read_text().replace("sub/nodes.txt", "sub/nodes-out.txt")
+    assert (target.parent / "material.inp").read_text() == MATERIAL
+    pairs = zip(lines(deck.parent / "sub/nodes.txt"), lines(target.parent / "sub/nodes-out.txt"), strict=True)
+    assert sum(a != b for a, b in pairs) == 2
+    assert write_as_given(target, mesh, Original(deck, given)).replaced  # once more, on its own files
+
+
+def test_a_deck_that_replaces_itself_replaces_its_files(deck):
+    given, mesh = moved(deck)
+    text = deck.read_text()
+    written = write_as_given(deck, mesh, Original(deck, given))
+    assert written.replaced
+    assert written.notes == ("Coordinates are replaced in nodes.txt too.",)
+    assert deck.read_text() == text
+    np.testing.assert_array_equal(io.read(deck).points, mesh.points)
+
+
+def test_nodes_of_files_that_include_files_are_found(tmp_path):
+    (tmp_path / "in.inp").write_text("*INCLUDE, INPUT=a.inp\n" + HEX)
+    (tmp_path / "a.inp").write_text("** a\n*INCLUDE, INPUT=b.inp\n** end of a\n")
+    (tmp_path / "b.inp").write_text("*NODE\n" + NODES)
+    given, mesh = moved(tmp_path / "in.inp")
+    assert write_as_given(tmp_path / "out.inp", mesh, Original(tmp_path / "in.inp", given)).replaced
+    np.testing.assert_array_equal(io.read(tmp_path / "out.inp").points, mesh.points)
+    assert lines(tmp_path / "out.inp")[0] == "*INCLUDE, INPUT=a-out.inp"
+    assert lines(tmp_path / "a-out.inp") == ["** a", "*INCLUDE, INPUT=b-out.inp", "** end of a", ""]
+
+
+def test_moved_nodes_of_the_deck_leave_its_files_alone(tmp_path):
+    (tmp_path / "in.inp").write_text("*NODE\n" + NODES + HEX + "*INCLUDE, INPUT=material.inp\n")
+    (tmp_path / "material.inp").write_text(MATERIAL)
+    given, mesh = moved(tmp_path / "in.inp")
+    assert write_as_given(tmp_path / "out.inp", mesh, Original(tmp_path / "in.inp", given)).notes == ()
+    assert {path.name for path in tmp_path.iterdir()} == {"in.inp", "out.inp", "material.inp"}
+
+
+def test_errors_name_the_file_and_the_line(tmp_path):
+    (tmp_path / "in.inp").write_text("** one\n*INCLUDE, INPUT=a.inp\n")
+    for text, words in (
+        ("*NODE\n1, 0, 0, 0\n*NGEN\n1, 2, 3\n", r"line 3 of a\.inp"),
+        ("*INCLUDE, INPUT=in.inp\n", "include each other without end"),
+        ("*INCLUDE, INPUT=no.inp\n", r"line 1 of a\.inp reads 'no\.inp', which is no file"),
+    ):
+        (tmp_path / "a.inp").write_text(text)
+        with pytest.raises(FileError, match=words):
+            io.read(tmp_path / "in.inp")

@@ -1,0 +1,233 @@
+"""Cases of OpenFOAM, as text and binary, become meshes with patches and zones as sets."""
+
+import gzip
+import shutil
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.io.formats.openfoam import times
+from hexmend.mesh.hexahedron import FACES
+from hexmend.quality import summarise
+from hexmend.study.batch.task import content_hash
+from tests.core.grids import grid
+from tests.core.io.formats.openfoam.foam_cases import (
+    CUBE,
+    CUBE_FACES,
+    ascii_list,
+    binary_list,
+    boundary,
+    header,
+    write_case,
+    write_cube,
+)
+
+ENCODINGS = [None, (32, 64), (64, 64), (32, 32), (64, 32)]
+#: A cube and a second one behind it in x, which is cut into two wedges, or has another kind of cell.
+TWO = [*CUBE, *((2.0, y, z) for z in (0.0, 1.0) for y in (0.0, 1.0))]
+
+
+@pytest.mark.parametrize("compressed", [False, True])
+@pytest.mark.parametrize("order", ["LSB", "MSB"])
+@pytest.mark.parametrize("binary", ENCODINGS)
+def test_a_case_is_read_in_every_encoding(binary, order, compressed, tmp_path):
+    write_cube(tmp_path / "cube", binary=binary, order=order, compressed=compressed)
+    mesh = io.read(tmp_path / "cube")
+    assert mesh.name == "cube"
+    np.testing.assert_array_equal(mesh.points, CUBE)
+    assert mesh.hexes.tolist() == [[0, 1, 3, 2, 4, 5, 7, 6]]
+    assert summarise(mesh).q_min == pytest.approx(1)
+    assert dict(mesh.side_set_types) == {"walls": "wall", "ends": "patch"}
+
+
+def test_patches_are_side_sets_on_the_right_faces(tmp_path):
+    write_cube(tmp_path / "cube")
+    mesh = io.read(tmp_path / "cube")
+    for name, faces in (("walls", CUBE_FACES[:4]), ("ends", CUBE_FACES[4:])):
+        rows = mesh.side_sets[name]
+        found = mesh.hexes[rows[:, :1], FACES[rows[:, 1]]]
+        assert [sorted(face) for face in found.tolist()] == [sorted(face) for face in faces]
+
+
+@pytest.mark.parametrize("named", ["", "constant", "constant/polyMesh", "constant/polyMesh/boundary", "cube.foam"])
+def test_a_case_is_named_by_its_folders_and_files(named, tmp_path):
+    write_cube(tmp_path / "cube")
+    (tmp_path / "cube" / "cube.foam").touch()
+    assert io.read(tmp_path / "cube" / named).name == "cube"
+
+
+def test_a_study_knows_a_case_by_the_files_of_its_mesh(tmp_path):
+    mesh = write_cube(tmp_path / "cube")
+    before = content_hash(tmp_path / "cube")
+    (tmp_path / "cube/0").mkdir()
+    assert content_hash(mesh / "points") == before
+    (mesh / "owner").write_bytes((mesh / "owner").read_bytes() + b"// a comment")
+    assert content_hash(tmp_path / "cube") != before
+
+
+def test_a_region_belongs_to_the_case_around_it(tmp_path):
+    write_cube(tmp_path / "cube")
+    (tmp_path / "cube/constant/fluid").mkdir()
+    (tmp_path / "cube/constant/polyMesh").rename(tmp_path / "cube/constant/fluid/polyMesh")
+    assert io.read(tmp_path / "cube/constant/fluid/polyMesh").n_hexes == 1
+
+
+def test_times_with_moved_points_are_listed_and_read(tmp_path):
+    mesh = write_cube(tmp_path / "cube")
+    for time in ("0.002", "0.01", "10", "0.5"):
+        folder = tmp_path / "cube" / time
+        folder.mkdir()
+        if time != "0.5":
+            (folder / "polyMesh").mkdir()
+            moved = header("vectorField", "points") + ascii_list([(x * float(time), y, z) for x, y, z in CUBE])
+            (folder / "polyMesh/points").write_bytes(moved)
+    assert [time for time, _ in times(mesh)] == [0.002, 0.01, 10]
+    assert io.read(tmp_path / "cube/0.01").points.max(axis=0).tolist() == [0.01, 1, 1]
+    assert io.read(times(mesh)[2][1]).points.max() == 10
+    assert io.read(tmp_path / "cube").points.max() == 1
+
+
+def test_structured_meshes_come_back_as_they_were(tmp_path):
+    mesh = grid(3, 2, 4)
+    for encoding in ("ascii", "binary"):
+        io.write(tmp_path / encoding / "case.foam", mesh, encoding=encoding)
+        back = io.read(tmp_path / encoding)
+        np.testing.assert_array_equal(back.hexes, mesh.hexes)
+        np.testing.assert_array_equal(back.points, mesh.points)
+
+
+def test_prisms_are_kept_and_their_nodes_fixed(tmp_path):
+    """A hex with two wedges behind it: faces of 3 and 4 nodes."""
+    faces = [
+        (1, 3, 7, 5), (3, 7, 10, 8),  # between hex and wedge, and between the wedges
+        (0, 4, 6, 2), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6),
+        (1, 8, 10, 5), (1, 3, 8), (5, 10, 7),
+        (7, 11, 9, 3), (8, 9, 11, 10), (3, 9, 8), (7, 10, 11),
+    ]  # fmt: skip
+    owner = [0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2]
+    patches = {"hex": ("patch", 2, 5), "wedges": ("wall", 7, 7)}
+    write_case(tmp_path / "two", TWO, faces, owner, [1, 2], patches)
+    mesh = io.read(tmp_path / "two")
+    assert mesh.n_hexes == 1
+    assert {cells.kind: len(cells.nodes) for cells in mesh.cells} == {"wedge": 2, "triangle": 4, "quad": 3}
+    assert mesh.pinned.nonzero()[0].tolist() == [1, 3, 5, 7, 8, 9, 10, 11]
+    assert [set(cells.sets) for cells in mesh.cells if cells.kind != "wedge"] == [{"wedges"}, {"wedges"}]
+    assert mesh.hex_data["id"].tolist() == [0]
+    assert "2 wedge cells next to the hexes are kept" in " ".join(mesh.notes)
+
+
+def test_cells_with_hanging_nodes_stay_in_the_case_and_their_nodes_are_fixed(tmp_path):
+    """A face of the second cell is cut in two, as beside a refined cell."""
+    points = [*TWO, (2.0, 0.5, 0.0), (2.0, 0.5, 1.0)]
+    faces = [
+        (1, 3, 7, 5),
+        (0, 4, 6, 2), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6),
+        (1, 8, 10, 5), (3, 7, 11, 9), (1, 3, 9, 12, 8), (5, 10, 13, 11, 7), (8, 12, 13, 10), (12, 9, 11, 13),
+    ]  # fmt: skip
+    write_case(tmp_path / "two", points, faces, [0] * 6 + [1] * 6, [1], {"all": ("patch", 1, 11)})
+    mesh = io.read(tmp_path / "two")
+    assert mesh.n_hexes == 1
+    assert {cells.kind for cells in mesh.cells} == {"quad"}
+    assert mesh.pinned.nonzero()[0].tolist() == [1, 3, 5, 7, 8, 9, 10, 11, 12, 13]
+    assert "1 polyhedron is kept in the case alone" in " ".join(mesh.notes)
+    out = tmp_path / "copy"
+    io.write(out, mesh, like=tmp_path / "two")
+    for name in ("faces", "owner", "neighbour", "boundary"):
+        path = f"constant/polyMesh/{name}"
+        assert (out / path).read_bytes() == (tmp_path / "two" / path).read_bytes()
+
+
+@pytest.mark.parametrize("binary", [False, True])
+def test_zones_are_sets(binary, tmp_path):
+    mesh = write_cube(tmp_path / "cube")
+    encoding = "binary" if binary else "ascii"
+
+    def labels(values):
+        return binary_list(values, "<i4") if binary else b"%d(%s)" % (len(values), b" ".join(b"%d" % v for v in values))
+
+    flips = b"2\n(\x00\x01)" if binary else b"2(0 1)"
+    parts = {
+        "cellZones": b"rotor { type cellZone; cellLabels List<label> " + labels([0]) + b"; }",
+        "faceZones": b"lid { type faceZone; faceLabels List<label> " + labels([5]) + b"; flipMap List<bool> 1{0}; }\n"
+        b"sides { type faceZone; faceLabels List<label> " + labels([0, 1]) + b"; flipMap List<bool> " + flips + b"; }",
+        "pointZones": b"// some\nprobe { type pointZone; pointLabels List<label> " + labels([3, 4, 7]) + b"; }",
+    }
+    for name, text in parts.items():
+        count = b"2" if name == "faceZones" else b"1"
+        (mesh / name).write_bytes(header("regIOobject", name, encoding) + count + b"\n(\n" + text + b"\n)\n")
+    found = io.read(tmp_path / "cube")
+    assert {name: nodes.tolist() for name, nodes in found.node_sets.items()} == {"probe": [3, 4, 7]}
+    assert {name: hexes.tolist() for name, hexes in found.hex_sets.items()} == {"rotor": [0]}
+    assert found.side_sets["lid"].tolist() == [[0, 5]]
+    assert found.side_sets["sides"].tolist() == [[0, 0], [0, 1]]
+
+
+def test_cyclic_patches_are_periodic_pairs(tmp_path):
+    mesh = write_cube(tmp_path / "cube")
+    text = (
+        header("polyBoundaryMesh", "boundary")
+        + b"""3
+    (
+        low { type cyclic; neighbourPatch high; nFaces 1; startFace 0; }
+        high { type cyclic; neighbourPatch low; nFaces 1; startFace 1; matchTolerance 1e-4; transform { type none; } }
+        rest { type patch; nFaces 4; startFace 2; physicalType "in let"; }
+    )"""
+    )
+    (mesh / "boundary").write_bytes(text)
+    found = io.read(tmp_path / "cube")
+    assert found.periodic_pairs == (("low", "high"),)
+    assert found.replace(name="other").with_points(found.points).periodic_pairs == found.periodic_pairs
+
+
+def test_patches_may_be_included(tmp_path):
+    mesh = write_cube(tmp_path / "cube")
+    walls = boundary({"walls": ("wall", 0, 4)}).split(b"(\n", 1)[1].rstrip().removesuffix(b")")
+    (mesh / "walls.inc").write_bytes(walls)
+    ends = b"ends { type patch; nFaces 2; startFace 4; }"
+    whole = header("polyBoundaryMesh", "boundary") + b'2\n(\n#include "walls.inc"\n#includeIfPresent "none"\n'
+    (mesh / "boundary").write_bytes(whole + ends + b"\n)\n")
+    assert dict(io.read(tmp_path / "cube").side_set_types) == {"walls": "wall", "ends": "patch"}
+
+
+def test_comments_among_numbers_and_uniform_lists_are_read(tmp_path):
+    mesh = write_cube(tmp_path / "cube")
+    owner = header("labelList", "owner") + b"6{0} // all of one cell (one)\n"
+    (mesh / "owner").write_bytes(owner)
+    points = (mesh / "points").read_bytes().replace(b"(0.0 0.0 0.0)", b"(0 /* ( */ 0 0) // the first (of 8)")
+    (mesh / "points").write_bytes(points)
+    np.testing.assert_array_equal(io.read(tmp_path / "cube").points, CUBE)
+
+
+def test_a_neighbour_list_of_old_versions_has_an_entry_for_every_face(tmp_path):
+    mesh = grid(2)
+    io.write(tmp_path / "case/case.foam", mesh)
+    path = tmp_path / "case/constant/polyMesh/neighbour"
+    head, body = path.read_bytes().split(b"}\n", 1)
+    labels = body.split(b"(")[1].split(b")")[0].split()
+    labels += [b"-1"] * (36 - len(labels))
+    path.write_bytes(head + b"}\n36\n(\n" + b"\n".join(labels) + b"\n)\n")
+    np.testing.assert_array_equal(io.read(tmp_path / "case").hexes, mesh.hexes)
+
+
+def test_a_plain_file_is_preferred_to_a_compressed_one(tmp_path):
+    mesh = write_cube(tmp_path / "cube")
+    (mesh / "points.gz").write_bytes(gzip.compress(b"nonsense"))
+    assert io.read(tmp_path / "cube").n_hexes == 1
+
+
+def test_real_cases_are_read(real_mesh):
+    piston, plate = io.read(real_mesh("piston")), io.read(real_mesh("flat_plate"))
+    assert (piston.n_hexes, list(piston.side_sets)) == (27544, ["piston", "liner", "cylinderHead"])
+    assert sum(map(len, piston.side_sets.values())) == len(piston.topology.boundary_faces)
+    assert (plate.n_hexes, plate.side_set_types["frontAndBack"]) == (1800, "empty")
+
+
+def test_a_decomposed_or_foreign_folder_is_refused_with_advice(tmp_path):
+    write_cube(tmp_path / "cube/processor0")
+    with pytest.raises(io.files.FileError, match="is a folder: expected a mesh file or the folder of an OpenFOAM case"):
+        io.read(tmp_path / "cube")
+    (tmp_path / "cube" / "cube.foam").touch()
+    with pytest.raises(io.files.FileError, match="there is no mesh of OpenFOAM beside it"):
+        io.read(tmp_path / "cube" / "cube.foam")
+    shutil.rmtree(tmp_path / "cube")

@@ -1,0 +1,140 @@
+"""Rules of motion by names of sets."""
+
+import numpy as np
+import pytest
+
+from hexmend.errors import MeshError, ParameterError
+from hexmend.mesh.fixing import with_region_free
+from hexmend.mesh.rules import MotionRules
+from hexmend.mesh.rules.flat_sets import normal_of_set
+from hexmend.mesh.rules.periodic_sets import match_periodic
+from hexmend.run import smooth
+from tests.core.grids import grid, scrambled
+
+CUBE = grid(4)
+SIDES = {
+    f"{axis}{end}": np.flatnonzero(CUBE.points[:, k] == value)
+    for k, axis in enumerate("xyz")
+    for end, value in (("0", 0), ("1", 4))
+}
+LOW = CUBE.points[CUBE.hexes].mean(axis=1)[:, 0] < 2
+TWO = {"low": np.flatnonzero(LOW), "high": np.flatnonzero(~LOW)}
+MESH = CUBE.replace(node_sets=SIDES, hex_sets=TWO)
+BETWEEN = MESH.materials.interface_nodes & ~MESH.topology.boundary
+
+
+def test_rules_are_the_same_after_their_values():
+    rules = MotionRules("slide", fix="a", slide=["b", "c"], periodic=[["d", "e"]])
+    assert MotionRules.from_values(rules.values()) == rules
+    assert rules.fix == ("a",)
+    assert MotionRules().values() == {}
+    assert not MotionRules()
+    assert rules
+    both = MotionRules(fix="z").merge(rules)
+    assert both.fix == ("z", "a")
+    assert both.interfaces == "slide"
+
+
+@pytest.mark.parametrize("wrong", [{"interfaces": "glide"}, {"fix": 3}, {"periodic": ["a", "b", "c"]}, {"pin": "a"}])
+def test_rules_that_do_not_exist_are_refused(wrong):
+    with pytest.raises(ParameterError):
+        MotionRules.from_values(wrong)
+
+
+def test_interfaces_are_kept_unless_a_rule_says_otherwise():
+    assert not MESH.free[BETWEEN].any()
+    assert MESH.with_rules(interfaces="free").free[BETWEEN].all()
+    mesh = MESH.with_rules(free="low")
+    assert mesh.free[BETWEEN].all()
+    assert not mesh.free[mesh.topology.boundary].any()
+    assert not MESH.with_rules(free="low", fix="high").free[BETWEEN].any()
+
+
+def test_rules_leave_the_pins_and_a_region_limits_them():
+    pinned = np.zeros(MESH.n_nodes, dtype=bool)
+    pinned[np.flatnonzero(CUBE.free & (CUBE.points[:, 0] < 2))] = True
+    mesh = MESH.replace(pinned=pinned).with_rules(free="low", fix="x1")
+    np.testing.assert_array_equal(mesh.pinned, pinned)
+    assert mesh.free[pinned].all()
+    part = with_region_free(mesh, TWO["high"][:1], 0)
+    assert not part.free[np.setdiff1d(np.arange(part.n_nodes), part.hexes[TWO["high"][0]])].any()
+
+
+def test_a_set_that_does_not_exist_is_named_with_those_that_do():
+    for rule in ("fix", "slide", "free", "plane"):
+        with pytest.raises(MeshError, match=r"there is no set 'nowhere'.*'x0'.*'low'"):
+            MESH.with_rules(**{rule: "nowhere"})
+
+
+def test_a_set_of_the_boundary_cannot_be_free():
+    with pytest.raises(MeshError, match="lies on the boundary"):
+        MESH.with_rules(free="x0")
+
+
+def test_a_flat_set_has_a_normal_and_another_tells_how_far_it_is_from_flat():
+    assert normal_of_set(MESH, "z1").tolist() == [0, 0, 1]
+    bent = MESH.points.copy()
+    bent[SIDES["z1"][12], 2] += 0.3
+    with pytest.raises(MeshError, match=r"not flat: node 112 .* is 0.2.* mean edge lengths"):
+        normal_of_set(MESH.with_points(bent), "z1")
+    with pytest.raises(MeshError, match="on one line"):
+        normal_of_set(MESH.replace(node_sets={"edge": np.arange(5)}), "edge")
+
+
+def inner(name):
+    """Nodes of a side that are not on its rim, (k,)."""
+    x = CUBE.points[SIDES[name]]
+    return SIDES[name][((x > 0) & (x < 4)).sum(axis=1) == 2]
+
+
+@pytest.mark.parametrize("method", ["mend", "local-sd", "smart-laplacian", "getme"])
+def test_nodes_of_a_plane_move_in_it_and_those_of_its_rim_stay(method):
+    mesh = CUBE.replace(node_sets=SIDES)
+    moved = mesh.points.copy()
+    moved[inner("z0"), :2] += np.random.default_rng(0).uniform(-0.3, 0.3, (len(inner("z0")), 2))
+    mesh = scrambled(mesh.with_points(moved), 0.2)
+    after = smooth(mesh, method, plane="z0", max_iterations=50).mesh.points
+    assert (after[SIDES["z0"], 2] == 0).all()
+    assert np.abs(after - CUBE.points)[inner("z0")].max() < 0.3 * np.abs(moved - CUBE.points).max()
+    others = np.setdiff1d(np.flatnonzero(mesh.topology.boundary), inner("z0"))
+    np.testing.assert_array_equal(after[others], mesh.points[others])
+
+
+@pytest.mark.parametrize("boundary", ["fixed", "slide"])
+def test_nodes_of_periodic_sides_move_as_one(boundary):
+    mesh = CUBE.replace(node_sets=SIDES)
+    shift = np.random.default_rng(1).uniform(-0.25, 0.25, (len(inner("x0")), 3))
+    moved = mesh.points.copy()
+    for name in ("x0", "x1"):  # whose nodes are in one order
+        moved[inner(name)] += shift
+    mesh = scrambled(mesh.with_points(moved), 0.2)
+    after = smooth(mesh, periodic=[("x0", "x1")], boundary=boundary).mesh.points
+    np.testing.assert_array_equal(after[SIDES["x1"]] - after[SIDES["x0"]], moved[SIDES["x1"]] - moved[SIDES["x0"]])
+    assert np.abs(after - moved)[inner("x0")].max() > 0.05
+
+
+def test_cyclic_sides_of_a_file_move_as_one_where_the_boundary_slides_and_stay_where_it_does_not():
+    hexes, sides = np.nonzero(CUBE.topology.face_neighbours < 0)
+    middle = CUBE.points[CUBE.topology.boundary_faces].mean(axis=1)[:, 0]
+    cyclic = {name: np.column_stack([hexes, sides])[middle == x] for name, x in (("in", 0), ("out", 4))}
+    mesh = CUBE.replace(side_sets=cyclic, periodic_pairs=(("in", "out"),))
+    mesh = scrambled(mesh, 0.4)
+    np.testing.assert_array_equal(smooth(mesh).mesh.points[SIDES["x0"]], mesh.points[SIDES["x0"]])
+    after = smooth(mesh, "laplacian", boundary="slide", max_iterations=3).mesh.points
+    assert np.abs(after - mesh.points)[inner("x0")].max() > 1e-3
+    np.testing.assert_array_equal(after[SIDES["x1"]] - after[SIDES["x0"]], np.tile([4.0, 0, 0], (25, 1)))
+
+
+def test_a_rotated_side_is_matched_and_one_without_partners_tells_which_node():
+    angle = np.pi / 6 * CUBE.points[:, 1] / 4
+    radius = CUBE.points[:, 0] + 5
+    bent = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), CUBE.points[:, 2]])
+    sector = CUBE.replace(node_sets=SIDES).with_points(bent)
+    pair = match_periodic(sector, "y0", "y1")
+    np.testing.assert_allclose(bent[pair.nodes] @ pair.rotation.T, bent[pair.partners], atol=1e-12)
+    wrong = bent.copy()
+    wrong[SIDES["y1"][7]] += 0.1
+    with pytest.raises(MeshError, match="no partner"):
+        match_periodic(sector.with_points(wrong), "y0", "y1")
+    with pytest.raises(MeshError, match="25 and 5 nodes"):
+        match_periodic(MESH.replace(node_sets={"a": SIDES["x0"], "b": np.arange(5)}), "a", "b")

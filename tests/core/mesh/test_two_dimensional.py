@@ -1,0 +1,135 @@
+"""Meshes of one layer: nodes stay in their planes, and the two sides are copies of each other."""
+
+import numpy as np
+import pytest
+
+import hexmend as hx
+from hexmend.errors import MeshError
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.two_dimensional import two_dimensional_motion, with_two_dimensional_motion
+from tests.core.grids import grid
+
+METHODS = ["mend", "laplacian", "getme", "local-mnr"]
+
+
+def layer(nx=6, ny=5, axis=2, kind="empty") -> Mesh:
+    """One layer of hexes in any plane, with walls around."""
+    counts = [nx, ny]
+    counts.insert(axis, 1)
+    mesh = grid(*counts)
+    rows = np.array([(h, 2 * axis + side) for h in range(mesh.n_hexes) for side in (0, 1)])
+    hexes, faces = np.nonzero(mesh.topology.face_neighbours < 0)
+    others = np.column_stack([hexes, faces])[(faces // 2) != axis]
+    return mesh.replace(side_sets={"front": rows, "walls": others}, side_set_types={"front": kind, "walls": "wall"})
+
+
+def wedge(angle=5.0) -> Mesh:
+    """A sector of a pipe wall: a layer between two planes through the x axis."""
+    mesh = layer(6, 5, 2, "wedge")
+    x, r, side = mesh.points.T
+    turn = np.radians(angle) * (side - 0.5)
+    points = np.column_stack([x, (r + 2) * np.cos(turn), (r + 2) * np.sin(turn)])
+    rows = mesh.side_sets["front"]
+    sides = {"back": rows[::2], "front": rows[1::2], "walls": mesh.side_sets["walls"]}
+    types = {"back": "wedge", "front": "wedge", "walls": "wall"}
+    return Mesh(points, mesh.hexes, side_sets=sides, side_set_types=types)
+
+
+def inner_scrambled(mesh: Mesh, amplitude=0.3) -> Mesh:
+    """Displace what may move at random, as its motion admits it."""
+    shift = np.random.default_rng(3).uniform(-amplitude, amplitude, mesh.points.shape)
+    return mesh.with_points(mesh.constrained(mesh.points + shift * mesh.free[:, None]))
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_inner_nodes_of_both_sides_move_in_their_plane_and_as_one(axis):
+    mesh = with_two_dimensional_motion(layer(axis=axis))
+    inner = (5 - 1 + 1) * (5 - 1) * 2
+    assert mesh.free.sum() == inner
+    moved = inner_scrambled(mesh)
+    across = [k for k in range(3) if k != axis]
+    np.testing.assert_array_equal(moved.points[:, axis], mesh.points[:, axis])
+    low, high = (moved.points[mesh.points[:, axis] == side][:, across] for side in (0, 1))
+    np.testing.assert_array_equal(low, high)
+    assert (moved.points != mesh.points).any(axis=1).sum() == inner
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("boundary", ["fixed", "slide"])
+def test_methods_keep_the_two_sides_congruent_to_the_last_bit(method, boundary):
+    mesh = inner_scrambled(with_two_dimensional_motion(layer()), 0.6)
+    smoother = hx.METHODS[method]
+    settings = {"boundary": boundary} if "boundary" in smoother().values() else {}
+    result = hx.smooth(mesh, smoother(**settings), max_iterations=20)
+    low, high = (result.mesh.points[mesh.points[:, 2] == side] for side in (0, 1))
+    np.testing.assert_array_equal(low[:, :2], high[:, :2])
+    np.testing.assert_array_equal(result.mesh.points[:, 2], mesh.points[:, 2])
+    assert result.after.q_mean > result.before.q_mean
+    walls = (mesh.points[:, :2] == 0).any(axis=1) | (mesh.points[:, 0] == 6) | (mesh.points[:, 1] == 5)
+    np.testing.assert_array_equal(result.mesh.points[walls], mesh.points[walls])
+
+
+def test_the_sides_of_a_wedge_are_rotated_copies():
+    mesh = with_two_dimensional_motion(wedge())
+    start = inner_scrambled(mesh)
+    result = hx.smooth(start, max_iterations=20)
+    assert result.after.q_mean > result.before.q_mean
+    for points in (start.points, result.mesh.points):
+        x, radius, turn = points[:, 0], np.hypot(points[:, 1], points[:, 2]), np.arctan2(points[:, 2], points[:, 1])
+        side = layer().points[:, 2] == 0
+        np.testing.assert_allclose(x[side], x[~side], atol=1e-13)
+        np.testing.assert_allclose(radius[side], radius[~side], atol=1e-13)
+        np.testing.assert_allclose(turn[side], -np.radians(2.5), atol=1e-13)
+        np.testing.assert_allclose(turn[~side], np.radians(2.5), atol=1e-13)
+
+
+def test_between_two_pairs_of_sides_nodes_move_along_a_line():
+    mesh = grid(6, 1, 1)
+    rows = np.array([(h, face) for h in range(6) for face in (2, 3, 4, 5)])
+    mesh = with_two_dimensional_motion(mesh.replace(side_sets={"sides": rows}, side_set_types={"sides": "empty"}))
+    assert mesh.free.sum() == 4 * 5
+    moved = inner_scrambled(mesh).points
+    np.testing.assert_array_equal(moved[:, 1:], mesh.points[:, 1:])
+    x = moved[:, 0].reshape(4, 7)
+    np.testing.assert_array_equal(x, np.tile(x[0], (4, 1)))
+
+
+def test_meshes_without_such_sides_have_no_motion():
+    assert two_dimensional_motion(grid(2)) is None
+    mesh = grid(2).replace(side_sets={"none": np.zeros((0, 2), int)}, side_set_types={"none": "empty"})
+    assert two_dimensional_motion(mesh) is None
+    assert with_two_dimensional_motion(mesh) is mesh
+
+
+def test_two_layers_are_refused_and_stay():
+    mesh = grid(2).replace(side_sets={"low": np.array([(h, 4) for h in range(4)])}, side_set_types={"low": "empty"})
+    with pytest.raises(MeshError, match="hex 0 has a face on 'low', of the type empty, and none opposite"):
+        two_dimensional_motion(mesh)
+    stays = with_two_dimensional_motion(mesh)
+    assert "hex 0 has a face on 'low'" in stays.notes[-1]
+    assert stays.linear_motion is None
+    assert with_two_dimensional_motion(stays).notes == stays.notes
+
+
+def test_sides_that_are_no_copies_are_refused():
+    mesh = layer()
+    points = mesh.points.copy()
+    points[50] += [0.01, 0, 0]
+    with pytest.raises(MeshError, match=r"not opposite each other: the line between them is inclined by 0\.57"):
+        two_dimensional_motion(mesh.with_points(points))
+    mesh = wedge()
+    points = mesh.points.copy()
+    points[50] += [0.1, 0, 0]
+    with pytest.raises(MeshError, match="from the image of node"):
+        two_dimensional_motion(mesh.with_points(points))
+    with pytest.raises(MeshError, match="both sides of the wedge are in 'front'"):
+        two_dimensional_motion(layer(kind="wedge"))
+
+
+def test_a_flat_plate_scrambled_in_its_plane_is_smoothed_in_it(real_mesh):
+    mesh = hx.read(real_mesh("flat_plate"))
+    assert mesh.free.sum() == 3430
+    moved = inner_scrambled(mesh, 1e-4)
+    result = hx.smooth(moved, max_iterations=3)
+    low, high = (result.mesh.points[mesh.points[:, 2] == z] for z in np.unique(mesh.points[:, 2]))
+    np.testing.assert_array_equal(np.sort(low[:, :2], axis=0), np.sort(high[:, :2], axis=0))
