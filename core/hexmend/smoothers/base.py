@@ -71,6 +71,11 @@ class Smoother(Parametrised, ABC):
         """True if nodes of the boundary slide on the surface."""
         return False
 
+    @property
+    def keeps_layers(self) -> bool:
+        """True if boundary layers keep their heights by a target."""
+        return False
+
     def slides_on(self, mesh: Mesh) -> bool:
         """Return True if nodes of a mesh slide: of its boundary, or those for which its rules say so."""
         return self.slides
