@@ -167,7 +167,7 @@ def test_actions_appear_in_the_script(window, qtbot, others, group):
         if group == "structure":  # whatever there is in the mesh
             name = id.removeprefix("show_")
             declared = next(one for one in window.menus.declared() if one.id == id)
-            declared.handle(not getattr(window.session.view.look.structure, name))
+            declared.handle(not window.session.view.look.structure.is_on(name))
         else:
             qtbot.waitUntil(lambda action=action: can_be_done(window, action), timeout=PATIENCE)
             action.trigger()
