@@ -162,7 +162,7 @@ class Smoother(Parametrised, ABC):
             return now.n_inverted, objective_of_sound(now, self.norm) > objective_of_sound(start, self.norm)
         return now.n_inverted, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least
 
-    def further_rank(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
+    def rank_by_points(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
         """Sort keys of an iterate after those of `rank`, which its quality alone does not determine; none by default.
 
         Parameters
