@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.aliases import exports
 from hexmend.arrays import as_immutable
 from hexmend.kernels import incidence, structure, wavefronts
 from hexmend.kernels.hex_mesh import HexMesh
@@ -274,6 +273,3 @@ class Topology:
         """
         rings = self.rings
         return wavefronts.levels(rings.start, rings.items, as_bools(start, "start", self.n))
-
-
-__getattr__ = exports(__name__)
