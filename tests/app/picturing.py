@@ -95,7 +95,9 @@ def _state(part: Any, name: str, lines: Counter[str]) -> None:
 def _plain(value: Any) -> Any:
     if isinstance(value, _PLAIN):
         return repr(value)
-    if isinstance(value, tuple | list | set | frozenset):
+    if isinstance(value, set | frozenset):
+        return sorted(_plain(one) for one in value)
+    if isinstance(value, tuple | list):
         return [_plain(entry) for entry in value]
     if is_dataclass(value) and not any(isinstance(field, np.ndarray) for field in vars(value).values()):
         return {name: _plain(field) for name, field in vars(value).items() if not name.startswith("_")}

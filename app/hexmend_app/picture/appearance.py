@@ -73,6 +73,9 @@ class Structure:
     def __post_init__(self) -> None:
         object.__setattr__(self, "on", frozenset(name if name in OWN_KEYS else LAYERS[name].name for name in self.on))
 
+    def __repr__(self) -> str:
+        return f"Structure(on={sorted(self.on)})"
+
     @classmethod
     def of(cls, *names: str) -> Structure:
         """Return the structure in which layers are on, in addition to those that are on by default."""

@@ -30,8 +30,7 @@ class Materials(GalleryMesh):
     radius: float = parameter(0.6, low=0.1, high=0.9, help="Radius of the ball; the box is 2 wide.")
 
     def regular(self) -> Mesh:
-        n = max(1, round((self.size / 7) ** (1 / 3)))  # n^3 hexes in the cube, n / 2 layers on it and on the sphere
-        layers = max(1, round(n / 2))
+        n, layers = self._divisions()
         places = np.linspace(-1, 1, n + 1)
         cube, hexes = tensor_product(places, places, places), box_hexes(n, n, n)
         quads = Topology(hexes, len(cube)).boundary_faces
@@ -47,6 +46,13 @@ class Materials(GalleryMesh):
         count = n**3 + layers * len(quads)
         sets = {"ball": np.arange(count), "box": np.arange(count, len(hexes))}
         return Mesh(points, hexes, hex_sets=sets)
+
+    def _divisions(self) -> tuple[int, int]:
+        """Divisions of the cube's edges, and layers from it to the sphere and from there to the box, for the size."""
+        around = round((self.size / 7) ** (1 / 3))  # n^3 hexes in the cube, and about n / 2 layers twice
+        pairs = [(n, layers) for n in range(max(1, around - 1), around + 2) for layers in (n // 2, n // 2 + 1)]
+        pairs = [(n, max(1, layers)) for n, layers in pairs]
+        return min(pairs, key=lambda pair: abs(pair[0] ** 3 + 12 * pair[1] * pair[0] ** 2 - self.size))
 
 
 def _between(low: np.ndarray, high: np.ndarray, layers: int) -> np.ndarray:

@@ -55,9 +55,9 @@ def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
     with qtbot.waitSignal(five.session.boundary_classifier.found, timeout=PATIENCE):
         choose(five, "mend", feature_angle=180)
     five.refresh()
-    assert five.session.boundary_classifier.classes.count(NodeClass.CURVE) == 0
-    assert not any("curves" in text for text in texts(panel, "kinds"))
-    assert count(pixels(five), KINDS[NodeClass.CURVE]) == 0
+    after = five.session.boundary_classifier.classes
+    assert 0 < after.count(NodeClass.CURVE) < classes.count(NodeClass.CURVE)  # the rims of sets stay curves
+    assert f"{after.count(NodeClass.CURVE)} on curves" in texts(panel, "kinds")
 
 
 def test_a_pin_changes_the_class_of_a_boundary_node(five, qtbot):
