@@ -30,6 +30,7 @@ MENUS = (
     "Smooth",
     "Timeline",
     "View",
+    "View/Show",
     "View/Camera",
     "View/Up",
     "View/Panels",

@@ -26,9 +26,7 @@ if TYPE_CHECKING:
 
     T = TypeVar("T")
 
-_NOW_IN_MESH = (
-    "cells edge_length fixing hexahedron orientation patches second_order shape_functions structure tags topology"
-)
+_NOW_IN_MESH = "cells edge_length fixing hexahedron orientation patches second_order structure tags topology"
 
 MODULES = {
     **{f"hexmend.{name}": f"hexmend.mesh.{name}" for name in _NOW_IN_MESH.split()},
@@ -40,6 +38,7 @@ MODULES = {
     "hexmend.optimise.iteration": "hexmend.iteration.result",
     "hexmend.optimise.stop": "hexmend.iteration.stopping",
     "hexmend.recipe": "hexmend.run.recipe",
+    "hexmend.shape_functions": "hexmend.mesh.second_order.shape_functions",
     "hexmend.smoothers.smoother": "hexmend.smoothers.base",
     "hexmend.surface": "hexmend.boundary",
 }

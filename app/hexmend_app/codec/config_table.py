@@ -9,11 +9,11 @@ from __future__ import annotations
 import dataclasses
 import math
 import typing
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from hexmend.errors import ParameterError
 from hexmend_app.codec.conversion import Conversion, are_integers, entry_types, fixed_length
@@ -110,10 +110,35 @@ class ConfigTable:
     """
 
     def __post_init__(self) -> None:
-        for option in options_of(type(self)):
-            value = _TABLES.decode(getattr(self, option.field), option.kind, _Place((option.name,), option))
-            object.__setattr__(self, option.field, value)
+        self._set(vars(self))
         self.check()
+
+    def _set(self, values: Mapping[str, Any]) -> None:
+        """Check and convert values by field, and set them."""
+        for option in options_of(type(self)):
+            if option.field in values:
+                value = _TABLES.decode(values[option.field], option.kind, _Place((option.name,), option))
+                object.__setattr__(self, option.field, value)
+
+    def with_keys(self, **values: Any) -> Self:
+        """Return a copy with other values of fields; only these are checked again, which saves time for long lists.
+
+        Raises
+        ------
+        ParameterError
+            If a value is invalid.
+        TypeError
+            If a field does not exist.
+        """
+        fields = [option.field for option in options_of(type(self))]
+        if unknown := values.keys() - set(fields):
+            raise TypeError(f"{type(self).__name__} has no fields {', '.join(sorted(unknown))}")
+        copy = object.__new__(type(self))
+        for field in fields:
+            object.__setattr__(copy, field, getattr(self, field))
+        copy._set(values)
+        copy.check()
+        return copy
 
     def check(self) -> None:
         """Raise `ParameterError` if keys contradict each other."""

@@ -132,7 +132,7 @@ def stationary(scene: Scene) -> Scene:
         scene,
         colours=Colours() if moved else scene.colours,
         movement=Traces(),
-        structure=replace(scene.structure, original=False, kinds=False),
+        structure=scene.structure.without("original", "kinds"),
         panels=(),
     )
 

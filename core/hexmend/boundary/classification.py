@@ -20,9 +20,9 @@ from hexmend.boundary.features import (
 )
 from hexmend.boundary.skin_faces import skin_faces
 from hexmend.errors import MeshError
-from hexmend.mesh.components import components
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology.components import components
 from hexmend.mesh.validation import as_faces, as_integers, as_points, check_node_numbers
 
 

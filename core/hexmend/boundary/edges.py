@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.mesh.components import components
+from hexmend.mesh.topology.components import components
 
 
 class SurfaceEdges:

@@ -6,8 +6,8 @@ import numpy as np
 
 from hexmend.boundary.edges import SurfaceEdges, chains, segment_pairs
 from hexmend.boundary.skin_faces import edges_between_sets, lone_set_nodes
-from hexmend.mesh.components import components
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology.components import components
 
 #: Default dihedral angle, in degrees, beyond which an edge is a feature.
 FEATURE_ANGLE = 40.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.two_dimensional import flat_sides
+from hexmend.mesh.rules.two_dimensional import flat_sides
 
 
 def interface_nodes(mesh: Mesh) -> np.ndarray:

@@ -6,8 +6,8 @@ import numpy as np
 
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.doctor.removal import has_repeated_node, referenced_nodes, renumber_nodes
-from hexmend.mesh.components import components
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology.components import components
 from hexmend.terminal_text import count_phrase
 
 #: Largest distance of coincident nodes, in mean edge lengths.

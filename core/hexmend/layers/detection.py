@@ -6,9 +6,9 @@ import numpy as np
 
 from hexmend.layers.columns import Columns, Lengths, lateral_lengths, walk_columns
 from hexmend.layers.walls import Layers, Wall
-from hexmend.mesh.components import components_of_cells
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology.components import components_of_cells
 from hexmend.quality import ElementQuality, measure
 from hexmend.target.edge_lengths import given_lengths
 from hexmend.target.sheets import DISTORTED, recovered_lengths

@@ -55,6 +55,8 @@ class LayerReport:
         Where the mesh as given is noisy or tangled, the heights before are those recovered along its dual sheets.
     change : float
         Mean factor by which first heights differ from those before: 1 where all are kept.
+    aimed_at : bool
+        True if the run had a target that keeps the layers.
     """
 
     wall: str
@@ -63,6 +65,7 @@ class LayerReport:
     before: LayerState
     after: LayerState
     change: float
+    aimed_at: bool = False
 
     @property
     def lost(self) -> bool:
@@ -75,9 +78,8 @@ class LayerReport:
         if not self.lost:
             return ""
         heights = f"{self.before.first_height_mean:.3g} → {self.after.first_height_mean:.3g}"
-        return (
-            f"the layers at '{self.wall}' lose their grading: first height {heights}; --target given-shape keeps them"
-        )
+        hint = "" if self.aimed_at else "; --target given-shape keeps them"
+        return f"the layers at '{self.wall}' lose their grading: first height {heights}{hint}"
 
     @property
     def sentence(self) -> str:
@@ -95,7 +97,9 @@ class LayerReport:
         return dataclasses.asdict(self) | {"lost": self.lost}
 
 
-def layer_report(layers: Layers, before: Mesh, after: Mesh, lengths: np.ndarray) -> tuple[LayerReport, ...]:
+def layer_report(
+    layers: Layers, before: Mesh, after: Mesh, lengths: np.ndarray, aimed_at: bool = False
+) -> tuple[LayerReport, ...]:
     """Compare the layers of a mesh before and after a run.
 
     Parameters
@@ -105,6 +109,8 @@ def layer_report(layers: Layers, before: Mesh, after: Mesh, lengths: np.ndarray)
         Meshes of the same hexes.
     lengths : (m, 3) float64
         Lengths of the hexes before, of `hexmend.target.recovered_lengths`.
+    aimed_at : bool
+        See `LayerReport`.
 
     Returns
     -------
@@ -116,7 +122,7 @@ def layer_report(layers: Layers, before: Mesh, after: Mesh, lengths: np.ndarray)
     for wall in layers.walls:
         was, now = _state(wall, before, lengths), _state(wall, after, new)
         change = np.exp(np.abs(np.log(wall.of(new)[:, 0] / wall.of(lengths)[:, 0])).mean())
-        reports.append(LayerReport(wall.name, wall.count, wall.depth, was, now, float(change)))
+        reports.append(LayerReport(wall.name, wall.count, wall.depth, was, now, float(change), aimed_at))
     return tuple(reports)
 
 

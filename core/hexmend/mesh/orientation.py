@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.kernels import elements
-from hexmend.mesh.components import components_of_cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MIRRORED_MID_NODES
+from hexmend.mesh.topology.components import components_of_cells
 
 #: Corners, and faces, of a hex whose lower and upper face are exchanged.
 MIRRORED_CORNERS = np.array([4, 5, 6, 7, 0, 1, 2, 3])

@@ -186,7 +186,8 @@ class Run(Iterator[Iteration]):
     def message(self) -> str:
         """Result, reason of the end, and figures that are worse than before, as sentences."""
         volumes = volume_changes(self.mesh, self.mesh.with_points(self.best.points))
-        return self._message(*self._summaries(), volumes, self._shapes.reports(self.best.points))
+        walls = self._shapes.reports(self.stage.smoother, self.best.points)
+        return self._message(*self._summaries(), volumes, walls)
 
     def _message(
         self, before: Summary, after: Summary, volumes: Mapping[str, MaterialVolume], walls: tuple[LayerReport, ...]
@@ -206,8 +207,13 @@ class Run(Iterator[Iteration]):
         words.append(describe_regressions(before, after, target_q))
         if not inverted:
             words.append(self.stage.smoother.regression_hint(regressions(before, after, target_q)))
-        words.append(self._shapes.message(self._target, self.best.points, walls, self.outcome is not None))
+        result = None if self.outcome is None else self._result_mesh
+        words.append(self._shapes.message(self.stage.smoother, walls, result))
         return " ".join(filter(None, words))
+
+    @property
+    def _result_mesh(self) -> Mesh:
+        return self.mesh.with_points(self.best.points).with_element_target(self._target)
 
     @property
     def _kept_last(self) -> bool:
@@ -217,8 +223,9 @@ class Run(Iterator[Iteration]):
         """Return the result so far."""
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._stage_runs) > 1
-        mesh = self.mesh.with_points(self.best.points).with_element_target(self._target)
-        volumes, walls = volume_changes(self.mesh, mesh), self._shapes.reports(self.best.points)
+        mesh = self._result_mesh
+        volumes = volume_changes(self.mesh, mesh)
+        walls = self._shapes.reports(self.stage.smoother, self.best.points)
         return Result(
             mesh=mesh,
             before=before,
@@ -259,7 +266,7 @@ class Run(Iterator[Iteration]):
     @property
     def layers_message(self) -> str:
         """The layers that were found and whether the run keeps them, as a sentence; "" without layers."""
-        return self._shapes.layers_message(self._target)
+        return self._shapes.layers_message(self.stage.smoother)
 
     @property
     def _target(self) -> Target | None:

@@ -39,11 +39,12 @@ class ShapeWatch:
         """Return the mesh as given with the target of a stage, whatever earlier stages have done."""
         return smoother.with_target(self._mesh, self.layers, self._quality)
 
-    def reports(self, points: np.ndarray) -> tuple[LayerReport, ...]:
-        """Compare the layers of the mesh as given and with other points (n, 3)."""
+    def reports(self, smoother: Smoother, points: np.ndarray) -> tuple[LayerReport, ...]:
+        """Compare the layers of the mesh as given and with the points (n, 3) that a method has reached."""
         if not self.layers:
             return ()
-        return layer_report(self.layers, self._mesh, self._mesh.with_points(points), self._given_lengths)
+        after, kept = self._mesh.with_points(points), smoother.keeps_layers
+        return layer_report(self.layers, self._mesh, after, self._given_lengths, kept)
 
     def target_q(self, target: Target | None, *iterations: Iteration) -> tuple[float, ...] | None:
         """Least q of target of the hexes at some iterations; None without a target."""
@@ -52,29 +53,28 @@ class ShapeWatch:
         mesh = self._mesh.with_element_target(target)
         return tuple(float(measure_against_target(mesh, one.points, one.quality).q.min()) for one in iterations)
 
-    def layers_message(self, target: Target | None) -> str:
-        """The layers that were found and whether a stage keeps them, as a sentence; "" without layers."""
-        kept = "kept" if target is not None else "not kept"
+    def layers_message(self, smoother: Smoother) -> str:
+        """The layers that were found and whether a method keeps them, as a sentence; "" without layers."""
+        kept = "kept" if smoother.keeps_layers else "not kept"
         return f"Boundary layers at {self.layers.names} are {kept}." if self.layers else ""
 
-    def message(self, target: Target | None, points: np.ndarray, walls: tuple[LayerReport, ...], ended: bool) -> str:
+    def message(self, smoother: Smoother, walls: tuple[LayerReport, ...], result: Mesh | None) -> str:
         """Tell what has become of layers, or of the lengths of hexes in a mesh without layers; "" for nothing.
 
         Parameters
         ----------
-        target : Target or None
+        smoother : Smoother
             Of the last stage.
-        points : (n, 3) float64
-            Of the result.
         walls : tuple of LayerReport
-            Of `reports` at these points.
-        ended : bool
-            False while the run goes on: lengths are not compared then.
+            Of `reports`.
+        result : Mesh or None
+            With the target of the last stage; None while the run goes on: lengths are not compared then.
         """
         losses = describe_losses(walls)
-        if losses or target is not None:
-            return losses or self.layers_message(target)
-        return grading_message(self._mesh, self._mesh.with_points(points), self._quality) if ended else ""
+        if losses or (smoother.keeps_layers and walls):
+            return losses or self.layers_message(smoother)
+        compared = result is not None and result.element_target is None
+        return grading_message(self._mesh, result, self._quality) if compared else ""
 
     @cached_property
     def _given_lengths(self) -> np.ndarray:

@@ -193,7 +193,7 @@ class StageRun:
 
     def _rank(self, iteration: Iteration) -> tuple[float, ...]:
         rank = self.smoother.rank(self._origin_quality, self._judged_quality(iteration))
-        return *rank, *self.smoother.further_rank(self._mesh.hexes, iteration.points)
+        return *rank, *self.smoother.rank_by_points(self._mesh.hexes, iteration.points)
 
     def _judged_quality(self, iteration: Iteration) -> ElementQuality:
         """Quality of an iteration against the target of this stage; earlier stages may have had another one."""

@@ -71,6 +71,11 @@ class Smoother(Parametrised, ABC):
         """True if nodes of the boundary slide on the surface."""
         return False
 
+    @property
+    def keeps_layers(self) -> bool:
+        """True if boundary layers keep their heights by a target."""
+        return False
+
     def slides_on(self, mesh: Mesh) -> bool:
         """Return True if nodes of a mesh slide: of its boundary, or those for which its rules say so."""
         return self.slides
@@ -157,7 +162,7 @@ class Smoother(Parametrised, ABC):
             return now.n_inverted, objective_of_sound(now, self.norm) > objective_of_sound(start, self.norm)
         return now.n_inverted, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least
 
-    def further_rank(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
+    def rank_by_points(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
         """Sort keys of an iterate after those of `rank`, which its quality alone does not determine; none by default.
 
         Parameters

@@ -34,7 +34,6 @@ class TargetedSmoother(SlidingSmoother):
 
     @property
     def keeps_layers(self) -> bool:
-        """True if layers keep their heights by targets of their own."""
         return keeps_layers(self.target, self.layers)
 
     def with_target(self, mesh: Mesh, layers: Layers, quality: ElementQuality | None = None) -> Mesh:

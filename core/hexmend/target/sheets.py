@@ -3,7 +3,7 @@
 The edges that are parallel to each other in a hex, those parallel to them in its neighbours, and so on, belong to one
 dual sheet. Lengths change little from one edge of a sheet to the next, while they may change fast across sheets, as in
 a boundary layer. Where edges are noisy, their lengths are therefore filled in from sound edges of the same sheet:
-edges between fixed nodes, such as those of the boundary, and edges away from inverted hexes and noise.
+edges between fixed nodes, such as those of the boundary, and edges away from distorted hexes and noise.
 """
 
 from __future__ import annotations
@@ -19,6 +19,10 @@ from hexmend.target.edge_lengths import edge_numbers, given_lengths
 
 #: Scaled Jacobian below which a hex is distorted: elsewhere lengths are sound.
 DISTORTED = 0.2
+#: Scaled Jacobian below which the edges of a hex near a distorted one are no measure: its heights are less than they.
+_SKEWED = 0.5
+#: Share of skewed hexes near distorted ones beyond which all edges there are no measure.
+_SCRAMBLED = 0.3
 #: Mean difference of the logarithm of an edge's length from its neighbours' in the sheet beyond which it is noisy.
 NOISE = 0.1
 #: Passes by which that difference is averaged over the neighbours.
@@ -137,14 +141,17 @@ def _log_edge_lengths(mesh: Mesh) -> np.ndarray:
 def _noisy_edges(
     mesh: Mesh, sheets: _Sheets, logs: np.ndarray, quality: ElementQuality, region: np.ndarray
 ) -> np.ndarray:
-    """Mark edges whose ends are not both fixed, near inverted hexes or unlike their neighbours, (e + 1,) bool."""
+    """Mark edges whose ends are not both fixed, at skewed hexes or unlike their neighbours, (e + 1,) bool."""
     some = np.append(np.ones(sheets.count, dtype=bool), False)
     average, _ = sheets.averages(logs, some, sheets.groups)
     noise = np.abs(logs - average)
     for _ in range(_NOISE_PASSES):
         noise, found = sheets.averages(noise, some, sheets.groups)
     noisy = found & (noise > NOISE)
-    near = mask(mesh.hexes[quality.inverted], mesh.n_nodes)[mesh.hexes[region]].any(axis=1)
+    skewed = region[quality.scaled_jacobian[region] < _SKEWED]
+    if len(skewed) > _SCRAMBLED * len(region):
+        skewed = region
+    near = mask(mesh.hexes[skewed], mesh.n_nodes)[mesh.hexes[region]].any(axis=1)
     noisy[sheets.groups.reshape(-1, 12)[near]] = True
     low, high = mesh.topology.edges.T
     noisy[:-1] &= ~(mesh.fixed[low] & mesh.fixed[high])

@@ -46,8 +46,8 @@ struct HessianSums {
 //
 // With a target the columns of S W^-1 that belong to a node are scaled once more, by its derivative.
 template <bool soft, int t, class Scales>
-inline void add_tetrahedron(const Corners<Lanes> &x, const Scales &scales, double delta, Bits counted,
-                            HessianSums &sums) {
+__attribute__((noinline)) void add_tetrahedron(const Corners<Lanes> &x, const Scales &scales, double delta,
+                                               Bits counted, HessianSums &sums) {
     constexpr auto &n = CORNER_TETRAHEDRA[t];
     const auto by = scales.template columns<t>();
     auto edges = x.edges<t>();
@@ -57,17 +57,17 @@ inline void add_tetrahedron(const Corners<Lanes> &x, const Scales &scales, doubl
     sums.eta += counted ? d.eta : broadcast<Lanes>(1.0);
     sums.g.scatter<t>(scale(gradient(d, s, c), by));
     M3<Lanes> p{d.mixed * s.u + d.half * c.u, d.mixed * s.v + d.half * c.v, d.mixed * s.w + d.half * c.w};
-    V3<Lanes> u = d.c * s.u, v = d.c * s.v, w = d.c * s.w;
-    V3<Lanes> k{-d.k, -d.k, -d.k};  // of the apex and the end of each edge
-    if constexpr (Scales::scaled) {
-        c = scale(c, by), p = scale(p, by);
-        u = (by.v * by.w) * u, v = (by.w * by.u) * v, w = (by.u * by.v) * w;
-        k = {by.u * by.u * k.x, by.v * by.v * k.y, by.w * by.w * k.z};
-    }
+    if constexpr (Scales::scaled) c = scale(c, by), p = scale(p, by);
     V3<Lanes> ca = -(c.u + c.v + c.w), pa = -(p.u + p.v + p.w);
-    sums.pair<n[0], n[1]>(ca, pa, c.u, p.u, k.x, w - v);
-    sums.pair<n[0], n[2]>(ca, pa, c.v, p.v, k.y, u - w);
-    sums.pair<n[0], n[3]>(ca, pa, c.w, p.w, k.z, v - u);
+    V3<Lanes> u = d.c * s.u, v = d.c * s.v, w = d.c * s.w;
+    Lanes ku = -d.k, kv = -d.k, kw = -d.k;
+    if constexpr (Scales::scaled) {
+        u = (by.v * by.w) * u, v = (by.w * by.u) * v, w = (by.u * by.v) * w;
+        ku *= by.u * by.u, kv *= by.v * by.v, kw *= by.w * by.w;
+    }
+    sums.pair<n[0], n[1]>(ca, pa, c.u, p.u, ku, w - v);
+    sums.pair<n[0], n[2]>(ca, pa, c.v, p.v, kv, u - w);
+    sums.pair<n[0], n[3]>(ca, pa, c.w, p.w, kw, v - u);
     sums.pair<n[1], n[2]>(c.u, p.u, c.v, p.v, Lanes{}, w);
     sums.pair<n[1], n[3]>(c.u, p.u, c.w, p.w, Lanes{}, -v);
     sums.pair<n[2], n[3]>(c.v, p.v, c.w, p.w, Lanes{}, u);

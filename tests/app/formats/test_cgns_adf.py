@@ -10,7 +10,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io import files
+from hexmend.io import format_lookup
 from hexmend.quality import summarise
 from hexmend_app.formats.cgns_adf import FORMAT
 from tests.core.grids import grid
@@ -31,7 +31,7 @@ def library():
 @pytest.fixture
 def joined(monkeypatch):
     """Register the format, independent of installed entry points."""
-    monkeypatch.setattr(files, "plugin_formats", lambda: (FORMAT,))
+    monkeypatch.setattr(format_lookup, "plugin_formats", lambda: (FORMAT,))
 
 
 def write_adf(library, path, mesh):
@@ -110,7 +110,7 @@ def test_an_hdf5_file_is_not_read_as_adf(joined, tmp_path):
 
 
 def test_without_the_app_the_error_names_the_package_that_reads_it(library, monkeypatch, tmp_path):
-    monkeypatch.setattr(files, "plugin_formats", tuple)
+    monkeypatch.setattr(format_lookup, "plugin_formats", tuple)
     write_adf(library, tmp_path / "old.cgns", grid(1))
     with pytest.raises(FileError, match=r"pip install hexmend\[app\] reads it") as caught:
         io.read(tmp_path / "old.cgns")

@@ -163,12 +163,12 @@ def test_more_items_than_there_are_numbers_for_are_refused_before_they_are_writt
     ("module", "most", "make", "words"),
     [
         (
-            "mesh.topology",
+            "mesh.topology.topology",
             39,
             lambda: grid(2, 1, 1).topology.rings,
             "neighbours of nodes, .* there are 40 items: .* divide",
         ),
-        ("mesh.topology", 19, lambda: grid(2, 1, 1).topology.edges, "edges, .* there are 20 items"),
+        ("mesh.topology.topology", 19, lambda: grid(2, 1, 1).topology.edges, "edges, .* there are 20 items"),
         ("energy.sparsity", 27, lambda: BlockSparsity(grid(3)), "pairs of free nodes .* there are 28 items"),
     ],
 )

@@ -13,7 +13,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import find_structure
 from hexmend.mesh.topology import Topology
 from tests.core.grids import grid
-from tests.core.mesh.test_topology import closed, loose
+from tests.core.mesh.topology.test_topology import closed, loose
 
 #: A tetrahedron cut into four hexes: corners, middles of edges and faces, and the centre, by the corners they belong to.
 _PLACES = [

@@ -60,6 +60,19 @@ def test_their_loss_is_said_in_the_same_words_everywhere(settings):
     assert "target" not in report
 
 
+def test_no_target_is_named_that_the_run_had():
+    short = smooth(scrambled_in_layers(stack(), 0.7), "local-sd", max_iterations=1, keep_last=True)
+    assert "The layers at 'plate' lose" in short.message
+    assert "--target" not in short.message
+
+
+def test_layers_are_not_said_to_be_kept_under_targets_that_lose_them():
+    result = smooth(bent(stack()), target="given-size")
+    assert result.mesh.element_target.name == "given-size"
+    assert "--target given-shape keeps them" in result.message
+    assert "are kept" not in result.message
+
+
 def test_methods_without_targets_lose_them_and_say_so():
     result = smooth(bent(stack()), "laplacian", max_iterations=20, keep_last=True)
     assert result.worse[-1] == "layers"

@@ -105,9 +105,9 @@ class OutcomePanel(QWidget):
         column.addStretch()
         return scrolled(page)
 
-    def show_hint(self, hint: str = tr(_HINT)) -> None:
-        """Show a hint instead of an outcome."""
-        self._hint.setText(hint)
+    def show_hint(self, hint: str = "") -> None:
+        """Show a hint instead of an outcome; by default what this panel is for."""
+        self._hint.setText(hint or tr(_HINT))
         self._stack.setCurrentIndex(0)
 
     def set_view_note(self, text: str) -> None:

@@ -32,8 +32,7 @@ class FeatureStructure(Feature):
             Action(
                 id=f"show_{layer.name}",
                 text=tr(layer.action or layer.title),
-                menu="View",
-                part=2,
+                menu="View/Show",
                 keys=layer.keys,
                 help=tr(layer.action_help or layer.help),
                 handle=lambda on, name=layer.name: self._switch(name, on),

@@ -108,8 +108,8 @@ class ViewModel(QObject):
         ParameterError
             If a value is invalid.
         """
-        look = dataclasses.replace(self.look, **{
-            name: dataclasses.replace(getattr(self.look, name), **table) if isinstance(table, dict) else table
+        look = self.look.with_keys(**{
+            name: getattr(self.look, name).with_keys(**table) if isinstance(table, dict) else table
             for name, table in tables.items()
         })  # fmt: skip
         if look != self.look:
@@ -206,7 +206,7 @@ class ViewModel(QObject):
         """Set the number of rings around the isolated hexes."""
         self.rings = rings
         if self.look.show.isolate is not None:
-            self.change(show={"isolate": dataclasses.replace(self.look.show.isolate, rings=rings)})
+            self.change(show={"isolate": self.look.show.isolate.with_keys(rings=rings)})
 
     def end_isolation(self) -> None:
         """End the isolation."""

@@ -10,8 +10,8 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.mesh.cells import CELL_KINDS, Cells
 from hexmend.mesh.mesh import Mesh, TargetSurface
+from hexmend.mesh.rules.two_dimensional import with_two_dimensional_motion
 from hexmend.mesh.size_limits import check_size
-from hexmend.mesh.two_dimensional import with_two_dimensional_motion
 from hexmend.mesh.validation import check_finite, check_node_numbers
 
 _TABLES = ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets", "field_data")

@@ -12,7 +12,7 @@ from hexmend.errors import FileError
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.files import check_readable, reading
 from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons
-from hexmend.mesh.components import components
+from hexmend.mesh.topology.components import components
 
 #: Corners at a smaller distance, relative to the diagonal of the bounding box, are merged.
 _MERGE_TOLERANCE = 1e-9

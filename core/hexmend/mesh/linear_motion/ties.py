@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.mesh.components import components
 from hexmend.mesh.linear_motion.subspaces import TOLERANCE, fixed_spaces, rounded
+from hexmend.mesh.topology.components import components
 
 
 class Ties(NamedTuple):

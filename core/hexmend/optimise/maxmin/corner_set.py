@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.arrays import mask
-from hexmend.mesh.components import components
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.linear_motion.constrained_points import with_ties_fixed
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology.components import components
 from hexmend.optimise.maxmin.corner_measure import SCALED_JACOBIAN, CornerMeasure
 from hexmend.quality.measure import fixed_tetrahedra
 

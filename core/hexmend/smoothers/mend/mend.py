@@ -184,12 +184,12 @@ class Mend(ObjectiveSmoother):
         harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
             return now.n_inverted, harmed, -now.scaled_jacobian.min()
-        if self.goal == "time-step":  # the time step itself comes last, see `further_rank`
+        if self.goal == "time-step":  # the time step itself comes last, see `rank_by_points`
             return now.n_inverted, harmed if self.guard else False
         before, after = (objective_of_sound(of, self.norm) for of in (start, now))
         return now.n_inverted, harmed, after > before
 
-    def further_rank(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
+    def rank_by_points(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
         return (-least_heights(points, hexes).min(),) if self.goal == "time-step" else ()
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:

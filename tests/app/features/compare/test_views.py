@@ -161,11 +161,11 @@ def test_a_plane_dragged_in_the_first_view_cuts_all_views(compared, qtbot, arran
     compared.refresh()
     QApplication.processEvents()  # the row of the wipe makes the view smaller
     pixels(compared)
-    x, y, z = compared.session.view.look.cut.planes[0].origin
+    x, y, z = compared.session.view.look.cut.planes[0].point
     place = seen_at(compared, (x + 4, y - 4, z))  # on the plane, next to its arrow
     before = compared.canvas.panes.all[1].shown
     drag(compared.canvas.interactor, place, place + QPoint(0, -30))
-    assert compared.session.view.look.cut.planes[0].origin[2] > z
+    assert compared.session.view.look.cut.planes[0].point[2] > z
     compared.refresh()
     first, second = compared.canvas.panes.all
     assert second.shown == first.shown != before

@@ -48,7 +48,7 @@ TOLD = {
              "view_minus_x", "view_minus_y", "view_minus_z", "view_iso", "view_back", "view_forward", "parallel", "up_x",
              "up_y", "up_z", "paste_camera", "fit", "keep_camera"),
     "structure": ("show_irregular", "show_boundary", "show_sharp", "show_fixed", "show_free", "show_locked",
-                  "show_kinds", "show_others", "show_original"),
+                  "show_kinds", "show_others", "show_original", "show_interfaces", "show_materials"),
     "hexes": ("next_worst", "previous_worst", "free_isolated", "back", "isolate", "dig", "undig", "visit", "tag", "pin",
               "undo", "redo"),
     "views": ("beside", "wipe", "wipe_left", "wipe_right", "close_views", "compare", "cancel_comparison"),
@@ -167,7 +167,7 @@ def test_actions_appear_in_the_script(window, qtbot, others, group):
         if group == "structure":  # whatever there is in the mesh
             name = id.removeprefix("show_")
             declared = next(one for one in window.menus.declared() if one.id == id)
-            declared.handle(not getattr(window.session.view.look.structure, name))
+            declared.handle(not window.session.view.look.structure.is_on(name))
         else:
             qtbot.waitUntil(lambda action=action: can_be_done(window, action), timeout=PATIENCE)
             action.trigger()

@@ -41,7 +41,7 @@ window.build_canvas()
 session, feature = window.session, window.features["session"]
 
 def smooth(_):
-    session.view.change(peel=1)
+    session.view.change(show={"peel": 1})
     session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=5)))
 
 def tell():

@@ -9,7 +9,7 @@ from hexmend.mesh.structure import sharp_edges
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.layers.silhouette import Silhouette, form_lines
 from tests.core.grids import grid
-from tests.core.mesh.test_topology import closed
+from tests.core.mesh.topology.test_topology import closed
 
 
 @pytest.mark.parametrize("size", [(1, 1, 1), (3, 2, 4)])

@@ -25,3 +25,11 @@ def former_look(**changed: Any) -> dict[str, Any]:
         "traces": {"since": "opened", "arrows": "none", "factor": 1.0},
     }
     return {**look, **changed}
+
+
+def without_later_fields(data: Any) -> Any:
+    """Return the data of a session without the fields of meshes that version 6 introduced."""
+    if isinstance(data, dict):
+        later = {"side_set_types", "periodic_pairs"}
+        return {key: without_later_fields(value) for key, value in data.items() if key not in later}
+    return [without_later_fields(value) for value in data] if isinstance(data, list) else data

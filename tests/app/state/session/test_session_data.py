@@ -16,7 +16,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.codec import codec
 from hexmend_app.state.run.run_setup import RunSetupData
 from hexmend_app.state.session import session_data
-from tests.app.state.session.former_look import former_look
+from tests.app.state.session.former_look import former_look, without_later_fields
 
 _FILES = Path(__file__).parent / "files"
 
@@ -50,7 +50,7 @@ def test_a_surface_tolerance_of_0_means_no_limit_up_to_version_3(tmp_path, monke
     monkeypatch.undo()
     _, content = read_archive(tmp_path / "old.hexmend", "Hexmend session", version)
     content["window"]["view"]["look"] = former_look()
-    write_archive(tmp_path / "old.hexmend", "Hexmend session", version, content)
+    write_archive(tmp_path / "old.hexmend", "Hexmend session", version, without_later_fields(content))
     assert session_data.read(tmp_path / "old.hexmend").run_setup.stage.smoother.surface_tolerance == read
 
 

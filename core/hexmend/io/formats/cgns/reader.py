@@ -13,8 +13,8 @@ from hexmend.io.formats.cgns.structured import read_structured
 from hexmend.io.formats.cgns.tree import CGNSNode
 from hexmend.io.formats.cgns.unstructured import read_unstructured
 from hexmend.io.formats.cgns.zone import Zone
-from hexmend.mesh.components import components
 from hexmend.mesh.materials import STRUCTURED_BLOCKS
+from hexmend.mesh.topology.components import components
 
 #: Greatest distance between matching nodes of an interface, relative to the diagonal of the bounding box.
 _MATCH_TOLERANCE = 1e-5

@@ -18,7 +18,7 @@ from hexmend.io.formats.openfoam.lists import read_faces, read_labels, read_vect
 from hexmend.io.formats.openfoam.standard_order import standard_order
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.two_dimensional import with_two_dimensional_motion
+from hexmend.mesh.rules.two_dimensional import with_two_dimensional_motion
 from hexmend.terminal_text import count_phrase
 
 

@@ -79,26 +79,17 @@ def poly_topology(path: Path, mesh: Mesh) -> PolyTopology:
     """
     content = reduce_order(from_mesh(mesh), frozenset(LOOPS) | {"triangle", "quad"})
     volumes = [block for block in content.blocks if block.kind in LOOPS]
-    for block in volumes:
-        twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
-        if twice.size:
-            problem = f"{block.kind} {twice[0]} has a node twice, so that its faces are no polyhedron's"
-            raise FileError(path, problem, "Repair it with hexmend repair, or write .vtu instead.")
+    _check_cells(path, volumes)
     outward = [(block.kind, with_outward_faces(block.kind, block.nodes, content.points)) for block in volumes]
     loops, halves = faces_from_cells(outward)
     n_faces, n_cells = len(loops), len(halves)
-    cell = np.repeat(np.arange(n_cells), halves.lengths)
     face = halves.values >> 1
-    order = np.argsort(face, kind="stable")
     count = np.bincount(face, minlength=n_faces)
     if count.max(initial=0) > 2:
         wrong = loops[count.argmax()]
         problem = f"the face of the nodes {', '.join(str(k) for k in wrong if k >= 0)} belongs to {count.max()} cells"
         raise FileError(path, problem, "Repair the mesh with hexmend repair.")
-    first = np.cumsum(count) - count
-    owner = cell[order[first]]
-    other = np.full(n_faces, -1)
-    other[count == 2] = cell[order[first[count == 2] + 1]]
+    owner, other = _cells_of_faces(face, np.repeat(np.arange(n_cells), halves.lengths), count)
     hex_faces = face[: 6 * mesh.n_hexes].reshape(-1, 6)
     face_at = np.empty((mesh.n_hexes, 6), np.int64)
     face_at[:, _LOOP_ROW] = hex_faces
@@ -124,6 +115,27 @@ def poly_topology(path: Path, mesh: Mesh) -> PolyTopology:
         {titles[name]: np.unique(nodes) for name, nodes in content.node_sets.items()},
         {titles[name]: (number[faces], owner[faces] != hexes) for name, (faces, hexes) in zones.items()},
     )
+
+
+def _check_cells(path: Path, volumes: list) -> None:
+    """Raise `FileError` for a cell with a repeated node."""
+    for block in volumes:
+        twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
+        if twice.size:
+            problem = f"{block.kind} {twice[0]} has a node twice, so that its faces are no polyhedron's"
+            raise FileError(path, problem, "Repair it with hexmend repair, or write .vtu instead.")
+
+
+def _cells_of_faces(face: np.ndarray, cell: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lower and the higher cell of each face, -1 where there is one cell alone, (f,) int64 each.
+
+    `face` and `cell` (h,) are those of each side of a face, `count` (f,) is the number of sides.
+    """
+    order = np.argsort(face, kind="stable")
+    first = np.cumsum(count) - count
+    other = np.full(len(count), -1)
+    other[count == 2] = cell[order[first[count == 2] + 1]]
+    return cell[order[first]], other
 
 
 def _patches(mesh: Mesh, content, loops: np.ndarray, is_outer: np.ndarray, face_at: np.ndarray):

@@ -8,14 +8,13 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.aliases import exports
 from hexmend.arrays import as_immutable
 from hexmend.kernels import incidence, structure, wavefronts
 from hexmend.kernels.hex_mesh import HexMesh
-from hexmend.mesh.components import components
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
+from hexmend.mesh.topology.components import components
 from hexmend.mesh.validation import as_bools, as_hexes
 
 
@@ -274,6 +273,3 @@ class Topology:
         """
         rings = self.rings
         return wavefronts.levels(rings.start, rings.items, as_bools(start, "start", self.n))
-
-
-__getattr__ = exports(__name__)

@@ -13,7 +13,7 @@ from hexmend.cli.main import main
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS, NODE_POSITIONS, move_mid_nodes, scaled_jacobians
-from hexmend.mesh.shape_functions import lagrange, serendipity
+from hexmend.mesh.second_order.shape_functions import lagrange, serendipity
 from hexmend.quality import summarise_second_order
 from tests.core.grids import grid
 

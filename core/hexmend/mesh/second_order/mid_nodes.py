@@ -16,7 +16,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
-from hexmend.mesh.shape_functions import lagrange, serendipity
+from hexmend.mesh.second_order.shape_functions import lagrange, serendipity
 
 #: Edges of nodes 8 to 19, (12, 2).
 MID_EDGES = np.array(

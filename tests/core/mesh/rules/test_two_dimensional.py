@@ -6,7 +6,7 @@ import pytest
 import hexmend as hx
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.two_dimensional import two_dimensional_motion, with_two_dimensional_motion
+from hexmend.mesh.rules.two_dimensional import two_dimensional_motion, with_two_dimensional_motion
 from tests.core.grids import grid
 
 METHODS = ["mend", "laplacian", "getme", "local-mnr"]

@@ -1,0 +1,96 @@
+"""Fields of a mesh: their values are checked, immutable and shared by copies."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from hexmend.arrays import as_immutable
+from hexmend.errors import MeshError
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.fields import check_field
+from hexmend.mesh.size_limits import check_size
+from hexmend.mesh.topology import Topology
+from hexmend.mesh.validation import as_hexes, as_points, check_finite
+
+#: Attributes that are no fields, but kept by derived meshes: surfaces for sliding, target, rules, linear motion.
+_DERIVED = ("_surface", "_target", "_element_target", "_rules", "_motion", "_motion_start")
+
+
+@dataclass(frozen=True, eq=False)
+class MeshData:
+    """Base of `hexmend.Mesh`, which documents the fields."""
+
+    points: np.ndarray
+    hexes: np.ndarray
+    pinned: np.ndarray | None = None
+    node_data: Mapping[str, np.ndarray] = field(default_factory=dict)
+    hex_data: Mapping[str, np.ndarray] = field(default_factory=dict)
+    node_sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+    hex_sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+    cells: tuple[Cells, ...] = ()
+    name: str = ""
+    side_sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+    mid_nodes: np.ndarray | None = None
+    field_data: Mapping[str, object] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    side_set_types: Mapping[str, str] = field(default_factory=dict)
+    periodic_pairs: tuple[tuple[str, str], ...] = ()
+    topology: Topology = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        points = as_points(self.points)
+        check_finite(points)
+        check_size(points)
+        hexes = as_hexes(self.hexes, len(points))
+        if not len(hexes):
+            raise MeshError("hexes have shape (0, 8): expected (m, 8) with at least one hex")
+        # A view, so that meshes share an array of hexes only if one was derived from the other and has its topology.
+        self._set(points=as_immutable(points), hexes=as_immutable(hexes).view())
+        self._set_checked(self._values())
+        self._set(topology=Topology(self.hexes, len(points)))
+
+    def __deepcopy__(self, memo: dict[int, object]) -> MeshData:
+        return self  # it is immutable
+
+    def __setstate__(self, state: Mapping[str, object]) -> None:
+        """Restore a pickled state; its arrays are writable and are made immutable again."""
+        self._set(**state)
+        self._set(**{name: as_immutable(array) for name, array in state.items() if isinstance(array, np.ndarray)})
+        self._set(hexes=self.topology.hexes)  # shared by meshes that are derived from each other
+        self._set_checked(self._values())
+
+    def _values(self) -> dict[str, object]:
+        """Values of the fields that the constructor takes."""
+        return {one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init}
+
+    def _set_checked(self, values: Mapping[str, object]) -> None:
+        """Check the values of fields other than points and hexes, and set them."""
+        for name, value in values.items():
+            if name not in ("points", "hexes"):
+                self._set(**{name: check_field(name, value, self.n_nodes, self.n_hexes)})
+
+    def _set(self, **values: object) -> None:
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def n_nodes(self) -> int:
+        """Number of nodes, used by a hex or not."""
+        return len(self.points)
+
+    @property
+    def n_hexes(self) -> int:
+        """Number of hexes."""
+        return len(self.hexes)
+
+    def _copy(self, *cached: str, **changes: object) -> Any:
+        """Return a copy with changes; it shares all fields, surfaces, the target and the named cached properties."""
+        copy = object.__new__(type(self))
+        names = (*(one.name for one in dataclasses.fields(self)), *_DERIVED, *cached)
+        copy._set(**{name: self.__dict__[name] for name in names if name in self.__dict__} | changes)
+        return copy

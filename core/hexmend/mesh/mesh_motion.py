@@ -1,0 +1,232 @@
+"""Motion of the nodes of a mesh: fixed and free nodes, interfaces, rules, linear motion and surfaces for sliding."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Protocol, TypeVar
+
+import numpy as np
+
+from hexmend.arrays import as_immutable
+from hexmend.errors import MeshError
+from hexmend.hooks import hook
+from hexmend.mesh.linear_motion import LinearMotion
+from hexmend.mesh.linear_motion.constrained_points import constrained_points, with_ties_fixed
+from hexmend.mesh.materials import STRUCTURED_BLOCKS, Materials, find_materials
+from hexmend.mesh.mesh_data import MeshData
+from hexmend.mesh.rules.motion_rules import MotionRules, NodeRules
+from hexmend.mesh.validation import as_bools
+
+#: Cached properties that do not depend on the points.
+SHARED = ("fixed", "free", "immovable", "materials")
+
+M = TypeVar("M", bound="MeshMotion")
+
+
+class TargetSurface(Protocol):
+    """Surface on which the boundary of a mesh can slide, such as `hexmend.boundary.SkinSurface`."""
+
+    points: np.ndarray
+    faces: np.ndarray
+    name: str
+
+    def check_near(self, mesh: MeshMotion) -> None:
+        """Raise `MeshError` unless the boundary of a mesh lies near the surface."""
+
+
+class MeshMotion(MeshData):
+    """Base of `hexmend.Mesh`: what holds its nodes, and along what they move."""
+
+    @cached_property
+    def materials(self) -> Materials | None:
+        """The partition of the hexes by material; None for one material. See `hexmend.mesh.materials`."""
+        blocks = self.field_data.get(STRUCTURED_BLOCKS, ())
+        blocks = {str(name) for name in np.ravel(np.asarray(blocks, dtype=object))}
+        return find_materials(self.topology, self.hex_sets, self.hex_data, blocks)
+
+    @property
+    def node_rules(self) -> NodeRules:
+        """Rules of motion of the nodes; see `hexmend.mesh.rules.resolution`."""
+        return self.__dict__.get("_rules", NodeRules())
+
+    @property
+    def interfaces(self) -> Materials | None:
+        """The materials if the nodes on the interfaces between them are kept or slide; None if they move freely."""
+        return None if self.node_rules.interfaces == "free" else self.materials
+
+    @property
+    def slides_by_rule(self) -> bool:
+        """True if nodes slide even where the boundary is fixed: those of interfaces, or of sets that rules name."""
+        rules = self.node_rules
+        return rules.slides is not None or (rules.interfaces == "slide" and self.materials is not None)
+
+    @property
+    def interior(self) -> np.ndarray:
+        """True for nodes neither on the boundary nor on an interface that is kept or slides, (n,) bool."""
+        inner = ~self.topology.boundary
+        return inner if self.interfaces is None else inner & ~self.interfaces.interface_nodes
+
+    @cached_property
+    def immovable(self) -> np.ndarray:
+        """True for nodes that stay where they are even if the boundary slides: pinned or fixed by a rule; (n,) bool."""
+        rules = self.node_rules
+        stays = np.zeros(self.n_nodes, dtype=bool) if self.pinned is None else self.pinned.copy()
+        if rules.free is not None:
+            stays &= ~rules.free
+        return as_immutable(stays if rules.fixed is None else stays | rules.fixed)
+
+    @cached_property
+    def fixed(self) -> np.ndarray:
+        """True for nodes that no method moves, unless they slide; (n,) bool.
+
+        They are those of the boundary and of interfaces between materials, the pinned ones, and those of no hex. Nodes
+        of the boundary with a linear motion may move; see `with_linear_motion`.
+        """
+        fixed, motion = self.topology.boundary | ~self.topology.used, self.linear_motion
+        if motion is not None:
+            fixed &= ~(motion.marks(self.n_nodes) & self.topology.used)
+        fixed |= self.immovable
+        materials, free = self.interfaces, self.node_rules.free
+        if materials is not None:
+            fixed |= materials.interface_nodes if free is None else materials.interface_nodes & ~free
+        return as_immutable(fixed if motion is None else with_ties_fixed(motion, fixed))
+
+    @cached_property
+    def free(self) -> np.ndarray:
+        """True for nodes that methods may move, (n,) bool."""
+        return as_immutable(~self.fixed)
+
+    @property
+    def surface_points(self) -> np.ndarray:
+        """Node positions, (n, 3), that define the surface on which the boundary slides; see `keeping_surface`."""
+        return self.__dict__.get("_surface", self.points)
+
+    surface = surface_points  # its name in version 0.1
+
+    @property
+    def target(self) -> TargetSurface | None:
+        """Surface on which the boundary slides if that is not the original boundary; see `sliding_on`."""
+        return self.__dict__.get("_target")
+
+    def sliding_on(self: M, surface: TargetSurface, *, check: bool = True) -> M:
+        """Return the mesh with a surface on which its boundary slides, such as `hexmend.read_surface` gives.
+
+        Methods that let the boundary slide first project its nodes onto that surface; other methods ignore it.
+
+        Parameters
+        ----------
+        surface : hexmend.boundary.SkinSurface
+        check : bool
+            Check that the surface is near the boundary; not needed for one that the mesh had before.
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        MeshError
+            If the surface is far from the boundary.
+        """
+        if check:
+            surface.check_near(self)
+        return self._copy(*SHARED, _target=surface)
+
+    def keeping_surface(self: M) -> M:
+        """Return the mesh with its present boundary kept as the surface for sliding, whatever points it gets later."""
+        return self._copy(*SHARED, _surface=self.surface_points)
+
+    @property
+    def linear_motion(self) -> LinearMotion | None:
+        """Linear constraints on the displacements of nodes, None if there are none; see `with_linear_motion`."""
+        return self.__dict__.get("_motion")
+
+    def with_linear_motion(self: M, motion: LinearMotion | None) -> M:
+        """Return the mesh with linear constraints on the displacements of its nodes from where they are now.
+
+        Nodes that are restricted to a plane or line, tied nodes and those they follow are free to move, also on the
+        boundary, unless they are pinned. Nodes that are tied to a fixed node are fixed.
+
+        Parameters
+        ----------
+        motion : LinearMotion or None
+            Constraints that replace those of the mesh; none end them.
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        MeshError
+            For a node that does not exist.
+        """
+        if not motion:
+            copy = self._copy("materials")
+            copy.__dict__.pop("_motion", None)
+            copy.__dict__.pop("_motion_start", None)
+            return copy
+        if motion.largest_node >= self.n_nodes:
+            raise MeshError(
+                f"the linear motion names node {motion.largest_node}, but the mesh has {self.n_nodes} nodes, counted "
+                "from 0: correct the number"
+            )
+        return self._copy("materials", "immovable", _motion=motion, _motion_start=self.points)
+
+    @property
+    def motion_start(self) -> np.ndarray:
+        """Node positions, (n, 3), from which the displacements of the linear motion are counted."""
+        return self.__dict__.get("_motion_start", self.points)
+
+    def constrained(self, points: np.ndarray) -> np.ndarray:
+        """Return node positions, (n, 3), that keep the linear motion of the mesh; see `constrained_points`.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Returned themselves if the mesh has no linear motion; not changed.
+        """
+        motion = self.linear_motion
+        return points if motion is None else constrained_points(motion, self.motion_start, points, self.free)
+
+    def with_fixed(self: M, fixed: np.ndarray) -> M:
+        """Return the mesh with exactly these nodes fixed, whatever its boundary and pins; all else is shared.
+
+        Nodes that are tied to them by a linear motion are fixed too.
+
+        Parameters
+        ----------
+        fixed : (n,) bool
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        MeshError
+            For another length or type.
+        """
+        fixed = as_bools(fixed, "fixed", self.n_nodes)
+        if self.linear_motion is not None:
+            fixed = with_ties_fixed(self.linear_motion, fixed)
+        return self._copy("materials", "immovable", fixed=as_immutable(fixed), _surface=self.surface_points)
+
+    def with_rules(self: M, **rules: object) -> M:
+        """Return the mesh with rules of motion by names of sets: fields of `hexmend.mesh.rules.MotionRules`.
+
+        They hold for runs on this mesh; no file keeps them. See `hexmend.mesh.rules.resolution.with_rules`.
+
+        Parameters
+        ----------
+        **rules
+            Such as `interfaces="slide", fix=["inlet"]`.
+        """
+        return hook("with_rules")(self, MotionRules(**rules))
+
+    def with_node_rules(self: M, rules: NodeRules) -> M:
+        """Return the mesh with rules of motion of its nodes in place of those it has; all else is shared.
+
+        `hexmend.mesh.rules.resolution.with_rules` makes them of the names of sets.
+        """
+        return self._copy("materials", _rules=rules)

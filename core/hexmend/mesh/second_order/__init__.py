@@ -1,0 +1,25 @@
+"""Second-order hexahedra: their mid-nodes and shape functions."""
+
+from hexmend.mesh.second_order.mid_nodes import (
+    GAUSS_POINTS,
+    MID_EDGES,
+    MID_NODE_POSITIONS,
+    MID_NODE_WEIGHTS,
+    MIRRORED_MID_NODES,
+    NODE_POSITIONS,
+    jacobian_range,
+    move_mid_nodes,
+    scaled_jacobians,
+)
+
+__all__ = [
+    "GAUSS_POINTS",
+    "MID_EDGES",
+    "MID_NODE_POSITIONS",
+    "MID_NODE_WEIGHTS",
+    "MIRRORED_MID_NODES",
+    "NODE_POSITIONS",
+    "jacobian_range",
+    "move_mid_nodes",
+    "scaled_jacobians",
+]
