@@ -20,7 +20,7 @@ from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
-from hexmend.solver_checks import SOLVERS
+from hexmend.solver_checks import QUOTED, SOLVERS
 from hexmend.study.batch.case import TaskLimits
 from hexmend.study.batch.table_columns import COLUMNS
 from hexmend_app.codec.config_table import Option, options_of
@@ -75,12 +75,17 @@ def solvers() -> str:
     parts = []
     for solver in sorted(SOLVERS.values(), key=lambda one: one.title.lower()):
         rows = (
-            (one.name, one.limit_text, one.unit, one.level.name.lower(), one.definition, one.source)
+            (one.name, one.limit_text, one.unit, one.level.name.lower(), one.definition, _marked(one.source))
             for one in solver.checks
         )
         head = ("check", "limit", "unit", "beyond it", "definition", "source")
         parts.append(f"## {solver.title}\n`--for {solver.name}`. {solver.omitted}\n\n{table(head, rows)}")
     return "\n\n".join(parts)
+
+
+def _marked(source: str) -> str:
+    """A source with an asterisk in place of the reservation on its limits, which the page states once."""
+    return source.replace(f" ({QUOTED})", r"\*")
 
 
 def stops() -> str:

@@ -12,9 +12,9 @@ import importlib
 import pkgutil
 
 from hexmend.solver_checks.check import Check, CheckResult, Level
-from hexmend.solver_checks.solver import SOLVERS, Report, Solver, check_mesh
+from hexmend.solver_checks.solver import QUOTED, SOLVERS, Report, Solver, check_mesh
 
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
-__all__ = ["SOLVERS", "Check", "CheckResult", "Level", "Report", "Solver", "check_mesh"]
+__all__ = ["QUOTED", "SOLVERS", "Check", "CheckResult", "Level", "Report", "Solver", "check_mesh"]

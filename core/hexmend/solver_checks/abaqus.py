@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from hexmend.solver_checks.check import Check, Level
-from hexmend.solver_checks.solver import Solver
+from hexmend.solver_checks.solver import QUOTED, Solver
 
 _PROCESSOR = "Abaqus, messages of the input file processor"
-_DISTORTED = f"{_PROCESSOR}: distorted elements, angles of isoparametric lines below 45 or above 135 degrees"
-_VERIFY = "Abaqus/CAE User's Guide, Verifying element quality: default limits of shape metrics of hexahedra"
+_DISTORTED = f"{_PROCESSOR}: distorted elements, angles of isoparametric lines below 45 or above 135 degrees ({QUOTED})"
+_VERIFY = f"Abaqus/CAE User's Guide, Verifying element quality: default limits of hexahedra ({QUOTED})"
 _ANGLE = "of two adjacent edges over the 24 corners of the faces"
 
 ABAQUS = Solver(
@@ -45,4 +45,5 @@ ABAQUS = Solver(
         "Left out is the geometric deviation factor, which needs the CAD geometry, and what needs a material: the "
         "stable time increment and the maximum frequency. For small positive volumes no documented limit is known."
     ),
+    reservation=QUOTED,
 ).register()  # fmt: skip

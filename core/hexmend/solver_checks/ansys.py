@@ -11,9 +11,9 @@ from hexmend.quality.finite_volume.geometry import divide
 from hexmend.quality.measure import corner_determinants
 from hexmend.solver_checks.check import Check, Level
 from hexmend.solver_checks.measures import Measures
-from hexmend.solver_checks.solver import Solver
+from hexmend.solver_checks.solver import QUOTED, Solver
 
-_SOURCE = "ANSYS Mechanical APDL Theory Reference, Element Shape Testing: default limits of SHPP"
+_SOURCE = f"ANSYS Mechanical APDL Theory Reference, Element Shape Testing: default limits of SHPP ({QUOTED})"
 _QUADS = "over the six faces and the three cross-sections through the middles of edges"
 _ASPECT = (
     f"greatest {_QUADS}: each line between middles of opposite edges has a rectangle through the ends of the other; "
@@ -79,4 +79,5 @@ ANSYS = Solver(
         *_pair("warping factor", lambda measures: measures.quads.warping_factor, 0.2, 0.4, _WARPING),
     ),
     omitted="Cross-sections of hexes of second order use the middles of edges in place of mid-nodes.",
+    reservation=QUOTED,
 ).register()  # fmt: skip

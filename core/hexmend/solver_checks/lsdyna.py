@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hexmend.solver_checks.check import Check, Level
-from hexmend.solver_checks.solver import Solver
+from hexmend.solver_checks.solver import QUOTED, Solver
 
 #: Default of TSSFAC in *CONTROL_TIMESTEP.
 TIME_STEP_FACTOR = 0.9
@@ -27,11 +27,12 @@ LSDYNA = Solver(
         Check(
             "time step at wave speed 1", lambda measures: TIME_STEP_FACTOR * measures.characteristic_lengths, "hexes",
             1, None, Level.INFORMATION, "0.9 (TSSFAC) times the characteristic length, without bulk viscosity",
-            f"{_THEORY}; *CONTROL_TIMESTEP", unit="mesh unit",
+            f"{_THEORY}; *CONTROL_TIMESTEP ({QUOTED})", unit="mesh unit",
         ),
     ),
     omitted=(
         "No documented limits of aspect ratio, warpage or Jacobian are known for LS-DYNA's solids, so none is judged "
         "here: hexmend info --metrics prints these values."
     ),
+    reservation=QUOTED,
 ).register()  # fmt: skip

@@ -9,9 +9,9 @@ from hexmend.mesh.second_order import jacobian_range
 from hexmend.quality.finite_volume.geometry import chunks, cross, dot
 from hexmend.solver_checks.check import Check, Level
 from hexmend.solver_checks.measures import Measures
-from hexmend.solver_checks.solver import Solver
+from hexmend.solver_checks.solver import QUOTED, Solver
 
-_SOURCE = "MSC Nastran Quick Reference Guide, case control command GEOMCHECK: default of {}"
+_SOURCE = f"MSC Nastran Quick Reference Guide, case control command GEOMCHECK: default of {{}} ({QUOTED})"
 #: Abscissae of the two-point Gauss rule on [0, 1].
 _GAUSS = 0.5 - np.sqrt(1 / 12), 0.5 + np.sqrt(1 / 12)
 
@@ -65,4 +65,5 @@ NASTRAN = Solver(
         "Left out are the tests of the positions of mid-nodes, such as HEX_EPLR; the metric mid-node-offset gives "
         "these positions."
     ),
+    reservation=QUOTED,
 ).register()  # fmt: skip

@@ -11,6 +11,9 @@ from hexmend.solver_checks.check import Check, CheckResult
 from hexmend.solver_checks.measures import Measures
 from hexmend.terminal_text import count_phrase
 
+#: Reservation on limits whose document was not at hand: the values are quoted from others.
+QUOTED = "values as commonly quoted; check them against your version's manual"
+
 
 @dataclass(frozen=True)
 class Solver:
@@ -22,12 +25,15 @@ class Solver:
     checks : tuple of Check
     omitted : str
         Sentence on the solver's checks that are left out, and why.
+    reservation : str
+        `QUOTED` where limits are not from the solver's own document; "" otherwise.
     """
 
     name: str
     title: str
     checks: tuple[Check, ...]
     omitted: str
+    reservation: str = ""
 
     def register(self) -> Solver:
         """Add the solver to `SOLVERS` under its name and return it; raises `ValueError` if the name is taken."""

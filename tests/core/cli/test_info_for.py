@@ -7,7 +7,7 @@ import pytest
 from hexmend.cli.main import main
 from hexmend.gallery import make
 from hexmend.io import write
-from hexmend.solver_checks import SOLVERS
+from hexmend.solver_checks import QUOTED, SOLVERS
 
 
 @pytest.fixture
@@ -24,6 +24,7 @@ def test_a_table_and_a_verdict_are_printed(kershaw, solver, capsys):
     declared = SOLVERS[solver]
     assert f"{declared.title}: " in printed
     assert declared.omitted in printed
+    assert printed.count(QUOTED) == bool(declared.reservation)
     assert declared.checks[0].name in printed
 
 

@@ -9,7 +9,7 @@ from hexmend.terminal_text import WorsenedText
 
 
 def print_checks(report: Report) -> None:
-    """Print each check with value, limit and count, then the verdict and what is left out."""
+    """Print each check with value, limit and count, then the verdict, what is left out, and a reservation."""
     rows = []
     for result in report.results:
         painted = WorsenedText if result.count else str
@@ -21,6 +21,8 @@ def print_checks(report: Report) -> None:
     print_columns(["Check", "Worst", "Limit", "Unit", "Beyond", "Verdict"], rows)
     print(report.sentence)
     print(f"note: {report.solver.omitted}")
+    if report.solver.reservation:
+        print(f"note: Limits and factors are {report.solver.reservation}.")
 
 
 _VERDICTS = {"passed": "passed", "warning": "warning", "failed": "failed", "value": "no limit"}
