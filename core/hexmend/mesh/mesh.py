@@ -329,6 +329,32 @@ class Mesh:
         """Return the mesh with its present boundary kept as the surface for sliding, whatever points it gets later."""
         return self._copy(*_SHARED, _surface=self.surface_points)
 
+    def moving_from(self, points: np.ndarray) -> Mesh:
+        """Return the mesh with other node positions that define its surface for sliding and start its linear motion.
+
+        A mesh that a solver has moved, boundary and all, slides on its boundary of that time, not on an earlier one.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Copied unless immutable.
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        MeshError
+            For another shape or type, and for a coordinate that is not finite.
+        """
+        points = points_like(points, self.points.shape)
+        check_finite(points)
+        given = {"_surface": as_immutable(points)}
+        if self.linear_motion is not None:
+            given["_motion_start"] = given["_surface"]
+        return self._copy(*_SHARED, **given)
+
     @property
     def linear_motion(self) -> LinearMotion | None:
         """Linear constraints on the displacements of nodes, None if there are none; see `with_linear_motion`."""

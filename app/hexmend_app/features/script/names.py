@@ -163,6 +163,9 @@ class Names:
         ends = record.start, record.end
         same = next((end for end in ends if end is not None and end.mesh.points is state.mesh.points), None)
         run_lines = self.run_lines(record)
+        if record.holds_times and same is None:
+            self._add_time(state, moment)
+            return
         if same is state and run_lines is not None and run_lines.stages:
             start, name = self.mesh(record.start), self.new_name(state)
             self._lines.put(moment.name, run_lines.smoothed(start, name))
@@ -184,6 +187,21 @@ class Names:
             note = "# The window stores displacements from the start in single precision.\n"
         self._lines.put(moment.name, f"{loop}\n{note}{name} = {base}.with_points({points})")
 
+    def _add_time(self, state: State, moment: RecordedIteration) -> None:
+        """Write the lines that read the mesh at a time of a case, and let its boundary slide on itself."""
+        record, number = moment.record, moment.number
+        start, base = self.mesh(record.start), self.mesh(self._similar(state, record.start))
+        if self._contents.run(record) is not None:
+            points = f"points = {self.run(record)}.points({number})"
+        else:
+            read = f"hx.read({str(record.files[number].absolute())!r}).points"
+            points = (
+                f"# The window stores displacements from {start} in single precision.\n"
+                f'points = {start}.points + ({read} - {start}.points).astype("f4")'
+            )
+        name = self.new_name(state)
+        self._lines.put(moment.name, f"{points}\n{name} = {base}.with_points(points).moving_from(points)")
+
     def _is_rounded(self, state: State, moment: RecordedIteration) -> bool:
         try:
             return np.array_equal(moment.record.points(moment.number), state.mesh.points)
@@ -202,8 +220,8 @@ class Names:
     # Runs
 
     def repeats(self, record: RunRecord) -> bool:
-        """Return True if the script can repeat a run or read it from a session."""
-        return self.run_lines(record) is not None or self._contents.run(record) is not None
+        """Return True if the script can repeat a run or read it from a session, or the times of a case from it."""
+        return self.run_lines(record) is not None or self._contents.run(record) is not None or bool(record.files)
 
     def run_lines(self, record: RunRecord) -> RunLines | None:
         """Return the data of a finished or current run; None for a run from a session."""

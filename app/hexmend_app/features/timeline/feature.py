@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from hexmend.errors import FileError
 from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import counted
 
 _STEPS = (
     ("first", "&Start of the run", "Alt+Home", "skip-backward", "Show the mesh before the run."),
@@ -18,6 +20,9 @@ _STEPS = (
     ("newest", "&Latest iteration", "Alt+End", "skip-forward", "Show the latest iteration and follow the run."),
     ("branch", "&Run from here", "Ctrl+F5", "source-branch", "Start a new run from the displayed iteration."),
 )
+
+#: Number of times left out that a message explains.
+_NAMED = 3
 
 
 class FeatureTimeline(Feature):
@@ -38,6 +43,10 @@ class FeatureTimeline(Feature):
         bar.delete_requested.connect(lambda: timeline.delete(timeline.record))
         bar.limit_changed.connect(self._set_limit)
         bar.speed_changed.connect(self._set_speed)
+        reader = self._reader = session.time_reader
+        reader.progressed.connect(self._show_progress)
+        reader.ended.connect(self._on_times_read)
+        session.document.mesh_replaced.connect(lambda: host.busy.done("times"))
         session.history.limit = settings.HISTORY_MEGABYTES.get() << 20
         timeline.speed = settings.ITERATIONS_PLAYED.get()
         self._show_settings()
@@ -87,6 +96,7 @@ class FeatureTimeline(Feature):
             self.panel.set_run(history.records.index(record))
             active = self._smoothing.busy and record is self._smoothing.record
             if self._seen.changed("track", record, record.newest, history.bytes, active, len(record.pauses)):
+                self.panel.set_labels(record.unit, record.labels())
                 self.panel.set_track(record.newest, history.recorded_numbers(record), record.pauses, history.bytes)
                 self.panel.set_deletable(not active)
         self.panel.set_number(self._number)
@@ -138,6 +148,20 @@ class FeatureTimeline(Feature):
         self._timeline.set_speed(speed)
         settings.ITERATIONS_PLAYED.set(speed)
         self._show_settings()
+
+    def _show_progress(self, label: str) -> None:
+        text = tr("Reading the times of the case, {label}…", label=label)
+        self.host.busy.show_work("times", text, tr("Stop"), tr("Keep the times read so far."), self._reader.cancel)
+
+    def _on_times_read(self, errors: Sequence[FileError]) -> None:
+        """Tell which times are left out."""
+        self.host.busy.done("times")
+        if errors:
+            first = " ".join(f"{error.problem}. {error.remedy}".strip() for error in errors[:_NAMED])
+            more = tr(" And {count} more.", count=len(errors) - _NAMED) if len(errors) > _NAMED else ""
+            self.host.messages.show_warning(
+                tr("{count} of the case left out", count=counted(len(errors), "time")), f"{first}{more}"
+            )
 
     def _show_settings(self) -> None:
         self.panel.set_settings(self.session.history.limit >> 20, self._timeline.speed)
