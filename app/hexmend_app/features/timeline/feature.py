@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from hexmend.errors import FileError
 from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
 from hexmend_app.state.mesh.history import RunRecord
@@ -43,10 +42,7 @@ class FeatureTimeline(Feature):
         bar.delete_requested.connect(lambda: timeline.delete(timeline.record))
         bar.limit_changed.connect(self._set_limit)
         bar.speed_changed.connect(self._set_speed)
-        reader = self._reader = session.time_reader
-        reader.progressed.connect(self._show_progress)
-        reader.ended.connect(self._on_times_read)
-        session.document.mesh_replaced.connect(lambda: host.busy.done("times"))
+        self._reader = session.time_reader
         session.history.limit = settings.HISTORY_MEGABYTES.get() << 20
         timeline.speed = settings.ITERATIONS_PLAYED.get()
         self._show_settings()
@@ -100,6 +96,7 @@ class FeatureTimeline(Feature):
                 self.panel.set_track(record.newest, history.recorded_numbers(record), record.pauses, history.bytes)
                 self.panel.set_deletable(not active)
         self.panel.set_number(self._number)
+        self._show_reading()
 
     @property
     def _number(self) -> int | None:
@@ -149,19 +146,21 @@ class FeatureTimeline(Feature):
         settings.ITERATIONS_PLAYED.set(speed)
         self._show_settings()
 
-    def _show_progress(self, label: str) -> None:
-        text = tr("Reading the times of the case, {label}…", label=label)
-        self.host.busy.show_work("times", text, tr("Stop"), tr("Keep the times read so far."), self._reader.cancel)
-
-    def _on_times_read(self, errors: Sequence[FileError]) -> None:
-        """Tell which times are left out."""
-        self.host.busy.done("times")
-        if errors:
+    def _show_reading(self) -> None:
+        """Show the progress of reading the times of a case, and then which of them are left out."""
+        reader, busy = self._reader, self.host.busy
+        if not self._seen.changed("times", reader.last_time, reader.errors):
+            return
+        if reader.last_time:
+            text = tr("Reading the times of the case, {time}…", time=reader.last_time)
+            busy.show_work("times", text, tr("Stop"), tr("Keep the times read so far."), reader.cancel)
+        else:
+            busy.done("times")
+        if errors := reader.errors:
             first = " ".join(f"{error.problem}. {error.remedy}".strip() for error in errors[:_NAMED])
             more = tr(" And {count} more.", count=len(errors) - _NAMED) if len(errors) > _NAMED else ""
-            self.host.messages.show_warning(
-                tr("{count} of the case left out", count=counted(len(errors), "time")), f"{first}{more}"
-            )
+            title = tr("{count} of the case left out", count=counted(len(errors), "time"))
+            self.host.messages.show_warning(title, f"{first}{more}")
 
     def _show_settings(self) -> None:
         self.panel.set_settings(self.session.history.limit >> 20, self._timeline.speed)

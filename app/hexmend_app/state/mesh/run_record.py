@@ -74,8 +74,8 @@ class RunRecord:
         None for a recipe, whose stages have their own.
     changes : list of (int, Stage)
         Iterations after which the method was switched, and the new stages.
-    files : dict of int to Path
-        Files of the node positions of the times of a case; empty for a run, and for times from a session file.
+    case : Path or None
+        The case whose times these are; None for a run, and for times from a session file.
     slot : int
         Number of its colour, from 0, which does not change when other runs are removed.
     plotted : bool
@@ -94,7 +94,7 @@ class RunRecord:
         self.work: Smoother | Recipe | None = None
         self.stop: StoppingCriteria | None = None
         self.changes: list[tuple[int, Stage]] = []
-        self.files: dict[int, Path] = {}
+        self.case: Path | None = None
         self._moved = start.mesh.free  # grows if boundary nodes slide
         self._nodes = np.flatnonzero(self._moved).astype(np.int32)
         self._offsets: dict[int, NodeOffsets] = {}  # by iteration
