@@ -15,7 +15,7 @@ from hexmend.mesh.linear_motion.constrained_points import constrained_points, wi
 from hexmend.mesh.materials import STRUCTURED_BLOCKS, Materials, find_materials
 from hexmend.mesh.mesh_data import MeshData
 from hexmend.mesh.rules.motion_rules import MotionRules, NodeRules
-from hexmend.mesh.validation import as_bools
+from hexmend.mesh.validation import as_bools, check_finite, points_like
 
 #: Cached properties that do not depend on the points.
 SHARED = ("fixed", "free", "immovable", "materials")
@@ -135,6 +135,32 @@ class MeshMotion(MeshData):
     def keeping_surface(self: M) -> M:
         """Return the mesh with its present boundary kept as the surface for sliding, whatever points it gets later."""
         return self._copy(*SHARED, _surface=self.surface_points)
+
+    def moving_from(self: M, points: np.ndarray) -> M:
+        """Return the mesh with other node positions that define its surface for sliding and start its linear motion.
+
+        A mesh that a solver has moved, boundary and all, slides on its boundary of that time, not on an earlier one.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Copied unless immutable.
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        MeshError
+            For another shape or type, and for a coordinate that is not finite.
+        """
+        points = points_like(points, self.points.shape)
+        check_finite(points)
+        given = {"_surface": as_immutable(points)}
+        if self.linear_motion is not None:
+            given["_motion_start"] = given["_surface"]
+        return self._copy(*SHARED, **given)
 
     @property
     def linear_motion(self) -> LinearMotion | None:

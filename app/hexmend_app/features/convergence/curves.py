@@ -50,12 +50,14 @@ class Columns:
 
     @property
     def seconds(self) -> np.ndarray:
-        """Seconds since the start of the run, (k,) float64."""
+        """Seconds since the start of the run, or times of a case, (k,) float64."""
         return self._rows[: self._known, -1]
 
     def of(self, key: str) -> np.ndarray:
         """Return the values of a quantity, (k,) float64."""
         if key == STEP_SECONDS.key:
+            if self.record.holds_times:
+                return np.full(self._known, np.nan)
             return np.diff(self.seconds, prepend=np.nan)
         return self._rows[: self._known, _RECORDED.index(key)]
 

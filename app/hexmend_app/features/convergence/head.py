@@ -68,7 +68,7 @@ class ConvergenceHead(QWidget):
             tr("Chart axis"),
             [
                 ("iteration", tr("Iteration"), tr("Plot against iterations.")),
-                ("time", tr("Time"), tr("Plot against the seconds spent in the method.")),
+                ("time", tr("Time"), tr("Plot against the seconds spent in the method, or the times of a case.")),
             ],
         )
         self.axis.setFont(smaller(self.font()))

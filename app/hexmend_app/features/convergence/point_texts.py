@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend_app.features.convergence.charts import Chart
 from hexmend_app.features.convergence.curves import Curve
+from hexmend_app.state.mesh.history import RecordedIteration, RunRecord
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted, figure
 
@@ -91,7 +92,11 @@ def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
     seconds = f" at {curve.columns.seconds[number]:.3g} s" if by_time else ""
     pause = curve.record.pauses.get(number)
     paused = f"\n    paused: {pause}" if pause else ""
-    return f"{curve.record.name} {number}{seconds}: {', '.join(values)}{thinned}{paused}"
+    return f"{_named(curve.record, number)}{seconds}: {', '.join(values)}{thinned}{paused}"
+
+
+def _named(record: RunRecord, number: int) -> str:
+    return RecordedIteration(record, number).name if record.holds_times else f"{record.name} {number}"
 
 
 def _significant(value: float) -> str:

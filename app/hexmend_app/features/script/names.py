@@ -17,6 +17,7 @@ from hexmend_app.features.script.session_contents import SessionContents
 from hexmend_app.features.script.source_code import source_of
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
+from hexmend_app.state.run.case_times import recorded_times
 from hexmend_app.state.run.rerun import rerun
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.session.session_data import SessionData
@@ -163,6 +164,9 @@ class Names:
         ends = record.start, record.end
         same = next((end for end in ends if end is not None and end.mesh.points is state.mesh.points), None)
         run_lines = self.run_lines(record)
+        if record.holds_times and same is None:
+            self._add_time(state, moment)
+            return
         if same is state and run_lines is not None and run_lines.stages:
             start, name = self.mesh(record.start), self.new_name(state)
             self._lines.put(moment.name, run_lines.smoothed(start, name))
@@ -184,6 +188,12 @@ class Names:
             note = "# The window stores displacements from the start in single precision.\n"
         self._lines.put(moment.name, f"{loop}\n{note}{name} = {base}.with_points({points})")
 
+    def _add_time(self, state: State, moment: RecordedIteration) -> None:
+        """Write the lines for the mesh at a time of a case, whose boundary is that of the time."""
+        base, run = self.mesh(self._similar(state, moment.record.start)), self.run(moment.record)
+        points, name = f"points = {run}.points({moment.number})", self.new_name(state)
+        self._lines.put(moment.name, f"{points}\n{name} = {base}.with_points(points).moving_from(points)")
+
     def _is_rounded(self, state: State, moment: RecordedIteration) -> bool:
         try:
             return np.array_equal(moment.record.points(moment.number), state.mesh.points)
@@ -202,8 +212,8 @@ class Names:
     # Runs
 
     def repeats(self, record: RunRecord) -> bool:
-        """Return True if the script can repeat a run or read it from a session."""
-        return self.run_lines(record) is not None or self._contents.run(record) is not None
+        """Return True if the script can repeat a run or read it from a session, or the times of a case from it."""
+        return self.run_lines(record) is not None or self._contents.run(record) is not None or record.case is not None
 
     def run_lines(self, record: RunRecord) -> RunLines | None:
         """Return the data of a finished or current run; None for a run from a session."""
@@ -219,6 +229,10 @@ class Names:
         if name and needed <= available:
             return name
         source = self._contents.run(record) if run_lines is None else self._rerun(record, run_lines, needed)
+        if source is None and record.case is not None:
+            arguments = [repr(str(record.case.absolute())), self.mesh(record.start)]
+            arguments += [f"slot={record.slot}"] * bool(record.slot) + ["plotted=False"] * (not record.plotted)
+            source = call(self._lines.use(recorded_times), arguments)
         name = self._next("run")
         self._runs[record] = name, needed
         self._lines.put(f"{record.name}, with its history", f"{name} = {source}")

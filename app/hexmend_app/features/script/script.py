@@ -134,7 +134,9 @@ class Script(QObject):
             case NodesMoved(after=after, before=before):
                 if after not in names:
                     source, mesh = names.mesh(event.source), names.mesh(before)
-                    names.add_state(event.title, after, f"{mesh}.with_points({source}.points)")
+                    other = after.mesh.surface_points is not before.mesh.surface_points  # after a time of a case
+                    moving = f".moving_from({source}.surface_points)" * other
+                    names.add_state(event.title, after, f"{mesh}.with_points({source}.points){moving}")
             case UndoOrRedo():
                 put(f"{'undo' if event.undone else 'redo'} {event.title}: continue with {names.mesh(event.now)}")
             case MeshSaved(data=SessionData()):

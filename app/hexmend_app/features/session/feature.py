@@ -113,4 +113,5 @@ class FeatureSession(Feature):
 
     def _savable(self) -> bool:
         smoothing = self.session.run
-        return not self.session.opener.busy and (not smoothing.busy or smoothing.phase is Phase.PAUSED)
+        reading = self.session.opener.busy or self.session.time_reader.busy
+        return not reading and (not smoothing.busy or smoothing.phase is Phase.PAUSED)

@@ -173,6 +173,8 @@ class FeatureSmooth(Feature):
         moment, reason = self.session.timeline.shown_iteration, self.session.run_setup.reason
         if moment is None or (not moment.number and moment.record.result != 0):
             return None, None, reason or self._text_without_step()
+        if moment.record.holds_times:
+            return None, None, reason or f"{moment.name}."
         row = moment.record.rows[moment.number]
         ended = moment.record.message if moment.number == moment.record.result else ""
         return row["iteration"], row["seconds"], reason or ended

@@ -9,6 +9,7 @@ from hexmend_app.features.timeline.timeline_bar import TimelineBar
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import counted
 
 _STEPS = (
     ("first", "&Start of the run", "Alt+Home", "skip-backward", "Show the mesh before the run."),
@@ -18,6 +19,9 @@ _STEPS = (
     ("newest", "&Latest iteration", "Alt+End", "skip-forward", "Show the latest iteration and follow the run."),
     ("branch", "&Run from here", "Ctrl+F5", "source-branch", "Start a new run from the displayed iteration."),
 )
+
+#: Number of times left out that a message explains.
+_NAMED = 3
 
 
 class FeatureTimeline(Feature):
@@ -38,6 +42,7 @@ class FeatureTimeline(Feature):
         bar.delete_requested.connect(lambda: timeline.delete(timeline.record))
         bar.limit_changed.connect(self._set_limit)
         bar.speed_changed.connect(self._set_speed)
+        self._reader = session.time_reader
         session.history.limit = settings.HISTORY_MEGABYTES.get() << 20
         timeline.speed = settings.ITERATIONS_PLAYED.get()
         self._show_settings()
@@ -87,9 +92,11 @@ class FeatureTimeline(Feature):
             self.panel.set_run(history.records.index(record))
             active = self._smoothing.busy and record is self._smoothing.record
             if self._seen.changed("track", record, record.newest, history.bytes, active, len(record.pauses)):
+                self.panel.set_labels(record.unit, record.labels())
                 self.panel.set_track(record.newest, history.recorded_numbers(record), record.pauses, history.bytes)
                 self.panel.set_deletable(not active)
         self.panel.set_number(self._number)
+        self._show_reading()
 
     @property
     def _number(self) -> int | None:
@@ -138,6 +145,22 @@ class FeatureTimeline(Feature):
         self._timeline.set_speed(speed)
         settings.ITERATIONS_PLAYED.set(speed)
         self._show_settings()
+
+    def _show_reading(self) -> None:
+        """Show the progress of reading the times of a case, and then which of them are left out."""
+        reader, busy = self._reader, self.host.busy
+        if not self._seen.changed("times", reader.last_time, reader.errors):
+            return
+        if reader.last_time:
+            text = tr("Reading the times of the case, {time}…", time=reader.last_time)
+            busy.show_work("times", text, tr("Stop"), tr("Keep the times read so far."), reader.cancel)
+        else:
+            busy.done("times")
+        if errors := reader.errors:
+            first = " ".join(f"{error.problem}. {error.remedy}".strip() for error in errors[:_NAMED])
+            more = tr(" And {count} more.", count=len(errors) - _NAMED) if len(errors) > _NAMED else ""
+            title = tr("{count} of the case left out", count=counted(len(errors), "time"))
+            self.host.messages.show_warning(title, f"{first}{more}")
 
     def _show_settings(self) -> None:
         self.panel.set_settings(self.session.history.limit >> 20, self._timeline.speed)

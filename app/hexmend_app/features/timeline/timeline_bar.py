@@ -91,6 +91,7 @@ class TimelineBar(QWidget):
             widget.setEnabled(bool(names))
         if not names:
             self._runs.setPlaceholderText(tr("No runs"))
+            self.set_labels("iteration", ())
             self.set_track(0, np.zeros(1, np.int64), {}, 0)
             self.set_number(None)
 
@@ -119,10 +120,14 @@ class TimelineBar(QWidget):
             else tr(" {count} of them are stored, as marked below the slider.", count=len(kept))
         )
         pauses = "".join(f"<br>{number}: {sentence}" for number, sentence in marks.items())
-        tip = f"<qt>{counted(newest, 'iteration')}.{stored}{pauses}</qt>"
+        tip = f"<qt>{counted(newest, self._unit)}.{stored}{pauses}</qt>"
         if tip != self._slider.toolTip():
             self._slider.setToolTip(tip)
         self._used.setText(tr("In use: {count}", count=size(used)))
+
+    def set_labels(self, unit: str, labels: Sequence[str]) -> None:
+        """Set the noun for iterations, and their names if these are no numbers, as of the times of a case."""
+        self._unit, self._labels = unit, labels
 
     def set_number(self, number: int | None) -> None:
         """Show the number of the displayed iteration; None if it is not in the run."""
@@ -130,13 +135,14 @@ class TimelineBar(QWidget):
         if number is not None and not self._slider.isSliderDown():
             with QSignalBlocker(self._slider):
                 self._slider.setValue(number)
-        self._at.setText(
-            tr("{number} of {newest}", number="–" if number is None else number, newest=newest)
-            if self._runs.count()
-            else ""
-        )
-        longest = max(newest, 999)  # keeps the slider in place under the pointer
-        self._at.setMinimumWidth(self._at.fontMetrics().horizontalAdvance(f"{longest} of {longest}"))
+        shown = "–" if number is None else number
+        if self._labels:
+            self._at.setText("–" if number is None else self._labels[number])
+        else:
+            self._at.setText(tr("{number} of {newest}", number=shown, newest=newest) if self._runs.count() else "")
+        # the width of the longest text keeps the slider in place under the pointer
+        longest = max(self._labels, key=len) if self._labels else f"{max(newest, 999)} of {max(newest, 999)}"
+        self._at.setMinimumWidth(self._at.fontMetrics().horizontalAdvance(longest))
 
     def set_settings(self, limit: int, speed: int) -> None:
         """Show the memory limit in MB and the playback speed in iterations per second."""

@@ -39,7 +39,11 @@ def film_frames(record: RunRecord, numbers: Sequence[int], state: Callable[[int]
         shown = state(number)
         inverted = shown.summary.inverted
         yield FilmFrame(
-            f"{record.title}, iteration {number} of {record.newest}: q min {shown.summary.q_min:.4f}, "
+            f"{record.title}, {_place(record, number)}: q min {shown.summary.q_min:.4f}, "
             f"{f'{inverted:,}' if inverted else 'none'} inverted",
             shown,
         )
+
+
+def _place(record: RunRecord, number: int) -> str:
+    return record.label(number) if record.holds_times else f"iteration {number} of {record.newest}"

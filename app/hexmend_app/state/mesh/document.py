@@ -210,6 +210,8 @@ class Document(QObject):
         start = self.start
         if not np.array_equal(self.now.mesh.points, start.mesh.points):
             mesh = self.now.mesh.with_points(start.mesh.points)
+            if mesh.surface_points is not start.mesh.surface_points:  # at a time of a case, whose boundary had moved
+                mesh = mesh.moving_from(start.mesh.surface_points)
             self.commit("reset", State(mesh, start.figures, summarise(mesh, start.figures)))
 
     @property

@@ -42,7 +42,7 @@ class History:
         self.records: list[RunRecord] = []
         self._limit = limit
         self._bytes = 0
-        self._positions: list[tuple[RunRecord, int, int]] = []  # run, iteration, increasing stamp; in order of adding
+        self._positions: list[tuple[RunRecord, int, int]] = []  # run, iteration, increasing stamp; by run
         self._stamp = 0
         self._lock = threading.Lock()
         self._moments: WeakKeyDictionary[State, RecordedIteration] = WeakKeyDictionary()
@@ -95,7 +95,7 @@ class History:
             if offsets is not None:
                 record._offsets[iteration.number] = offsets
                 self._stamp += 1
-                self._positions.append((record, iteration.number, self._stamp))
+                self._positions.insert(self._end_of(record), (record, iteration.number, self._stamp))
                 self._bytes += offsets.nbytes
                 self._thin()
             record.rows.append(row)  # last, so that the positions of every row are there
@@ -202,7 +202,9 @@ class History:
             if state is not None and state.mesh.points is points and _same_pins_and_tags(state.mesh, mesh):
                 break
         else:
-            state = State.of(mesh.with_points(points))
+            mesh = mesh.with_points(points)
+            surface = mesh.points if record.holds_times else record.start.mesh.surface_points
+            state = State.of(mesh if mesh.surface_points is surface else mesh.moving_from(surface))
         self._moments[state] = RecordedIteration(record, number)
         return state
 
@@ -210,6 +212,11 @@ class History:
         """Return the smallest slot that no run uses."""
         used = {record.slot for record in self.records}
         return next(slot for slot in range(len(used) + 1) if slot not in used)
+
+    def _end_of(self, record: RunRecord) -> int:
+        """Return the place behind the last position of a record, so that those of a record stay together."""
+        owners = (owner for owner, *_ in reversed(self._positions))
+        return len(self._positions) - next((at for at, owner in enumerate(owners) if owner is record), 0)
 
     def _thin(self) -> None:
         """Drop the positions with the smallest gap-to-age ratio until the limit is met.

@@ -1,8 +1,12 @@
-"""Record of one run: the quality of all iterations, and node positions up to a memory limit."""
+"""Record of one run: the quality of all iterations, and node positions up to a memory limit.
+
+The times of a case, at which a solver has moved the mesh, are recorded in the same way: iterations are times then.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +16,11 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import State
+
+#: Column of the times of a case in the rows of their record: the time as text, or `CONSTANT` for number 0.
+TIME = "time"
+#: Name of the mesh of a case before the first time.
+CONSTANT = "constant"
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +74,8 @@ class RunRecord:
         None for a recipe, whose stages have their own.
     changes : list of (int, Stage)
         Iterations after which the method was switched, and the new stages.
+    case : Path or None
+        The case whose times these are; None for a run, and for times from a session file.
     slot : int
         Number of its colour, from 0, which does not change when other runs are removed.
     plotted : bool
@@ -83,6 +94,7 @@ class RunRecord:
         self.work: Smoother | Recipe | None = None
         self.stop: StoppingCriteria | None = None
         self.changes: list[tuple[int, Stage]] = []
+        self.case: Path | None = None
         self._moved = start.mesh.free  # grows if boundary nodes slide
         self._nodes = np.flatnonzero(self._moved).astype(np.int32)
         self._offsets: dict[int, NodeOffsets] = {}  # by iteration
@@ -91,6 +103,26 @@ class RunRecord:
     def newest(self) -> int:
         """Number of the last iteration."""
         return len(self.rows) - 1
+
+    @property
+    def holds_times(self) -> bool:
+        """True if the iterations are the times of a case."""
+        return bool(self.rows) and TIME in self.rows[0]
+
+    @property
+    def unit(self) -> str:
+        """Noun for the iterations, for `counted`."""
+        return "time" if self.holds_times else "iteration"
+
+    def label(self, number: int) -> str:
+        """Name an iteration: its number, or the time of a case such as "t = 0.002"."""
+        if not self.holds_times:
+            return str(number)
+        return f"t = {self.rows[number][TIME]}" if number else CONSTANT
+
+    def labels(self) -> list[str]:
+        """Name all iterations; an empty list for a run, whose iterations have numbers alone."""
+        return [self.label(number) for number in range(len(self.rows))] if self.holds_times else []
 
     def numbers(self) -> np.ndarray:
         """Return the numbers of the iterations whose positions are recorded, ascending, (k,) int."""
@@ -135,4 +167,6 @@ class RecordedIteration:
     @property
     def name(self) -> str:
         """Name for titles."""
+        if self.record.holds_times:
+            return f"{self.record.name}, {self.record.label(self.number)}"
         return f"{self.record.name} {self.number}" if self.number else f"before {self.record.name}"

@@ -147,7 +147,7 @@ class Timeline(QObject):
 
     def restore(self, data: TimelineData) -> None:
         """Restore the selected run of a session file; the history is restored first."""
-        self._update_runs()
+        self.update_runs()
         if data.record is not None:
             self.record = self.history.records[data.record]
             self.extended.emit()
@@ -157,10 +157,10 @@ class Timeline(QObject):
         if self._smoothing.busy and record is self._smoothing.record:
             return
         self.history.remove(record)
-        self._update_runs()
+        self.update_runs()
 
-    def _update_runs(self) -> None:
-        """Select the newest run if the selected one is gone, and emit the signals of what has changed."""
+    def update_runs(self) -> None:
+        """Select the newest run if the selected one is gone, and tell what has changed in the history."""
         if self.record not in self.history.records:
             self.pause()
             self.record = self.history.records[-1] if self.history.records else None
@@ -202,11 +202,11 @@ class Timeline(QObject):
     def _on_mesh_replaced(self) -> None:
         self.pause()
         self.history.clear()
-        self._update_runs()
+        self.update_runs()
 
     def _on_phase(self) -> None:
         if self._smoothing.phase in (Phase.PREPARING, Phase.RUNNING):
             self.pause()
         if self._smoothing.phase is Phase.PREPARING:
             self.record = self._smoothing.record
-        self._update_runs()
+        self.update_runs()

@@ -116,6 +116,7 @@ class Recovery(QObject):
         """Write the session if it has unsaved data and no run is active; if it is being written, write it again."""
         session = self._session
         active = session.run.busy or session.node_sweep.sweep is not None or session.opener.busy
+        active = active or session.time_reader.busy
         if not (self.watching and self._changed and self._has_unsaved_data) or active:
             return
         if self._task is not None:
@@ -156,7 +157,7 @@ class Recovery(QObject):
         """True if the session contains anything that the file of its mesh does not."""
         session = self._session
         work = (
-            session.history.records
+            any(not record.holds_times for record in session.history.records)
             or session.recipe_draft.stages
             or session.comparison.results
             or session.snapshots.all

@@ -25,6 +25,7 @@ from hexmend_app.state.tasks.mesh_checker import MeshChecker
 from hexmend_app.state.tasks.mesh_opener import MeshOpener
 from hexmend_app.state.tasks.node_step_task import NodeStepTask
 from hexmend_app.state.tasks.structure_finder import StructureFinder
+from hexmend_app.state.tasks.time_reader import TimeReader
 from hexmend_app.state.view.camera_request import CameraRequest
 from hexmend_app.state.view.saved_cameras import SavedCameras
 from hexmend_app.state.view.side_views import SideViews
@@ -68,6 +69,7 @@ class SessionParts(QObject):
     comparison_bases : ComparisonBases
     camera_request : CameraRequest
     opener : MeshOpener
+    time_reader : TimeReader
     structure_finder : StructureFinder
     boundary_classifier : BoundaryClassifier
     node_step_task : NodeStepTask
@@ -103,6 +105,8 @@ class SessionParts(QObject):
         self.comparison_bases = ComparisonBases(document, self.history)
         self.camera_request = CameraRequest(self)
         self.opener = MeshOpener(document, self)
+        self.time_reader = TimeReader(document, self.timeline, self)
+        self.opener.mesh_read.connect(self.time_reader.read)
         self.structure_finder = StructureFinder(document, self)
         self.boundary_classifier = BoundaryClassifier(document, self)
         self.node_step_task = NodeStepTask(self)

@@ -82,6 +82,8 @@ class MeshOpener(QObject):
     -------
     began(Path)
     progressed(LoadProgress)
+    mesh_read(Path)
+        A mesh was read from a file of its own, rather than from a session, and opened in the document.
     loaded(SessionData, Path or None)
         A session was read, and is to be restored before `ended`. The path is None for a session that is recovered
         after a crash.
@@ -99,6 +101,7 @@ class MeshOpener(QObject):
 
     began = Signal(object)
     progressed = Signal(object)
+    mesh_read = Signal(object)
     loaded = Signal(object, object)
     restored = Signal(object)
     mesh_missing = Signal(object)
@@ -169,9 +172,11 @@ class MeshOpener(QObject):
                 return
             if isinstance(result, State):
                 self._document.replace(result, self._path)
+                self.mesh_read.emit(self._path)
             elif isinstance(result, RestoredPicture):
                 self._path = result.path
                 self._document.replace(result.state, result.path)
+                self.mesh_read.emit(result.path)
                 self.restored.emit(result)
             else:
                 self._task = task  # busy until it is restored: signals emitted meanwhile are no changes by the user

@@ -59,6 +59,18 @@ def test_a_sliding_boundary_is_recorded_at_every_iteration():
         np.testing.assert_allclose(state.mesh.points, iteration.points, rtol=0, atol=1e-6)
 
 
+def test_the_limit_holds_for_runs_that_are_recorded_at_the_same_time():
+    history = History(6 * FREE)
+    first, _, _ = recorded(history, 0)
+    second, _, _ = recorded(history, 0)
+    for iteration in iterate(MESH, "local-sd", StoppingCriteria(max_iterations=20, tolerance=0)):
+        for record in (first, second):
+            history.add(record, iteration)
+            assert history.bytes <= history.limit
+    for record in (first, second):
+        assert {0, 20} <= set(history.recorded_numbers(record).tolist())
+
+
 def test_a_result_is_exact():
     history = History()
     record, run, _ = recorded(history)

@@ -94,7 +94,7 @@ def times(path: Path) -> list[tuple[float, Path]]:
     Parameters
     ----------
     path : Path
-        As of `find_case`.
+        As of `find_case`; of a region, its own points are listed.
 
     Returns
     -------
@@ -104,9 +104,11 @@ def times(path: Path) -> list[tuple[float, Path]]:
     files = find_case(Path(path))
     if files is None:
         return []
+    constant = files.root / "constant"
+    mesh = files.mesh.relative_to(constant) if files.mesh.is_relative_to(constant) else Path("polyMesh")
     found = []
     for folder in files.root.iterdir():
-        points = existing_part(folder / "polyMesh", "points") if is_time(folder.name) else None
+        points = existing_part(folder / mesh, "points") if is_time(folder.name) else None
         if points is not None:
             found.append((float(folder.name), points))
     return sorted(found)

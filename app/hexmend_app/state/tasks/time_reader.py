@@ -1,0 +1,123 @@
+"""Reading of the times of an OpenFOAM case in the background: the moved meshes become iterations of a record."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+
+from hexmend.errors import FileError
+from hexmend.io.formats.openfoam import find_case
+from hexmend.iteration import Iteration
+from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.run_record import RunRecord
+from hexmend_app.state.run.case_times import begin_times, case_times
+from hexmend_app.state.run.timeline import Timeline
+from hexmend_app.state.tasks.task import Task, drop
+
+
+def _read(path: Path, state: State, task: Task) -> None:
+    """Report each time of a case, an Iteration, or the FileError for which it is left out."""
+    try:
+        for read in case_times(path, state):
+            if task.cancelled.is_set():
+                return
+            task.report(read)
+    except Exception as error:  # of any kind, such as a folder that must not be read: the open mesh is of use without
+        raise FileError(path, f"its times cannot be read ({type(error).__name__}: {error})") from error
+
+
+class TimeReader(QObject):
+    """Records the times of a case whose mesh was opened, at which its points are stored.
+
+    The mesh in constant is number 0. Node positions are stored within the memory limit of the history.
+
+    Parameters
+    ----------
+    document : Document
+    timeline : Timeline
+
+    Attributes
+    ----------
+    errors : tuple of FileError
+        Reasons why times are left out, once all have been read.
+
+    Signals
+    -------
+    progressed
+        Another time was read.
+    ended
+        All times were read, or the reading was cancelled.
+    """
+
+    progressed = Signal()
+    ended = Signal()
+
+    def __init__(self, document: Document, timeline: Timeline, parent: QObject | None = None):
+        super().__init__(parent)
+        self._document, self._timeline, self._history = document, timeline, timeline.history
+        self._path = Path()
+        self._state: State | None = None  # of the mesh in constant
+        self._record: RunRecord | None = None
+        self._found: list[FileError] = []
+        self.errors: tuple[FileError, ...] = ()
+        self._task: Task | None = None
+        document.mesh_replaced.connect(self.close)
+
+    @property
+    def last_time(self) -> str:
+        """Name of the time that was read last; "" if none is being read."""
+        return "" if self._record is None else self._record.label(self._record.newest)
+
+    @property
+    def busy(self) -> bool:
+        """True while times are being read."""
+        return self._task is not None
+
+    def read(self, path: Path) -> None:
+        """Start reading the times of a case; nothing happens for other files.
+
+        Parameters
+        ----------
+        path : Path
+            File or folder of the open mesh, which shows the state as read.
+        """
+        self.close()
+        if find_case(path) is None:
+            return
+        self._path, self._state, self._found = path, self._document.now, []
+        self._task = Task(f"reading the times of {path.name}", partial(_read, path, self._state), yields=True)
+        self._task.reported.connect(self._add)
+        self._task.ended.connect(self._finish)
+        self._task.start()
+
+    def close(self) -> None:
+        """Drop what is being read: the window closes, or another mesh is open."""
+        drop(self._task)
+        self._task = self._state = self._record = None
+        self.errors = ()
+
+    def cancel(self) -> None:
+        """End the reading, and keep the times that were read."""
+        if self.busy:
+            self.close()
+            self.errors = tuple(self._found)
+            self.ended.emit()
+
+    def _add(self, read: Iteration | FileError) -> None:
+        if isinstance(read, FileError):
+            self._found.append(read)
+            return
+        if self._record is None:
+            self._record = begin_times(self._history, self._state, self._path)
+        self._history.add(self._record, read)
+        self._timeline.update_runs()
+        self.progressed.emit()
+
+    def _finish(self) -> None:
+        if self._task.error is not None:
+            self._found.append(self._task.error)
+        self._task = self._state = self._record = None
+        self.errors = tuple(self._found)
+        self.ended.emit()
