@@ -173,13 +173,20 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
         try:
             return replace_coordinates(path, mesh, original, format_of(original.path))
         except CoordinatesError as error:
-            reason = (f"The file is written anew: {error}.",)
+            reason = (_anew(str(error)),)
         except ChangedFileError as error:
             if is_same_file(path, original.path):
                 raise
-            reason = (f"The file is written anew: {error.path.name} {error.problem}.",)
+            reason = (_anew(f"{error.path.name} {error.problem}"),)
+    elif original is not None and not original.path.exists() and path.suffix == original.path.suffix:
+        reason = (_anew(f"{original.path.name} does not exist any more"),)
     _write_anew(path, mesh, None, writable_format(path, original and original.path))
     return Written(False, reason)
+
+
+def _anew(reason: str) -> str:
+    """Sentences for a file that was written anew although it has the format of the original."""
+    return f"The file is written anew: {reason}. What it held beside the mesh, such as comments, is lost."
 
 
 def writer_for(

@@ -14,6 +14,7 @@ from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.original import difference
 from hexmend.io.coordinates.replacement import ChangedFileError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, fields_of_words
+from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.io.kept import assert_same, with_everything
 
 FILES = Path(__file__).parents[1] / "files"
@@ -118,12 +119,27 @@ def test_a_file_that_has_changed_meanwhile_is_written_anew_elsewhere_and_never_o
     assert source.read_bytes() == data
 
 
-def test_a_file_that_is_gone_is_written_anew(tmp_path):
+def test_a_file_that_is_gone_is_written_anew_and_it_is_said(tmp_path):
     source = tmp_path / "a.inp"
     io.write(source, with_everything())
     given = io.read(source)
     source.unlink()
-    assert not write_as_given(tmp_path / "b.inp", given, Original(source, given)).replaced
+    written = write_as_given(tmp_path / "b.inp", given, Original(source, given))
+    assert not written.replaced
+    assert "a.inp does not exist any more" in written.notes[0]
+    assert "such as comments, is lost" in written.notes[0]
+    assert write_as_given(tmp_path / "b.vtu", given, Original(source, given)).notes == ()
+
+
+def test_nodes_that_were_put_between_their_neighbours_are_no_change_of_the_file(tmp_path):
+    source = tmp_path / "a.inp"
+    io.write(source, hx.Mesh(UNIT_CUBE, [np.arange(8)]))
+    text = source.read_text().replace("1, 0.0, 0.0, 0.0", "1, nan, 0.0, 0.0")
+    assert "nan" in text
+    source.write_text(text)
+    given = io.read(source, interpolate_missing=True)
+    assert write_as_given(source, given, Original(source, given)).replaced
+    np.testing.assert_array_equal(io.read(source).points, given.points)
 
 
 @pytest.mark.parametrize(

@@ -157,7 +157,9 @@ def node_fields(data: bytes, begin: int, end: int) -> TextFields:
     inner = ~absent[:, :2] & (count[:, None] > np.arange(1, 3))
     widths = (high - low)[:, :2][inner]
     aligned = len(start) > 1 and not absent.any() and widths.size > 0 and bool((widths == widths[0]).all())
-    return TextFields(begins + begin, ends + begin, begins - low, absent, aligned)
+    aligned &= not (letters == ord("\t")).any()
+    space = begins - low if aligned else np.zeros_like(low)  # else the blanks stay, which may be tabs
+    return TextFields(begins + begin, ends + begin, space, absent, aligned)
 
 
 def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

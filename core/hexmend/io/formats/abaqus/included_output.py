@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+from collections.abc import Collection
+from itertools import count
 from pathlib import Path, PurePosixPath
 
 import numpy as np
 
+from hexmend.errors import HexmendError
 from hexmend.io.coordinates.edits import Edits, write_edited
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import is_same_file
 from hexmend.io.formats.abaqus.deck import Deck
-from hexmend.io.formats.abaqus.deck_file import DeckFile
+from hexmend.io.formats.abaqus.deck_file import DeckFile, Reference
+from hexmend.io.formats.abaqus.includes import read_deck
 from hexmend.io.storage.atomic import atomic_write
 
 
@@ -48,20 +53,23 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path) -> tuple[str
         _write(file, root, own.get(root, _none()))
         changed = sorted(one.path.name for one in own if one is not root)
         return (f"Coordinates are replaced in {', '.join(changed)} too.",) if changed else ()
-    notes, renamed = [], {}
+    renamed = _new_names(root, own, target)
+    notes = []
     for one in reversed(list(root.walk())[1:]):  # included files before those that include them
-        part = own.get(one, _none())
-        part = _with_names(part, [(child.reference, renamed[child]) for child in one.included if child in renamed])
-        if len(part):
-            renamed[one] = _renamed(one, target)
+        if one in renamed:
+            part = _with_names(own.get(one, _none()), _references(one, renamed))
             with atomic_write(_place(target, renamed[one])) as copy:
                 _write(copy, one, part)
             notes.append(f"{one.reference.name} is written as {renamed[one]}.")
         else:
-            notes += _copied(one, root, target)
-    part = own.get(root, _none())
-    _write(file, root, _with_names(part, [(one.reference, renamed[one]) for one in root.included if one in renamed]))
+            notes += _copied(one, renamed, root, target)
+    _write(file, root, _with_names(own.get(root, _none()), _references(root, renamed)))
     return tuple(reversed(notes))
+
+
+def _references(file: DeckFile, renamed: dict[DeckFile, str]) -> list[tuple[Reference, str]]:
+    """Places in a file that name files with another name in the copy, and these names."""
+    return [(one.reference, renamed[one]) for one in file.included if one in renamed]
 
 
 def _none() -> Edits:
@@ -96,7 +104,7 @@ def _merged(parts: list[Edits]) -> Edits:
     return Edits(*(values[order] for values in arrays), b"".join(lines[k] + b"\n" for k in order.tolist()))
 
 
-def _with_names(edits: Edits, names: list[tuple[object, str]]) -> Edits:
+def _with_names(edits: Edits, names: list[tuple[Reference, str]]) -> Edits:
     """Edits and the new names of included files."""
     parts = [edits]
     for reference, name in names:
@@ -106,10 +114,39 @@ def _with_names(edits: Edits, names: list[tuple[object, str]]) -> Edits:
     return _merged(parts)
 
 
-def _renamed(file: DeckFile, target: Path) -> str:
-    """Name of the copy of an included file: that of the new deck is appended; a file elsewhere comes next to it."""
+def _new_names(root: DeckFile, own: Collection[DeckFile], target: Path) -> dict[DeckFile, str]:
+    """Names of the copies of included files with moved nodes, and of files that include them.
+
+    No other file has the name, save one that the deck at the target includes, which these copies replace.
+    """
+    given = {one.path.resolve() for one in root.walk()}
+    free, renamed = _included_by(target) - given, {}
+    taken = {target.resolve()}
+    for one in list(root.walk())[1:]:
+        if not any(file in own for file in one.walk()):
+            continue
+        for number in count(1):
+            name = _renamed(one, f"-{target.stem}" if number == 1 else f"-{target.stem}-{number}")
+            path = (target.parent / name).resolve()
+            if path not in taken and (path in free or not os.path.lexists(path)):
+                break
+        taken.add(path)
+        renamed[one] = name
+    return renamed
+
+
+def _included_by(target: Path) -> set[Path]:
+    """Files that a deck includes that is to be replaced; none for another file."""
+    try:
+        return {one.path.resolve() for piece in read_deck(target).pieces[:1] for one in list(piece.file.walk())[1:]}
+    except (HexmendError, OSError):
+        return set()
+
+
+def _renamed(file: DeckFile, suffix: str) -> str:
+    """Name of the copy of an included file, with letters behind its own; a file elsewhere comes next to the deck."""
     name = PurePosixPath(file.reference.name.replace("\\", "/"))
-    name = name.with_name(f"{name.stem}-{target.stem}{name.suffix}")
+    name = name.with_name(f"{name.stem}{suffix}{name.suffix}")
     return name.name if name.is_absolute() or ".." in name.parts else str(name)
 
 
@@ -120,13 +157,15 @@ def _place(target: Path, name: str) -> Path:
     return path
 
 
-def _copied(file: DeckFile, root: DeckFile, target: Path) -> list[str]:
+def _copied(file: DeckFile, renamed: dict[DeckFile, str], root: DeckFile, target: Path) -> list[str]:
     """Copy an included file that stays as it is to where the new deck looks for it; returns notes."""
-    name = Path(file.reference.name)
-    if name.is_absolute() or is_same_file(root.path.parent, target.parent):
+    name, parent = Path(file.reference.name), file.reference.parent
+    folder = Path(renamed.get(parent, parent.reference.name if parent.reference else "")).parent
+    if name.is_absolute():
         return []
-    if ".." in name.parts or (target.parent / name).exists():
-        same = is_same_file(file.path, target.parent / name)
+    found = next((path for at in ("", folder) if (path := target.parent / at / name).is_file()), None)
+    if found is not None or ".." in name.parts:
+        same = found is not None and (is_same_file(file.path, found) or found.read_bytes() == file.data)
         return [] if same else [f"The new deck includes {name}, which was not copied: check that it is the right file."]
     shutil.copyfile(file.path, _place(target, str(name)))
     return [f"{name} is copied next to the new deck."]

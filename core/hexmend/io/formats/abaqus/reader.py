@@ -80,7 +80,7 @@ class _Reader:
         if self.other_cards:
             names = ", ".join(f"*{quoted(name)[1:-1]}" for name in list(self.other_cards)[:6])
             more = "" if len(self.other_cards) <= 6 else f" and {len(self.other_cards) - 6} others"
-            notes.append(f"Keywords that define no mesh ({names}{more}) are left out.")
+            notes.append(f"Keywords that define no mesh ({names}{more}) are not read.")
         instances = self.instances or [Instance(part.name, part) for part in self.parts.values()]
         unused = sum(all(instance.part is not part for instance in instances) for part in self.parts.values())
         if unused:

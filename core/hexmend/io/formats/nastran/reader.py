@@ -168,7 +168,7 @@ class BulkModel:
             notes.append(f"{partial}: they are read with their corners only.")
         if self.other_cards:
             words = ", ".join(f"{count:,} {quoted(name)[1:-1]}" for name, count in list(self.other_cards.items())[:6])
-            notes.append(f"Other cards ({words}{', ...' if len(self.other_cards) > 6 else ''}) are left out.")
+            notes.append(f"Other cards ({words}{', ...' if len(self.other_cards) > 6 else ''}) are not read.")
         blocks = [_block(self.bulk.path, kind, rows.array(), node_ids) for kind, rows in self.elements.items()]
         blocks.sort(key=lambda block: (block.kind not in HEX_KINDS, HEX_KINDS.get(block.kind, 0)))
         return Content(self.points.array(), tuple(blocks), {ID: node_ids}, notes=tuple(notes))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -45,6 +46,8 @@ class CaseCoordinates:
                 make_folder(root.parent)
                 with temporary_folder(root) as temporary:
                     copy_case(self.files, temporary, content)
+                    if target.is_file():  # the .foam file, alone in the folder, which has to be empty now
+                        os.replace(target, temporary / target.name)
                 left = results(self.files.root)
                 named = ", ".join([*left[:4], *(["..."] if len(left) > 4 else [])])
                 notes = (f"The results of the case ({named}) are not copied.",) if left else ()

@@ -149,3 +149,11 @@ def test_instances_that_move_alike_are_replaced_in_their_part_and_others_are_wri
 def test_coordinates_are_located_as_they_are_read(real_mesh):
     path = real_mesh("bunny_projected.inp")
     np.testing.assert_array_equal(locate(path).points, io.read(path).points)
+
+
+def test_tabs_around_coordinates_stay(tmp_path):
+    rows = "".join(f"\t{k},\t{x:.1f}\t,\t{y:.1f},\t{z:.1f}\t\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 1))
+    mesh = read(tmp_path / "in.inp", "*NODE\n" + rows + TAIL)
+    new = replaced(tmp_path / "in.inp", mesh, mesh.points + 0.25).decode()
+    expected = rows.replace("0.0", "0.25").replace("1.0", "1.25")
+    assert new == "*NODE\n" + expected + TAIL

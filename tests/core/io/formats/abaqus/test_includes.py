@@ -89,6 +89,47 @@ def test_moved_nodes_of_the_deck_leave_its_files_alone(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {"in.inp", "out.inp", "material.inp"}
 
 
+def test_copies_of_files_of_one_name_have_names_of_their_own(tmp_path):
+    for name, part in (("a", NODES.splitlines()[:3]), ("b", NODES.splitlines()[3:])):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "nodes.inp").write_text("\n".join(part) + "\n")
+    (tmp_path / "given").mkdir()
+    deck = tmp_path / "given/in.inp"
+    deck.write_text("*NODE, INPUT=../a/nodes.inp\n*NODE, INPUT=../b/nodes.inp\n" + HEX)
+    given, mesh = moved(deck)
+    assert write_as_given(tmp_path / "given/out.inp", mesh, Original(deck, given)).replaced
+    np.testing.assert_array_equal(io.read(tmp_path / "given/out.inp").points, mesh.points)
+    assert len(list((tmp_path / "given").iterdir())) == 4
+
+
+@pytest.mark.parametrize("included", [True, False])
+def test_a_copy_never_takes_the_name_of_another_file(included, tmp_path):
+    (tmp_path / "nodes.inp").write_text("*NODE\n" + NODES)
+    (tmp_path / "nodes-2.inp").write_text(HEX)
+    more = "*INCLUDE, INPUT=nodes-2.inp\n" if included else HEX
+    (tmp_path / "in.inp").write_text("*INCLUDE, INPUT=nodes.inp\n" + more)
+    given, mesh = moved(tmp_path / "in.inp")
+    for _ in range(2):  # the second time, the new deck's own copy is replaced
+        assert write_as_given(tmp_path / "2.inp", mesh, Original(tmp_path / "in.inp", given)).replaced
+        np.testing.assert_array_equal(io.read(tmp_path / "2.inp").points, mesh.points)
+        assert (tmp_path / "nodes-2.inp").read_text() == HEX
+        assert len(list(tmp_path.iterdir())) == 5
+
+
+def test_files_that_a_file_of_another_folder_includes_come_with_its_copy(tmp_path):
+    for name, text in (("lib/all.inp", "*INCLUDE, INPUT=hex.inp\n*NODE\n" + NODES), ("lib/hex.inp", HEX)):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+    (tmp_path / "given").mkdir()
+    deck, target = tmp_path / "given/in.inp", tmp_path / "given/out.inp"
+    deck.write_text("*INCLUDE, INPUT=../lib/all.inp\n")
+    given, mesh = moved(deck)
+    assert "hex.inp is copied next to the new deck." in write_as_given(target, mesh, Original(deck, given)).notes
+    np.testing.assert_array_equal(io.read(target).points, mesh.points)
+    again = write_as_given(target, mesh, Original(deck, given))
+    assert again.notes == ("../lib/all.inp is written as all-out.inp.",)  # hex.inp is there, and the same
+
+
 def test_errors_name_the_file_and_the_line(tmp_path):
     (tmp_path / "in.inp").write_text("** one\n*INCLUDE, INPUT=a.inp\n")
     for text, words in (
