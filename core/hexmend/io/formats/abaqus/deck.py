@@ -128,7 +128,8 @@ class Deck:
         breaks = np.frombuffer(b"\n" + bare, np.uint8) == ord("\n")
         lines = int(np.count_nonzero(breaks[:-1] & ~breaks[1:]))
         values = None
-        if width >= 4 and not bare.startswith(b",") and not any(mark in bare for mark in _IRREGULAR):
+        regular = not bare.startswith(b",") and not any(mark in bare for mark in _IRREGULAR)
+        if width >= 4 and regular and _has_even_lines(bare):
             values = self.numbers(card, "*NODE", np.float64)
         if values is not None and values.size == lines * width:
             rows = values.reshape(lines, width)[:, :4]
@@ -154,6 +155,14 @@ class Deck:
             return float(field.upper().replace("D", "E")) if field else 0.0
         except ValueError:
             raise self.error(f"*NODE holds {quoted(field)}: expected a number") from None
+
+
+def _has_even_lines(text: bytes) -> bool:
+    """Return True if all lines that are not empty have the same number of commas."""
+    letters = np.frombuffer(b"\n" + text, np.uint8)
+    starts = np.flatnonzero(letters == ord("\n"))
+    commas = np.add.reduceat(letters == ord(","), starts, dtype=np.int64)[np.diff(starts, append=len(letters)) > 1]
+    return bool((commas == commas[:1]).all())
 
 
 def _split_keyword(head: str) -> tuple[str, dict[str, str]]:

@@ -157,3 +157,11 @@ def test_tabs_around_coordinates_stay(tmp_path):
     new = replaced(tmp_path / "in.inp", mesh, mesh.points + 0.25).decode()
     expected = rows.replace("0.0", "0.25").replace("1.0", "1.25")
     assert new == "*NODE\n" + expected + TAIL
+
+
+def test_lines_with_more_and_fewer_fields_are_read_by_themselves(tmp_path):
+    rows = [f"{k}, {x:.1f}, {y:.1f}, {z:.1f}" for k, (x, y, z) in enumerate(UNIT_CUBE, 1)]
+    rows[1:4] = ["2, 1.0, 0.0, 0.0, 55.", "3, 1.0, 1.0", rows[3]]
+    mesh = read(tmp_path / "in.inp", "*NODE\n" + "\n".join(rows) + "\n" + TAIL)
+    np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
+    replaced(tmp_path / "in.inp", mesh, mesh.points + 0.25)
