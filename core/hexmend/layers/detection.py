@@ -10,11 +10,14 @@ from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.components import components_of_cells
 from hexmend.quality import ElementQuality, measure
+from hexmend.quality.measure import corner_determinants
 from hexmend.target.edge_lengths import given_lengths
 from hexmend.target.sheets import DISTORTED, recovered_lengths
 
 #: Lateral length over height of a wall's first hex from which on it is thin, and for one beside thin ones.
 THIN, RATHER_THIN = 3.0, 1.5
+#: Longest side of a wall's face over the height that volumes tell, from which on its hex may be thin.
+THIN_IN_VOLUME = 2.9
 #: Least number of layers; that of very thin ones, and how thin these are.
 MIN_LAYERS, MIN_VERY_THIN_LAYERS, VERY_THIN = 5, 3, 10.0
 #: Least mean ratio of successive heights, and greatest mean change of its logarithm from layer to layer.
@@ -76,7 +79,34 @@ def _may_be_thin(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray
     height = squares.min(axis=2)[rows, faces // 2]
     longest = squares.max(axis=2)
     longest[rows, faces // 2] = 0
-    return height * THIN**2 < longest.max(axis=1)
+    thin = height * THIN**2 < longest.max(axis=1)
+    if np.count_nonzero(thin) < MIN_FACES:
+        return thin
+    thin &= _thin_in_volume(mesh, hexes, faces)
+    return thin & _in_large_groups(mesh.hexes[hexes[:, None], FACES[faces]], thin, mesh.n_nodes)
+
+
+def _in_large_groups(quads: np.ndarray, marked: np.ndarray, n: int) -> np.ndarray:
+    """Mark those of the marked faces (k,) bool that are connected with enough others for a wall, (k,) bool."""
+    group = components_of_cells(n, quads[marked])
+    large = np.zeros(len(quads), dtype=bool)
+    large[marked] = np.bincount(group, minlength=1)[group] >= MIN_FACES
+    return large
+
+
+def _thin_in_volume(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Mark faces whose hexes, with those around them, have small volumes for the faces, (k,) bool.
+
+    Single edges of a scrambled mesh may be short anywhere; the volume over several faces tells a layer from that.
+    """
+    sigma = corner_determinants(mesh.points, mesh.hexes, hexes).mean(axis=1)
+    quads = mesh.hexes[hexes[:, None], FACES[faces]]
+    x = mesh.points[quads]
+    area = np.linalg.norm(np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]), axis=1) / 2
+    side = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
+    nodes = quads.ravel()
+    volume, areas = (np.bincount(nodes, np.repeat(of, 4), mesh.n_nodes) for of in (sigma, area))
+    return volume[quads].sum(axis=1) * THIN_IN_VOLUME < side * areas[quads].sum(axis=1)
 
 
 def _lengths(mesh: Mesh, quality: ElementQuality | None) -> Lengths:
