@@ -18,6 +18,8 @@ from hexmend.target.sheets import DISTORTED, recovered_lengths
 THIN, RATHER_THIN = 3.0, 1.5
 #: Longest side of a wall's face over the height that volumes tell, from which on its hex may be thin.
 THIN_IN_VOLUME = 2.9
+#: In a distorted mesh, walls with a smaller share of the boundary faces are not looked for: 1 over this.
+MAX_WALLS_DISTORTED = 300
 #: Least number of layers; that of very thin ones, and how thin these are.
 MIN_LAYERS, MIN_VERY_THIN_LAYERS, VERY_THIN = 5, 3, 10.0
 #: Least mean ratio of successive heights, and greatest mean change of its logarithm from layer to layer.
@@ -53,10 +55,12 @@ def find_layers(mesh: Mesh, quality: ElementQuality | None = None) -> Layers:
     """
     neighbours = mesh.topology.face_neighbours
     hexes, faces = np.nonzero(neighbours < 0)
-    thin = _may_be_thin(mesh, hexes, faces)
+    quality = quality or measure(mesh.points, mesh.hexes)
+    distorted = bool((quality.scaled_jacobian < DISTORTED).any())
+    thin = _may_be_thin(mesh, hexes, faces, distorted)
     if np.count_nonzero(thin) < MIN_FACES:
         return Layers()
-    lengths = _lengths(mesh, quality)
+    lengths = _lengths(mesh, quality, distorted)
     first = lengths(hexes)
     height = first[np.arange(len(hexes)), faces // 2]
     aspect = lateral_lengths(first, faces, neighbours[hexes]) / height
@@ -70,7 +74,7 @@ def find_layers(mesh: Mesh, quality: ElementQuality | None = None) -> Layers:
     return _walls(mesh, columns.rows(stacked).separated(mesh.n_hexes), aspect[stacked] >= THIN)
 
 
-def _may_be_thin(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:
+def _may_be_thin(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray, distorted: bool) -> np.ndarray:
     """Mark faces on which the shortest edge of the height is short against the longest beside it, (k,) bool."""
     ends = mesh.hexes[hexes][:, EDGES]
     along = mesh.points[ends[..., 1]] - mesh.points[ends[..., 0]]
@@ -83,14 +87,15 @@ def _may_be_thin(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray
     if np.count_nonzero(thin) < MIN_FACES:
         return thin
     thin &= _thin_in_volume(mesh, hexes, faces)
-    return thin & _in_large_groups(mesh.hexes[hexes[:, None], FACES[faces]], thin, mesh.n_nodes)
+    least = max(MIN_FACES, len(faces) // MAX_WALLS_DISTORTED if distorted else 0)
+    return thin & _in_large_groups(mesh.hexes[hexes[:, None], FACES[faces]], thin, mesh.n_nodes, least)
 
 
-def _in_large_groups(quads: np.ndarray, marked: np.ndarray, n: int) -> np.ndarray:
-    """Mark those of the marked faces (k,) bool that are connected with enough others for a wall, (k,) bool."""
+def _in_large_groups(quads: np.ndarray, marked: np.ndarray, n: int, least: int) -> np.ndarray:
+    """Mark those of the marked faces (k,) bool that are connected with at least `least` of them, (k,) bool."""
     group = components_of_cells(n, quads[marked])
     large = np.zeros(len(quads), dtype=bool)
-    large[marked] = np.bincount(group, minlength=1)[group] >= MIN_FACES
+    large[marked] = np.bincount(group, minlength=1)[group] >= least
     return large
 
 
@@ -109,10 +114,9 @@ def _thin_in_volume(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndar
     return volume[quads].sum(axis=1) * THIN_IN_VOLUME < side * areas[quads].sum(axis=1)
 
 
-def _lengths(mesh: Mesh, quality: ElementQuality | None) -> Lengths:
+def _lengths(mesh: Mesh, quality: ElementQuality, distorted: bool) -> Lengths:
     """Lengths of some hexes; of a distorted mesh they are recovered."""
-    quality = quality or measure(mesh.points, mesh.hexes)
-    if not (quality.scaled_jacobian < DISTORTED).any():
+    if not distorted:
         return lambda which: given_lengths(mesh, which)
     lengths = recovered_lengths(mesh, quality)
     return lambda which: lengths[which]
