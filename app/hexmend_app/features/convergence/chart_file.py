@@ -12,9 +12,8 @@ from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend.report.documents import write_csv
 from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, Chart
-from hexmend_app.features.convergence.curves import Columns, Curve, colour_of, run_start
+from hexmend_app.features.convergence.curves import Columns, Curve, axis_title, colour_of, run_start
 from hexmend_app.state.mesh.run_record import RunRecord
-from hexmend_app.translation import tr
 
 #: Suffixes of the files that can be written.
 SUFFIXES = (*FIGURE_SUFFIXES, ".csv")
@@ -80,7 +79,7 @@ def figure(
     """Return the charts as a figure; see `write_convergence` for the parameters."""
     curves = [_curve(run, from_zero, run is current) for run in runs if run.plotted and run.rows]
     drawn = [_drawn(CHARTS[key], curves, by_time, log) for key in charts]
-    return Convergence(drawn, title, tr("seconds in the method") if by_time else "iteration", not by_time)
+    return Convergence(drawn, title, axis_title(curves, by_time), not by_time)
 
 
 def _curve(run: RunRecord, from_zero: bool, current: bool) -> Curve:

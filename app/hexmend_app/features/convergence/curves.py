@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +11,7 @@ from hexmend.iteration.figures import objective_changes
 from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.palette import BLUE, KEPT, Role
+from hexmend_app.translation import tr
 
 #: Colours of runs, by slot modulo their number.
 RUN_COLOURS = (BLUE, *KEPT)
@@ -121,6 +122,14 @@ class Curve:
 def colour_of(curve: Curve) -> Role:
     """Return the colour of a run."""
     return RUN_COLOURS[curve.slot % len(RUN_COLOURS)]
+
+
+def axis_title(curves: Sequence[Curve], by_time: bool) -> str:
+    """Return the title of the axis: seconds of the times of a case are not those of a method."""
+    times = [curve.record.holds_times for curve in curves if curve.shown]
+    if times and all(times):
+        return tr("time of the case in seconds") if by_time else tr("number of the time")
+    return tr("seconds in the method") if by_time else "iteration"
 
 
 def run_start(record: RunRecord) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QBoxLayout, QToolTip, QVBoxLayout, QWidget
 
 from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
-from hexmend_app.features.convergence.curves import Curve
+from hexmend_app.features.convergence.curves import Curve, axis_title
 from hexmend_app.features.convergence.head import ConvergenceHead
 from hexmend_app.features.convergence.point_texts import describe
 from hexmend_app.features.convergence.run_legend import RunLegend
@@ -166,14 +166,14 @@ class ConvergencePanel(QWidget):
         if any(curve.running for curve in self.curves):
             step = 10.0 ** len(f"{high - low:.0f}") / 20
             high = low + step * (1 + (high - low) // step)
-        axis = (low, high, self.by_time)
+        label = axis_title(self.curves, self.by_time)
+        axis = (low, high, label)
         if axis == self._axis:
             return
         self._axis = axis
         margin = 0.012 * (high - low)
         ticks = [(tick, f"{tick:,.6g}") for tick in nice_ticks(low, high, 8) if self.by_time or tick == round(tick)]
         left_width = self.fontMetrics().horizontalAdvance("000,000")
-        label = tr("seconds in the method") if self.by_time else "iteration"
         for plot in self.drawn:
             plot.set_x_range(low - margin, high + margin)
             plot.set_bottom_axis(label if plot is self.drawn[-1] else None, ticks, left_width)

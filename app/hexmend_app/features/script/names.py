@@ -157,6 +157,8 @@ class Names:
             if moment is None or not self.repeats(moment.record):
                 return self.comparisons.row_of(state) is not None
             state = moment.record.start
+            if moment.record.case is not None:  # which may have been opened before the script began
+                self._paths.setdefault(state, moment.record.case)
         return True
 
     def _add_iteration(self, state: State, moment: RecordedIteration) -> None:

@@ -4,6 +4,7 @@ import pytest
 
 from hexmend import io
 from hexmend.io.formats.openfoam.points import replaced_points
+from hexmend_app.features.script.script import Script
 from tests.app.features.script.recording import opened, run, same_again, stage
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
@@ -35,6 +36,15 @@ def test_a_run_from_a_time_is_repeated(boundary, then, session, qtbot, case, tmp
         run(qtbot, session, stage("laplacian", boundary=boundary))
     else:
         session.timeline.go(session.run.record, 3)
+    assert "recorded_times(" in same_again(session, tmp_path)
+
+
+def test_a_script_that_begins_after_the_case_was_opened_reads_it(session, qtbot, case, tmp_path):
+    opened(qtbot, session, case)
+    qtbot.waitUntil(lambda: not session.time_reader.busy, timeout=PATIENCE)
+    session.script = Script(session, session)
+    session.timeline.go(session.timeline.record, 2)
+    run(qtbot, session, stage("laplacian"))
     assert "recorded_times(" in same_again(session, tmp_path)
 
 

@@ -8,6 +8,7 @@ import pytest
 
 from hexmend import io
 from hexmend.io.formats.openfoam import times
+from hexmend.io.formats.openfoam.times import read_times
 from hexmend.mesh.hexahedron import FACES
 from hexmend.quality import summarise
 from hexmend.study.batch.task import content_hash
@@ -231,3 +232,34 @@ def test_a_decomposed_or_foreign_folder_is_refused_with_advice(tmp_path):
     with pytest.raises(io.files.FileError, match="there is no mesh of OpenFOAM beside it"):
         io.read(tmp_path / "cube" / "cube.foam")
     shutil.rmtree(tmp_path / "cube")
+
+
+def test_the_times_of_a_region_are_its_own(tmp_path):
+    write_cube(tmp_path / "cube")
+    (tmp_path / "cube/constant/fluid").mkdir()
+    (tmp_path / "cube/constant/polyMesh").rename(tmp_path / "cube/constant/fluid/polyMesh")
+    for folder in ("1/polyMesh", "2/fluid/polyMesh"):
+        (tmp_path / "cube" / folder).mkdir(parents=True)
+        shutil.copy(tmp_path / "cube/constant/fluid/polyMesh/points", tmp_path / "cube" / folder)
+    region = tmp_path / "cube/constant/fluid/polyMesh"
+    assert [time for time, _ in times(region)] == [2]
+    (read,) = read_times(region, 8)
+    np.testing.assert_array_equal(read.points, CUBE)
+
+
+def test_points_of_a_time_are_those_of_the_same_mesh_or_an_error(tmp_path):
+    mesh = write_cube(tmp_path / "cube")
+    contents = {
+        "1": ascii_list(CUBE),
+        "2": ascii_list(CUBE[:7]),
+        "3": b"8\n((0 0 0)",
+        "4": ascii_list(CUBE).replace(b"(1.0 1.0 1.0)", b"(1.0 1.0 nan)"),
+    }
+    for time, content in contents.items():
+        (tmp_path / "cube" / time / "polyMesh").mkdir(parents=True)
+        (tmp_path / "cube" / time / "polyMesh/points").write_bytes(header("vectorField", "points") + content)
+    read = list(read_times(mesh, 8))
+    assert [time.value for time in read] == [1, 2, 3, 4]
+    assert [time.error is None for time in read] == [True, False, False, False]
+    assert all(str(time.error.problem).startswith(f"t = {time.value:g}: ") for time in read[1:])
+    assert list(read_times(tmp_path / "cube/1", 8)) == []
