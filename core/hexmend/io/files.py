@@ -186,7 +186,7 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
 
 def _anew(reason: str) -> str:
     """Sentences for a file that was written anew although it has the format of the original."""
-    return f"The file is written anew: {reason}. What it held beside the mesh, such as comments, is lost."
+    return f"The file is written anew: {reason}. What it held in addition to the mesh, such as comments, is lost."
 
 
 def writer_for(
