@@ -58,6 +58,20 @@ def test_options_let_interfaces_move(path, words, on_itself, capsys):
     assert after.pinned is None
 
 
+def test_the_message_tells_what_the_nodes_of_interfaces_did(tmp_path, capsys):
+    flat, path = {"between": np.flatnonzero(CUBE.points[:, 0] == 2)}, tmp_path / "flat.vtu"
+    one = {"one": np.flatnonzero((CUBE.points == 2).all(axis=1))}
+    mesh = scrambled(CUBE, 0.2).replace(hex_sets=SETS, node_sets=flat | one)
+    inside = (CUBE.points[:, :1] == 2) & ~CUBE.topology.boundary[:, None]
+    io.write(path, mesh.with_points(np.where(inside, CUBE.points + [0, 0.15, 0.1], mesh.points)))
+    smoothed(path, "--plane", "between")
+    assert "9 of 9 nodes on their interfaces slid along them" in capsys.readouterr().out
+    smoothed(path, "--interfaces", "slide", "--free", "one")
+    assert "nodes on their interfaces moved, 1 of these off them freely" in capsys.readouterr().out
+    smoothed(path, "--free", "one")
+    assert "1 of 9 nodes on their interfaces moved off them freely" in capsys.readouterr().out
+
+
 def test_info_names_the_materials_and_their_interface(path, capsys):
     main(["info", str(path)])
     assert "2 materials; 9 nodes on their interfaces are kept" in capsys.readouterr().out
