@@ -49,6 +49,10 @@ def run(args: argparse.Namespace) -> int:
     smoothing = iterate(with_surface(args, mesh, method), method, limits)
     if smoothing.layers:
         print(f"hexmend: {smoothing.layers_message}", file=sys.stderr)
+    elif args.layers == "keep":
+        print("hexmend: --layers keep has no effect: no boundary layers were found.", file=sys.stderr)
+    if args.interfaces and mesh.materials is None:
+        print(f"hexmend: --interfaces {args.interfaces} has no effect: the mesh has one material.", file=sys.stderr)
     if args.save_recipe:
         write_recipe(args.save_recipe, smoothing.recipe)
     with FinishWriting():
