@@ -141,3 +141,12 @@ def test_a_recipe_tells_of_all_its_stages_whether_they_keep_layers():
     assert Run(stack(), Recipe.of("laplacian", "mend")).layers_message.endswith("are kept in some stages only.")
     assert Run(stack(), Recipe.of("mend", "local-nr")).layers_message.endswith("are kept.")
     assert Run(stack(), Recipe.of("laplacian", "getme")).layers_message.endswith("are not kept.")
+
+
+@pytest.mark.parametrize("method", ["mend", "laplacian"])
+def test_a_tangled_mesh_that_does_not_move_loses_no_layers(method):
+    result = smooth(scrambled_in_layers(stack(), 0.7), method, max_iterations=0)
+    assert "lose" not in result.message
+    assert "layers" not in result.worse
+    (wall,) = result.layers
+    assert wall.after.first_height_mean == pytest.approx(wall.before.first_height_mean)
