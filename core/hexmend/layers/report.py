@@ -52,7 +52,8 @@ class LayerReport:
     faces, layers : int
         Number of the wall's faces and of the layers on most of them.
     before, after : LayerState
-        Where the mesh as given is noisy or tangled, the heights before are those recovered along its dual sheets.
+        Where the mesh as given is noisy or tangled, the heights before, and those of hexes that did not move, are
+        those recovered along its dual sheets.
     change : float
         Mean factor by which first heights differ from those before: 1 where all are kept.
     aimed_at : bool
@@ -117,7 +118,8 @@ def layer_report(
     tuple of LayerReport
         One for each wall.
     """
-    new = given_lengths(after)
+    unmoved = (after.points == before.points).all(axis=1)[after.hexes].all(axis=1)
+    new = np.where(unmoved[:, None], lengths, given_lengths(after))  # a hex that stays as it is loses nothing
     reports = []
     for wall in layers.walls:
         was, now = _state(wall, before, lengths), _state(wall, after, new)

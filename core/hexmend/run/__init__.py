@@ -72,7 +72,10 @@ def iterate(
     smoother, stop = _configured(smoother, stop, settings)
     mesh = _read(mesh)
     if given:
-        rules = mesh.node_rules.rules.merge(MotionRules(**given))
+        rules = mesh.node_rules.rules
+        if isinstance(smoother, Recipe):  # its rules are merged here, so that those that are given replace them
+            rules, smoother = rules.merge(smoother.rules), dataclasses.replace(smoother, rules=MotionRules())
+        rules = rules.merge(MotionRules(**given))
         mesh = with_rules(mesh, dataclasses.replace(rules, interfaces=given.get("interfaces", rules.interfaces)))
     return Run(mesh, smoother, stop)
 

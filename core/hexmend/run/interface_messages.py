@@ -47,21 +47,29 @@ def interface_message(before: Mesh, after: Mesh, volumes: Mapping[str, MaterialV
         return ""
     nodes = _inner_nodes(before)
     displacements = np.linalg.norm(after.points[nodes] - before.points[nodes], axis=1)
-    moved = int(np.count_nonzero(displacements > _ROUNDING * (before.mean_edge_length or 1.0)))
+    has_moved = displacements > _ROUNDING * (before.mean_edge_length or 1.0)
+    moved = int(np.count_nonzero(has_moved))
     many = f"{len(before.materials)} materials"
     if not moved:
         kept = count_phrase(nodes.size, "node on their interfaces was", "nodes on their interfaces were")
         return f"{many}: {kept} kept."
-    motion = (
-        "moved off them freely"
-        if before.interfaces is None or before.node_rules.free is not None
-        else "slid along them"
-    )
+    freely = int(np.count_nonzero(_is_free(before)[nodes[has_moved]]))
+    some = f"moved, {freely:,} of these off them freely" if freely else "slid along them"
+    motion = "moved off them freely" if freely == moved else some
     largest = max((abs(volume.change) for volume in volumes.values()), default=0.0)
     return (
         f"{many}: {moved:,} of {nodes.size:,} nodes on their interfaces {motion}; no material's volume changed by more "
         f"than {100 * largest:.2g} %."
     )
+
+
+def _is_free(mesh: Mesh) -> np.ndarray:
+    """Mark the nodes that no interface holds, (n,) bool: not those that move in their plane, or as one with others."""
+    if mesh.interfaces is None:
+        return np.ones(mesh.n_nodes, dtype=bool)
+    rules, motion = mesh.node_rules, mesh.linear_motion
+    free = np.zeros(mesh.n_nodes, dtype=bool) if rules.free is None else rules.free
+    return free if motion is None else free & ~motion.marks(mesh.n_nodes)
 
 
 def _inner_nodes(mesh: Mesh) -> np.ndarray:

@@ -12,7 +12,7 @@ from hexmend.layers import LayerReport, Layers
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
-from hexmend.mesh.rules.resolution import with_rules
+from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
 from hexmend.quality.material_volumes import MaterialVolume, volume_changes
 from hexmend.run.interface_messages import interface_message
@@ -60,11 +60,11 @@ class Run(Iterator[Iteration]):
 
     def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: StoppingCriteria | None = None):
         if isinstance(smoother, Recipe) and smoother.rules:
-            mesh = with_rules(mesh, mesh.node_rules.rules.merge(smoother.rules))
+            mesh = with_more_rules(mesh, smoother.rules)
         self.smoother = smoother
         self._stages = _stages(smoother, stop)
         if mesh.periodic_pairs and any(stage.smoother.slides for stage in self._stages):
-            mesh = with_rules(mesh, mesh.node_rules.rules.merge(MotionRules(periodic=mesh.periodic_pairs)))
+            mesh = with_more_rules(mesh, MotionRules(periodic=mesh.periodic_pairs))
         self.mesh = mesh
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes)
@@ -266,7 +266,8 @@ class Run(Iterator[Iteration]):
     @property
     def layers_message(self) -> str:
         """The layers that were found and whether the run keeps them, as a sentence; "" without layers."""
-        return self._shapes.layers_message(self.stage.smoother)
+        stages = *self._stage_runs, *self._remaining_stages
+        return self._shapes.layers_message(*(stage.smoother for stage in stages))
 
     @property
     def _target(self) -> Target | None:

@@ -53,9 +53,10 @@ class ShapeWatch:
         mesh = self._mesh.with_element_target(target)
         return tuple(float(measure_against_target(mesh, one.points, one.quality).q.min()) for one in iterations)
 
-    def layers_message(self, smoother: Smoother) -> str:
-        """The layers that were found and whether a method keeps them, as a sentence; "" without layers."""
-        kept = "kept" if smoother.keeps_layers else "not kept"
+    def layers_message(self, *smoothers: Smoother) -> str:
+        """The layers that were found and whether the methods of a run keep them, as a sentence; "" without layers."""
+        keep = [smoother.keeps_layers for smoother in smoothers]
+        kept = "kept" if all(keep) else "kept in some stages only" if any(keep) else "not kept"
         return f"Boundary layers at {self.layers.names} are {kept}." if self.layers else ""
 
     def message(self, smoother: Smoother, walls: tuple[LayerReport, ...], result: Mesh | None) -> str:

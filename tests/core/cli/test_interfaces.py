@@ -8,6 +8,7 @@ import pytest
 from hexmend import io
 from hexmend.cli.main import main
 from hexmend.mesh.rules import MotionRules
+from hexmend.run import smooth
 from hexmend.run.recipe_files import read_recipe
 from tests.core.grids import grid, scrambled
 
@@ -57,6 +58,20 @@ def test_options_let_interfaces_move(path, words, on_itself, capsys):
     assert after.pinned is None
 
 
+def test_the_message_tells_what_the_nodes_of_interfaces_did(tmp_path, capsys):
+    flat, path = {"between": np.flatnonzero(CUBE.points[:, 0] == 2)}, tmp_path / "flat.vtu"
+    one = {"one": np.flatnonzero((CUBE.points == 2).all(axis=1))}
+    mesh = scrambled(CUBE, 0.2).replace(hex_sets=SETS, node_sets=flat | one)
+    inside = (CUBE.points[:, :1] == 2) & ~CUBE.topology.boundary[:, None]
+    io.write(path, mesh.with_points(np.where(inside, CUBE.points + [0, 0.15, 0.1], mesh.points)))
+    smoothed(path, "--plane", "between")
+    assert "9 of 9 nodes on their interfaces slid along them" in capsys.readouterr().out
+    smoothed(path, "--interfaces", "slide", "--free", "one")
+    assert "nodes on their interfaces moved, 1 of these off them freely" in capsys.readouterr().out
+    smoothed(path, "--free", "one")
+    assert "1 of 9 nodes on their interfaces moved off them freely" in capsys.readouterr().out
+
+
 def test_info_names_the_materials_and_their_interface(path, capsys):
     main(["info", str(path)])
     assert "2 materials; 9 nodes on their interfaces are kept" in capsys.readouterr().out
@@ -72,6 +87,26 @@ def test_a_recipe_has_the_rules_and_repeats_them(path, tmp_path):
     first = smoothed(path, *words, "--save-recipe", str(recipe))
     assert read_recipe(recipe).rules == MotionRules("slide", "low", plane="floor", periodic=[("floor", "roof")])
     np.testing.assert_array_equal(smoothed(path, "--recipe", str(recipe)).points, first.points)
+
+
+@pytest.mark.parametrize("choice", ["keep", "free"])
+def test_options_replace_the_interfaces_of_a_recipe(path, tmp_path, choice):
+    recipe, given = tmp_path / "recipe.toml", tmp_path / "given.toml"
+    recipe.write_text('format = 2\n[motion]\ninterfaces = "slide"\n[[stage]]\nmethod = "mend"\n')
+    after = smoothed(path, "--recipe", str(recipe), "--interfaces", choice, "--save-recipe", str(given))
+    np.testing.assert_array_equal(after.points, smoothed(path, "--interfaces", choice).points)
+    assert read_recipe(given).rules.interfaces == choice
+    again = smooth(io.read(path), read_recipe(recipe), interfaces=choice)
+    np.testing.assert_array_equal(again.mesh.points, after.points)
+
+
+def test_a_recipe_that_frees_a_set_moves_no_node_outside_the_region(path, tmp_path):
+    mesh = io.read(path)
+    recipe = tmp_path / "recipe.toml"
+    recipe.write_text('format = 2\n[motion]\nfree = ["high"]\n[[stage]]\nmethod = "mend"\n')
+    outside = np.setdiff1d(np.arange(mesh.n_nodes), mesh.hexes[mesh.hex_sets["low"]])
+    after = smoothed(path, "--recipe", str(recipe), "--only", "low", "--rings", "0")
+    np.testing.assert_array_equal(after.points[outside], mesh.points[outside])
 
 
 def test_an_unknown_set_is_an_error_that_lists_the_sets(path, capsys):

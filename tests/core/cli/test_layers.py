@@ -68,3 +68,13 @@ def test_what_is_wrong_is_said_before_the_run(cylinder, tmp_path, capsys, option
     (line,) = capsys.readouterr().err.splitlines()
     assert complaint in line
     assert not (tmp_path / "out.vtu").exists()
+
+
+def test_options_without_effect_are_named(tmp_path, capsys):
+    path = tmp_path / "cube.vtu"
+    io.write(path, gallery.make("cube", size=27))
+    options = ["--layers", "keep", "--interfaces", "slide"]
+    assert main(["smooth", str(path), "-o", str(tmp_path / "out.vtu"), *options]) == 0
+    printed = capsys.readouterr().err
+    assert "--layers keep has no effect: no boundary layers were found." in printed
+    assert "--interfaces slide has no effect: the mesh has one material." in printed

@@ -135,3 +135,18 @@ def test_scrambled_layers_of_the_gallery_come_back():
     assert wall.after.first_height_mean == pytest.approx(1e-4, rel=0.01)
     assert wall.after.growth == pytest.approx(1.2, rel=0.02)
     assert result.after.scaled_jacobian_min > smooth(sound, max_iterations=0).after.scaled_jacobian_min - 1e-3
+
+
+def test_a_recipe_tells_of_all_its_stages_whether_they_keep_layers():
+    assert Run(stack(), Recipe.of("laplacian", "mend")).layers_message.endswith("are kept in some stages only.")
+    assert Run(stack(), Recipe.of("mend", "local-nr")).layers_message.endswith("are kept.")
+    assert Run(stack(), Recipe.of("laplacian", "getme")).layers_message.endswith("are not kept.")
+
+
+@pytest.mark.parametrize("method", ["mend", "laplacian"])
+def test_a_tangled_mesh_that_does_not_move_loses_no_layers(method):
+    result = smooth(scrambled_in_layers(stack(), 0.7), method, max_iterations=0)
+    assert "lose" not in result.message
+    assert "layers" not in result.worse
+    (wall,) = result.layers
+    assert wall.after.first_height_mean == pytest.approx(wall.before.first_height_mean)

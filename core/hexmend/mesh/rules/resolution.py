@@ -54,6 +54,34 @@ def with_rules(mesh: Mesh, rules: MotionRules) -> Mesh:
     return _with_motion(mesh, rules) if rules.plane or rules.periodic else mesh
 
 
+def with_more_rules(mesh: Mesh, rules: MotionRules) -> Mesh:
+    """Return the mesh with rules of motion in addition to those it has; nodes outside its region stay pinned.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Its rules may be limited to a region: see `hexmend.mesh.fixing.with_region_free`.
+    rules : MotionRules
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    MeshError
+        See `with_rules`.
+    """
+    old, answer = mesh.node_rules, with_rules(mesh, mesh.node_rules.rules.merge(rules))
+    if old.free is None:
+        return answer
+    outside = _marks(mesh, old.rules.free)
+    if outside is None:
+        return answer
+    outside &= ~old.free
+    return answer.with_node_rules(replace(answer.node_rules, free=answer.node_rules.free & ~outside))
+
+
 def _with_motion(mesh: Mesh, rules: MotionRules) -> Mesh:
     """Let nodes of flat sets move in their planes, and nodes of periodic sets as one.
 

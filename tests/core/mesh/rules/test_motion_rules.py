@@ -138,3 +138,13 @@ def test_a_rotated_side_is_matched_and_one_without_partners_tells_which_node():
         match_periodic(sector.with_points(wrong), "y0", "y1")
     with pytest.raises(MeshError, match="25 and 5 nodes"):
         match_periodic(MESH.replace(node_sets={"a": SIDES["x0"], "b": np.arange(5)}), "a", "b")
+
+
+def test_periodic_pairs_of_a_file_leave_nodes_outside_a_region():
+    mesh = scrambled(MESH, 0.2).replace(
+        side_sets={}, periodic_pairs=(("y0", "y1"),), pinned=np.zeros(MESH.n_nodes, dtype=bool)
+    )
+    part = with_region_free(mesh.with_rules(free="high"), TWO["low"], 0)
+    outside = np.setdiff1d(np.arange(mesh.n_nodes), mesh.hexes[TWO["low"]])
+    after = smooth(part, boundary="slide").mesh
+    np.testing.assert_array_equal(after.points[outside], mesh.points[outside])

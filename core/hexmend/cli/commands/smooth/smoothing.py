@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 
 from hexmend.advice import advise
 from hexmend.cli.arguments.checks import check_memory, check_targets
@@ -18,11 +19,13 @@ from hexmend.io import read, writer_for
 from hexmend.iteration import Result
 from hexmend.mesh.fixing import with_region_free
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import summarise_second_order
 from hexmend.quality.selection import hexes_in_set
 from hexmend.report import record, write_history, write_json
 from hexmend.run import iterate
+from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
 
 
@@ -38,12 +41,18 @@ def run(args: argparse.Namespace) -> int:
     output.warn_of_losses(mesh)
     pinned = mesh.pinned  # as in the file, for the output: --only holds for this run alone
     mesh = with_rules(mesh, motion_rules(args))
+    if isinstance(method, Recipe):  # the mesh has the recipe's rules now, changed by the options
+        method = replace(method, rules=MotionRules())
     if args.only:
         mesh = with_region_free(mesh, hexes_in_set(mesh, args.only), max(args.rings, 0))
     check_memory(args, [method], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
     smoothing = iterate(with_surface(args, mesh, method), method, limits)
     if smoothing.layers:
         print(f"hexmend: {smoothing.layers_message}", file=sys.stderr)
+    elif args.layers == "keep":
+        print("hexmend: --layers keep has no effect: no boundary layers were found.", file=sys.stderr)
+    if args.interfaces and mesh.materials is None:
+        print(f"hexmend: --interfaces {args.interfaces} has no effect: the mesh has one material.", file=sys.stderr)
     if args.save_recipe:
         write_recipe(args.save_recipe, smoothing.recipe)
     with FinishWriting():
