@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.io import Original
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, measure, summarise
+from hexmend_app.codec.codec import since
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +47,20 @@ class Change:
 
 
 @dataclass(frozen=True, eq=False)
+class FileMesh:
+    """Mesh in a file that was opened or saved.
+
+    Parameters
+    ----------
+    path : str
+    mesh : Mesh
+    """
+
+    path: str
+    mesh: Mesh
+
+
+@dataclass(frozen=True, eq=False)
 class DocumentData:
     """Data of a document in a session file.
 
@@ -60,6 +75,8 @@ class DocumentData:
         State in the file.
     now : State
         State that is shown.
+    files : tuple of FileMesh, optional
+        Files that were opened or saved, the last one at the end; by default the one at `path`.
     """
 
     path: str | None
@@ -67,6 +84,7 @@ class DocumentData:
     at: int
     saved: State | None
     now: State
+    files: tuple[FileMesh, ...] | None = field(default=None, metadata=since(6))
 
     def __post_init__(self) -> None:
         if not 0 <= self.at < len(self.changes):
@@ -244,13 +262,16 @@ class Document(QObject):
     def to_data(self) -> DocumentData:
         """Return the data for a session file; a mesh is open."""
         path = None if self.path is None else str(self.path)
-        return DocumentData(path, tuple(self._changes), self._at, self._saved, self.now)
+        files = tuple(FileMesh(str(path), mesh) for path, mesh in self._files.items())
+        return DocumentData(path, tuple(self._changes), self._at, self._saved, self.now, files)
 
     def restore(self, data: DocumentData) -> None:
         """Open the mesh of a session file, with its changes."""
         self.now, self._changes, self._at = data.now, list(data.changes), data.at
         self.path, self._saved = None if data.path is None else Path(data.path), data.saved
         self._files = {self.path: data.saved.mesh} if self.path is not None and data.saved is not None else {}
+        if data.files is not None:
+            self._files = {Path(one.path): one.mesh for one in data.files}
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 
