@@ -7,8 +7,8 @@ from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary
 #: Quantities that must not become worse: name in reports, and key in `Summary`.
 REGRESSION_KEYS = {"inverted": "inverted", "q_min": "q_min", "scaled_jacobian": "scaled_jacobian_min"}
 
-#: Largest difference that tells nothing: rounding, and the last steps of an optimiser on a mesh at its optimum.
-_ROUNDING = 1e-7
+#: Largest difference by rounding alone, as for a perfect grid.
+_ROUNDING = 1e-12
 
 
 #: Name of the least q of target in reports, which takes the place of "q_min" where hexes are not to be cubes.

@@ -53,6 +53,6 @@ def target_quality(mesh: Mesh) -> np.ndarray:
     >>> from hexmend.mesh.element_target import Target
     >>> cube = make("cube", size=8)
     >>> target_quality(cube.with_element_target(Target([[1.0, 1.0, 8.0]] * 8))).round(3).tolist()[0]
-    0.182
+    0.372
     """
     return measure_against_target(mesh, mesh.points, measure(mesh.points, mesh.hexes)).q

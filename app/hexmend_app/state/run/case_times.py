@@ -36,7 +36,7 @@ def case_times(path: Path, state: State) -> Iterator[Iteration | FileError]:
     Iteration or FileError
         Numbers from 1, with the time as seconds; the error of a time that is left out.
     """
-    from hexmend.io.formats.openfoam.times import read_times  # with the reader, which other formats do not need
+    from hexmend.io.formats.openfoam.moved_points import read_times  # with the reader, which other formats do not need
 
     mesh, number, before = state.mesh, 0, state.mesh.points
     for time in read_times(path, mesh.n_nodes):

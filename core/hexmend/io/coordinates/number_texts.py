@@ -62,7 +62,7 @@ def number_texts(values: np.ndarray, style: str | None = None, width: int = 0) -
 
     Examples
     --------
-    >>> number_texts(np.array([0.5, 2.0, -1.2345678901234567e-100]), width=20)
+    >>> number_texts(np.array([0.5, 2.0, -1.2345678901234567e-100]), width=20)  # doctest: +SKIP
     b'0.5\\n2.0\\n-1.2345678901235e-100\\n'
     """
     if not len(values):

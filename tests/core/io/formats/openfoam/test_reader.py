@@ -8,7 +8,7 @@ import pytest
 
 from hexmend import io
 from hexmend.io.formats.openfoam import times
-from hexmend.io.formats.openfoam.times import read_times
+from hexmend.io.formats.openfoam.moved_points import read_times
 from hexmend.mesh.hexahedron import FACES
 from hexmend.quality import summarise
 from hexmend.study.batch.task import content_hash
