@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
-
-#: Hexes in a batch, which bounds the memory of temporary arrays.
-_HEXES = 50_000
+from hexmend.optimise.maxmin.corner_values import values_at_corners
 
 
 def least_corner_heights(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
@@ -24,12 +21,7 @@ def least_corner_heights(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     >>> least_corner_heights(UNIT_CUBE * [3, 2, 0.5], np.arange(8)[None])
     array([[0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5]])
     """
-    values = np.empty((len(hexes), 8))
-    for first in range(0, len(hexes), _HEXES):
-        part = slice(first, first + _HEXES)
-        corners = hexes[part][:, CORNER_TETRAHEDRA].reshape(-1, 4)
-        values[part] = corner_heights(points, corners).min(axis=1, initial=np.inf).reshape(-1, 8)
-    return values
+    return values_at_corners(hexes, lambda corners: corner_heights(points, corners).min(axis=1, initial=np.inf))
 
 
 def corner_heights(points: np.ndarray, corners: np.ndarray) -> np.ndarray:

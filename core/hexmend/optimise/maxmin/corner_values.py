@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
@@ -24,10 +26,22 @@ def scaled_jacobians(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     >>> scaled_jacobians(UNIT_CUBE, np.arange(8)[None])
     array([[1., 1., 1., 1., 1., 1., 1., 1.]])
     """
+    return values_at_corners(hexes, lambda corners: corner_jacobians(points, corners))
+
+
+def values_at_corners(hexes: np.ndarray, of: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """Evaluate a function at the corners of hexes (k, 8), batch by batch, (k, 8).
+
+    Parameters
+    ----------
+    hexes : (k, 8) int
+    of : callable
+        Takes corners (c, 4), the apex and the ends of its edges each, and returns their values (c,).
+    """
     values = np.empty((len(hexes), 8))
     for first in range(0, len(hexes), _HEXES):
         part = slice(first, first + _HEXES)
-        values[part] = corner_jacobians(points, hexes[part][:, CORNER_TETRAHEDRA].reshape(-1, 4)).reshape(-1, 8)
+        values[part] = of(hexes[part][:, CORNER_TETRAHEDRA].reshape(-1, 4)).reshape(-1, 8)
     return values
 
 

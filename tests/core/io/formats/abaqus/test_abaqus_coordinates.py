@@ -26,7 +26,8 @@ def replaced(source: Path, mesh, points) -> bytes:
     target = source.with_name("out.inp")
     written = write_as_given(target, mesh.with_points(points), Original(source, mesh))
     assert written.replaced, written.notes
-    np.testing.assert_allclose(io.read(target).points, points, rtol=1e-12, atol=1e-300)
+    # 20 characters hold 12 decimals at least: a sign, a digit and a point before them, and an exponent such as e-100.
+    np.testing.assert_allclose(io.read(target).points, points, rtol=5e-13, atol=1e-300)
     return target.read_bytes()
 
 
