@@ -57,15 +57,21 @@ class BulkData:
 
     def cards(self, first: int, last: int) -> Iterator[Card]:
         """Iterate over the cards of lines first to last - 1, up to ENDDATA, with stripped fields."""
-        card_line, name, fields = 0, "", []
+        card_line, name, fields, announced = 0, "", [], ""
         for k, line in enumerate(self.lines.text(first, last), first):
             if "$" in line:
                 line = line[: line.index("$")]
             if not line or line.isspace():
                 continue
             head, own = _split_line(line)
+            before, announced = announced, _continuation(line)
             if head[:1] in ("", "+", "*"):  # continues the card before
                 if name:
+                    own_name = head.lstrip("+*").replace(" ", "")
+                    if own_name and before and own_name != before:
+                        problem = f"line {k + 1} continues a card as {quoted(head)}, but {name} before it announces"
+                        remedy = "Put each continuation behind its card."
+                        raise self.error(f"{problem} {quoted(before)}", remedy)
                     fields += own
                 continue
             if name:
@@ -98,6 +104,14 @@ class BulkData:
             return float(f"{found[1]}e{found[2] or found[3] or ''}{found[4]}" if found else word)
         except ValueError:
             raise self.error(f"{name} in line {line} holds {quoted(word)}: expected a number") from None
+
+
+def _continuation(line: str) -> str:
+    """Return the name in columns 73 to 80 that the line that continues a card has too, without its mark."""
+    if "," in line:
+        return ""
+    text = (line.expandtabs(8) if "\t" in line else line)[72:80].strip().upper()
+    return text.lstrip("+*").replace(" ", "") if text[:1] in ("+", "*") else ""
 
 
 def _split_line(line: str) -> tuple[str, list[str]]:

@@ -150,3 +150,17 @@ def test_a_mesh_with_ids_of_more_than_eight_digits_is_written_with_new_ids(tmp_p
     back = io.read(tmp_path / "a.bdf")
     np.testing.assert_array_equal(back.node_data["id"], np.arange(27) + 1)
     np.testing.assert_array_equal(back.hex_data["id"], mesh.hex_data["id"])
+
+
+def test_continuations_behind_all_cards_are_an_error_and_behind_theirs_are_read(tmp_path):
+    mesh = grid(1)
+    heads = [f"{'GRID*':8}{k:<16}{'':16}{x:<16}{y:<16}*G{k}" for k, (x, y, _) in enumerate(mesh.points, 1)]
+    tails = [f"{f'*G{k}':8}{z:<16}" for k, (*_, z) in enumerate(mesh.points, 1)]
+    hexes = [f"{'CHEXA':8}{1:<8}{1:<8}" + "".join(f"{k + 1:<8}" for k in mesh.hexes[0, :6]) + "+C1"]
+    hexes += [f"{'+C1':8}" + "".join(f"{k + 1:<8}" for k in mesh.hexes[0, 6:])]
+    path = tmp_path / "cards.bdf"
+    path.write_text("\n".join(["BEGIN BULK", *sum(zip(heads, tails, strict=True), ()), *hexes, "ENDDATA\n"]))
+    np.testing.assert_array_equal(io.read(path).points, mesh.points)
+    path.write_text("\n".join(["BEGIN BULK", *heads, *tails, *hexes, "ENDDATA\n"]))
+    with pytest.raises(FileError, match=r"line 10 continues a card as '\*G1', but GRID before it announces 'G8'"):
+        io.read(path)
