@@ -13,7 +13,13 @@ from hexmend.io.base.format import Format
 from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.original import Original, difference
-from hexmend.io.coordinates.replacement import ChangedFileError, Written, is_same_file, replace_coordinates
+from hexmend.io.coordinates.replacement import (
+    ChangedFileError,
+    IncludedFileError,
+    Written,
+    is_same_file,
+    replace_coordinates,
+)
 from hexmend.io.format_lookup import every_format, format_by_place, format_of, suffixes_of, writable_format
 from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.io.storage.readable import check_readable, reading
@@ -166,7 +172,8 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
     Raises
     ------
     FileError
-        Where the file cannot be written, or `path` is the original file and that has changed since it was read.
+        Where the file cannot be written, or `path` is the original file and that has changed since it was read, or a
+        file that the original includes.
     """
     path, reason = Path(path), ()
     if replaces_coordinates(path, original):
@@ -175,7 +182,7 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
         except CoordinatesError as error:
             reason = (_anew(str(error)),)
         except ChangedFileError as error:
-            if is_same_file(path, original.path):
+            if is_same_file(path, original.path) or isinstance(error, IncludedFileError):
                 raise
             reason = (_anew(f"{error.path.name} {error.problem}"),)
     elif original is not None and not original.path.exists() and path.suffix == original.path.suffix:

@@ -28,6 +28,10 @@ class ChangedFileError(FileError):
     """File whose nodes are not those that were read from it."""
 
 
+class IncludedFileError(ChangedFileError):
+    """File that is not written because the original file includes it."""
+
+
 @dataclass(frozen=True)
 class Written:
     """Way in which a mesh was written.
@@ -67,7 +71,7 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     Raises
     ------
     ChangedFileError
-        If the original file has other nodes than the original mesh.
+        If the original file has other nodes than the original mesh, or includes the file to write.
     CoordinatesError
         If the file cannot hold the mesh in this way.
     FileError

@@ -57,6 +57,9 @@ def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
     five.refresh()
     after = five.session.boundary_classifier.classes
     assert 0 < after.count(NodeClass.CURVE) < classes.count(NodeClass.CURVE)  # the rims of sets stay curves
+    mesh = five.session.document.now.mesh
+    in_sets = np.unique(np.concatenate(list(mesh.node_sets.values())))
+    assert np.isin(np.flatnonzero(after.kinds == NodeClass.CURVE), in_sets).all()
     assert f"{after.count(NodeClass.CURVE)} on curves" in texts(panel, "kinds")
 
 

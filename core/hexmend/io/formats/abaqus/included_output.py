@@ -13,7 +13,7 @@ import numpy as np
 from hexmend.errors import HexmendError
 from hexmend.io.coordinates.edits import Edits, write_edited
 from hexmend.io.coordinates.located import CoordinatesError
-from hexmend.io.coordinates.replacement import is_same_file
+from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.deck_file import DeckFile, Reference
 from hexmend.io.formats.abaqus.includes import read_deck
@@ -39,8 +39,17 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path) -> tuple[str
     -------
     tuple of str
         Notes about the files.
+
+    Raises
+    ------
+    IncludedFileError
+        If the deck includes the target, which would be lost to it.
+    CoordinatesError
+        If a file with moved nodes is included twice.
     """
     root = deck.pieces[0].file
+    if any(is_same_file(one.path, target) for one in list(root.walk())[1:]):
+        raise IncludedFileError(target, f"is included by {root.path.name}", "Choose another name.")
     own = {one: part for one in root.walk() if len(part := _of_file(deck, edits, one))}
     paths = [one.path.resolve() for one in root.walk()]
     if twice := [one for one in own if paths.count(one.path.resolve()) > 1]:

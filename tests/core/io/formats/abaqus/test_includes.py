@@ -140,3 +140,11 @@ def test_errors_name_the_file_and_the_line(tmp_path):
         (tmp_path / "a.inp").write_text(text)
         with pytest.raises(FileError, match=words):
             io.read(tmp_path / "in.inp")
+
+
+def test_a_file_that_the_deck_includes_is_not_overwritten(deck):
+    given, mesh = moved(deck)
+    before = {path: path.read_bytes() for path in deck.parent.rglob("*") if path.is_file()}
+    with pytest.raises(FileError, match=r"material\.inp: is included by in\.inp"):
+        write_as_given(deck.parent / "material.inp", mesh, Original(deck, given))
+    assert before == {path: path.read_bytes() for path in deck.parent.rglob("*") if path.is_file()}
