@@ -11,9 +11,9 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.format import Format
-from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates
+from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates, LocatedFiles
 from hexmend.io.coordinates.original import Original, difference
-from hexmend.io.storage.atomic import atomic_write
+from hexmend.io.storage.atomic_files import atomic_files
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import was_turned
 
@@ -90,8 +90,11 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     turned = (_TURNED,) if was_turned(original.mesh) else ()
     if format.place:  # a folder, in which the format replaces files itself
         return Written(True, (*located.write(path, path, mesh.points), *turned), in_place)
-    with atomic_write(path) as file:
-        notes = located.write(file, path, mesh.points)
+    with atomic_files() as files:
+        if isinstance(located, LocatedFiles):
+            notes = located.write_files(files, path, mesh.points)
+        else:
+            notes = located.write(files.add(path), path, mesh.points)
     return Written(True, (*notes, *turned), in_place)
 
 

@@ -15,6 +15,7 @@ from hexmend.io.formats.abaqus.included_output import write_files
 from hexmend.io.formats.abaqus.includes import read_deck
 from hexmend.io.formats.abaqus.model import Instance, Part, placement
 from hexmend.io.formats.abaqus.sets import name_key
+from hexmend.io.storage.atomic_files import AtomicFiles
 
 #: Characters of a real number that Abaqus and CalculiX read.
 _WIDTH = 20
@@ -37,7 +38,7 @@ class _PlacedCards:
 
 
 class AbaqusCoordinates:
-    """Coordinates of all instances, see `hexmend.io.coordinates.located.LocatedCoordinates`.
+    """Coordinates of all instances, see `hexmend.io.coordinates.located.LocatedFiles`.
 
     Parameters
     ----------
@@ -57,8 +58,9 @@ class AbaqusCoordinates:
                 one.instance.part.points.append(self._rows[card.line])
         self.points = np.concatenate([one.instance.points() for one in placed])
 
-    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
-        """Write the file with new coordinates; see `LocatedCoordinates.write`."""
+    def write_files(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
+        """Write the deck and its files with new coordinates; see `LocatedFiles.write_files`."""
+        file = files.add(target)
         new_rows: dict[int, np.ndarray] = {}
         first = 0
         for one in self._placed:
@@ -77,7 +79,7 @@ class AbaqusCoordinates:
         points = np.concatenate([new_rows[line] for line in self._rows])
         if not self._deck.pieces:
             return coordinates.write(file, target, points)
-        return write_files(self._deck, coordinates.edits(points), file, target)
+        return write_files(self._deck, coordinates.edits(points), file, target, files)
 
 
 def _placed_cards(deck: Deck) -> list[_PlacedCards]:
