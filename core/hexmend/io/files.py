@@ -197,15 +197,20 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
 
 def _check_content(path: Path, original: Original, reason: str) -> None:
     """Raise `LostContentError` where a file is to be written anew in place of an original with more than the mesh."""
-    lost = unread_content(original.mesh.notes)
+    lost = _lost_content(original)
     if lost and is_same_file(path, original.path):
         problem = f"would lose what it has besides the mesh: {'; '.join(lost)}. It has to be written anew, as {reason}"
         raise LostContentError(path, problem, REWRITE)
 
 
+def _lost_content(original: Original) -> list[str]:
+    """Content of the original file that a file written anew does not have, besides comments."""
+    return [*unread_content(original.mesh.notes), *(["periodic pairs"] if original.mesh.periodic_pairs else [])]
+
+
 def _anew(reason: str, original: Original) -> str:
     """Sentences for a file that was written anew although it has the format of the original."""
-    lost = "; ".join([*unread_content(original.mesh.notes), "comments"])
+    lost = "; ".join([*_lost_content(original), "comments"])
     return f"The file is written anew: {reason}. It has nothing of the original besides the mesh: no {lost}."
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from hexmend.terminal_text import count_phrase
+
 _BEGIN = "Not read: "
 
 
@@ -42,11 +44,17 @@ def unread_content(notes: Iterable[str]) -> list[str]:
 def some_names(names: Iterable[str], count: int = 6) -> str:
     """Join the first names of many.
 
+    Parameters
+    ----------
+    names : iterable of str
+    count : int
+        Most names that are joined.
+
     Examples
     --------
-    >>> some_names("abcd", 2), some_names("ab", 2)
-    ('a, b and 2 others', 'a, b')
+    >>> some_names("abcd", 2), some_names("abc", 2), some_names("ab", 2)
+    ('a, b and 2 others', 'a, b and 1 other', 'a, b')
     """
     names = list(names)
     more = len(names) - count
-    return ", ".join(names[:count]) + (f" and {more} others" if more > 0 else "")
+    return ", ".join(names[:count]) + (f" and {count_phrase(more, 'other')}" if more > 0 else "")

@@ -90,3 +90,12 @@ def test_a_file_written_anew_lacks_the_pairs_and_it_is_said(path, tmp_path, caps
     main(words)
     assert "left out" not in capsys.readouterr().err
     assert io.read(out).periodic_pairs == mesh.periodic_pairs
+
+
+def test_repair_does_not_drop_the_pairs_of_its_own_file(tmp_path, capsys):
+    path = tmp_path / "cell.msh"
+    text = (version_2(CUBE) + text_2(PAIRS)).replace("$Nodes\n64\n", "$Nodes\n65\n999 0 0 77\n")
+    path.write_text(text)
+    assert main(["repair", str(path), "-o", str(path)]) == 3
+    assert "would lose what it has besides the mesh: periodic pairs." in capsys.readouterr().err
+    assert path.read_text() == text
