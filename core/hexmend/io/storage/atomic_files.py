@@ -81,7 +81,7 @@ class AtomicFiles:
             try:
                 os.replace(one.temporary.path, one.target)
             except OSError as error:
-                problem = f"cannot be replaced: {error.strerror or error}{_put_back(done)}"
+                problem = f"cannot be replaced: {error.strerror or error}{_restore(done)}"
                 raise FileError(one.path, problem, "Free the place or choose another.") from None
             done.append(one)
 
@@ -152,8 +152,8 @@ def _keep(one: _Replacement) -> None:
         shutil.copy2(one.target, one.backup.path)
 
 
-def _put_back(done: list[_Replacement]) -> str:
-    """Put the old files back; returns words about them for a message, "" if there are none."""
+def _restore(done: list[_Replacement]) -> str:
+    """Restore the old files; returns words about them for a message, "" if there are none."""
     kept, names = [], [one.path.name for one in done]
     for one in reversed(done):
         try:
@@ -164,5 +164,5 @@ def _put_back(done: list[_Replacement]) -> str:
         except OSError:
             kept.append(one.path.name)
     if kept:
-        return f", and {', '.join(kept)} cannot be put back: the new content stays there"
+        return f", and {', '.join(kept)} cannot be restored: the new content stays there"
     return f"; {', '.join(names)} {'is' if len(names) == 1 else 'are'} as before" if names else ""

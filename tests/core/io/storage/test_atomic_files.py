@@ -48,7 +48,7 @@ def test_an_error_of_another_file_is_raised_as_it_is(two):
         (two[0].parent / "missing").read_text()
 
 
-def test_what_cannot_be_put_back_is_named(two, monkeypatch):
+def test_what_cannot_be_restored_is_named(two, monkeypatch):
     replace = os.replace
 
     def failing(source, path):
@@ -57,7 +57,7 @@ def test_what_cannot_be_put_back_is_named(two, monkeypatch):
         replace(source, path)
 
     monkeypatch.setattr(os, "replace", failing)
-    words = r"a\.txt: cannot be replaced: busy, and b\.txt cannot be put back"
+    words = r"a\.txt: cannot be replaced: busy, and b\.txt cannot be restored"
     with pytest.raises(FileError, match=words), atomic_files() as files:
         for path in two:
             files.add(path).write_text("new")

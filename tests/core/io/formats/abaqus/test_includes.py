@@ -206,7 +206,7 @@ def test_a_file_that_cannot_be_written_leaves_all_as_they_are(three):
     assert contents(three) == before
 
 
-def test_old_files_are_put_back_where_the_file_system_has_no_links(three, monkeypatch):
+def test_old_files_are_restored_where_the_file_system_has_no_links(three, monkeypatch):
     given, mesh = moved(three)
     before, replace = contents(three), os.replace
 
