@@ -211,7 +211,7 @@ def _lost_content(original: Original) -> list[str]:
 def _anew(reason: str, original: Original) -> str:
     """Sentences for a file that was written anew although it has the format of the original."""
     lost = "; ".join([*_lost_content(original), "comments"])
-    return f"The file is written anew: {reason}. It has nothing of the original besides the mesh: no {lost}."
+    return f"The file is written anew: {reason}. It lacks what the original has besides the mesh: {lost}."
 
 
 def writer_for(
