@@ -11,11 +11,14 @@ from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
 from hexmend.io.base.format import Format
 from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING
+from hexmend.io.base.unread import unread_content
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.original import Original, difference
 from hexmend.io.coordinates.replacement import (
+    REWRITE,
     ChangedFileError,
     IncludedFileError,
+    LostContentError,
     Written,
     is_same_file,
     replace_coordinates,
@@ -172,28 +175,43 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
     Raises
     ------
     FileError
-        Where the file cannot be written, or `path` is the original file and that has changed since it was read, or a
-        file that the original includes.
+        Where the file cannot be written; where `path` is the original file and that has changed since it was read, or
+        has content that a file written anew would not have; or where it is a file that the original includes.
     """
     path, reason = Path(path), ()
     if replaces_coordinates(path, original):
         try:
             return replace_coordinates(path, mesh, original, format_of(original.path))
         except CoordinatesError as error:
-            reason = (_anew(str(error)),)
+            _check_content(path, original, str(error))
+            reason = (_anew(str(error), original),)
         except ChangedFileError as error:
             if is_same_file(path, original.path) or isinstance(error, IncludedFileError):
                 raise
-            reason = (_anew(f"{error.path.name} {error.problem}"),)
+            reason = (_anew(f"{error.path.name} {error.problem}", original),)
     elif original is not None and not original.path.exists() and path.suffix == original.path.suffix:
-        reason = (_anew(f"{original.path.name} does not exist any more"),)
+        reason = (_anew(f"{original.path.name} does not exist any more", original),)
     _write_anew(path, mesh, None, writable_format(path, original and original.path))
     return Written(False, reason)
 
 
-def _anew(reason: str) -> str:
+def _check_content(path: Path, original: Original, reason: str) -> None:
+    """Raise `LostContentError` where a file is to be written anew in place of an original with more than the mesh."""
+    lost = _lost_content(original)
+    if lost and is_same_file(path, original.path):
+        problem = f"would lose what it has besides the mesh: {'; '.join(lost)}. It has to be written anew, as {reason}"
+        raise LostContentError(path, problem, REWRITE)
+
+
+def _lost_content(original: Original) -> list[str]:
+    """Content of the original file that a file written anew does not have, besides comments."""
+    return [*unread_content(original.mesh.notes), *(["periodic pairs"] if original.mesh.periodic_pairs else [])]
+
+
+def _anew(reason: str, original: Original) -> str:
     """Sentences for a file that was written anew although it has the format of the original."""
-    return f"The file is written anew: {reason}. What it held in addition to the mesh, such as comments, is lost."
+    lost = "; ".join([*_lost_content(original), "comments"])
+    return f"The file is written anew: {reason}. It lacks what the original has besides the mesh: {lost}."
 
 
 def writer_for(
@@ -252,6 +270,8 @@ def unsupported_data(
         format.place.check_target(Path(path), mesh, None)
     required = required_capabilities(mesh, format.stored_names)
     missing = [description for kind, description in required.items() if kind not in format.capabilities]
+    if mesh.periodic_pairs and not format.place:  # boundaries of a case alone have partners
+        missing.append(f"periodic pairs ({', '.join(' with '.join(pair) for pair in mesh.periodic_pairs)})")
     return missing + (format.limitations(mesh) if format.limitations else [])
 
 

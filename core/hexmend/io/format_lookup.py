@@ -87,7 +87,7 @@ def writable_format(path: Path, source: Path | None = None) -> Format:
     Raises
     ------
     FileError
-        For an unknown suffix.
+        For an unknown suffix, and for a folder that is no case.
     """
     placed = format_by_place(path)
     if placed is not None and placed.write:
@@ -99,6 +99,9 @@ def writable_format(path: Path, source: Path | None = None) -> Format:
     copied = None if source is None else format_by_place(source)
     if copied is not None and copied.write:
         return copied
+    if path.is_dir():
+        example = path / (source.name if source is not None and source.suffix else "mesh.vtu")
+        raise FileError(path, "is a folder: expected the name of a file to write", f"Name one, such as {example}.")
     return _unknown(path, "write", [format for format in every_format() if format.write])
 
 

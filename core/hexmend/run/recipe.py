@@ -104,6 +104,11 @@ class Recipe:
         title = title or "; then ".join(stage.smoother.title for stage in stages)
         return cls(title, stages, rules or MotionRules())
 
+    def with_more_rules(self, rules: MotionRules, interfaces: str | None = None) -> Recipe:
+        """Return a copy with more rules of motion; `interfaces` is the choice for interfaces unless it is None."""
+        rules = self.rules.merge(rules)
+        return replace(self, rules=replace(rules, interfaces=interfaces or rules.interfaces))
+
     def limited(self, **limits: Any) -> Recipe:
         """Return a copy with these fields of `StoppingCriteria` replaced in every stage."""
         return replace(self, stages=tuple(replace(stage, stop=replace(stage.stop, **limits)) for stage in self.stages))

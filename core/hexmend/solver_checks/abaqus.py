@@ -13,7 +13,7 @@ _ANGLE = "of two adjacent edges over the 24 corners of the faces"
 ABAQUS = Solver(
     name="abaqus",
     title="Abaqus",
-    checks=(
+    own_checks=(
         Check(
             "volume", lambda measures: measures.volumes, "hexes", 1, 0.0, Level.ERROR,
             "volume inside the bilinear faces", f"{_PROCESSOR}: zero, small or negative volumes", inclusive=True,

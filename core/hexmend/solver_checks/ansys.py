@@ -63,7 +63,7 @@ _SECOND = "hexes with mid-nodes"
 ANSYS = Solver(
     name="ansys",
     title="ANSYS",
-    checks=(
+    own_checks=(
         *_pair("aspect ratio", lambda measures: measures.quads.aspect_ratio, 20.0, 1e6, _ASPECT),
         *_pair("parallel deviation", _of("parallel_deviation", second_order=False), 70.0, 150.0, _PARALLEL, "degrees"),
         *_pair("maximum corner angle", _of("max_angle", second_order=False), 155.0, 179.9, _CORNER, "degrees"),

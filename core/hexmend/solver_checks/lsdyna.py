@@ -13,7 +13,7 @@ _THEORY = "LS-DYNA Theory Manual, time step calculations for solid elements"
 LSDYNA = Solver(
     name="lsdyna",
     title="LS-DYNA",
-    checks=(
+    own_checks=(
         Check(
             "volume", lambda measures: measures.volumes, "hexes", 1, 0.0, Level.ERROR,
             "volume inside the bilinear faces",

@@ -46,7 +46,7 @@ def _gradients(place: np.ndarray) -> np.ndarray:
 NASTRAN = Solver(
     name="nastran",
     title="MSC Nastran",
-    checks=(
+    own_checks=(
         Check(
             "aspect ratio (HEX_AR)", lambda measures: measures.edge_ratios, "hexes", -1, 100.0, Level.WARNING,
             "longest / shortest edge", _SOURCE.format("HEX_AR"),

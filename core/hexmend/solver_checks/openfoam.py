@@ -59,7 +59,7 @@ def aspect_ratios(measures: Measures) -> np.ndarray:
 OPENFOAM = Solver(
     name="openfoam",
     title="OpenFOAM",
-    checks=(
+    own_checks=(
         Check(
             "non-orthogonality", _internal("non_orthogonality"), "internal faces", -1, 70.0, Level.WARNING, _ANGLE,
             _CHECK_MESH, unit="degrees",

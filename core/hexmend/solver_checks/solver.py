@@ -8,6 +8,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality.measure import ElementQuality
 from hexmend.registry import Registry
 from hexmend.solver_checks.check import Check, CheckResult
+from hexmend.solver_checks.inversion import INVERSION
 from hexmend.solver_checks.measures import Measures
 from hexmend.terminal_text import count_phrase
 
@@ -22,7 +23,8 @@ class Solver:
     Parameters
     ----------
     name, title : str
-    checks : tuple of Check
+    own_checks : tuple of Check
+        Those of the solver itself.
     omitted : str
         Sentence on the solver's checks that are left out, and why.
     reservation : str
@@ -31,9 +33,14 @@ class Solver:
 
     name: str
     title: str
-    checks: tuple[Check, ...]
+    own_checks: tuple[Check, ...]
     omitted: str
     reservation: str = ""
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Its own checks, and that for inverted hexes, which every solver has."""
+        return *self.own_checks, INVERSION
 
     def register(self) -> Solver:
         """Add the solver to `SOLVERS` under its name and return it; raises `ValueError` if the name is taken."""

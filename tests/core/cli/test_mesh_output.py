@@ -7,6 +7,8 @@ from hexmend import io
 from hexmend.cli.main import main
 from hexmend.cli.output import mesh_output
 from hexmend.gallery import make
+from hexmend.io import files
+from hexmend.io.coordinates.located import CoordinatesError
 
 END = "*MATERIAL, NAME=Steel\n*STEP\n** the end\n*END STEP\n"
 
@@ -65,6 +67,63 @@ def test_repair_writes_anew_where_nodes_go_and_says_why(deck, tmp_path, capsys):
     said = capsys.readouterr()
     assert "written anew: the mesh has other nodes than deck.inp" in said.err
     assert io.read(tmp_path / "out.inp").n_nodes == io.read(deck).n_nodes - 1
+
+
+def with_a_loose_node(deck):
+    deck.write_text(deck.read_text().replace("*NODE\n", "*NODE\n999999, 0., 0., 77.\n"))
+
+
+def test_repair_does_not_replace_a_deck_by_one_without_its_materials(deck, tmp_path, capsys):
+    with_a_loose_node(deck)
+    before = deck.read_bytes()
+    assert main(["repair", str(deck), "-o", str(deck)]) == 3
+    said = capsys.readouterr()
+    assert "deck.inp: would lose what it has besides the mesh: keywords that define no mesh (*MATERIAL" in said.err
+    assert (
+        "the mesh has other nodes than deck.inp. Choose another name, or write the file anew (--rewrite)." in said.err
+    )
+    assert "Repaired" not in said.out
+    assert deck.read_bytes() == before
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["deck.inp"]
+    assert main(["repair", str(deck), "-o", str(tmp_path / "other.inp")]) == 0
+    assert (
+        "besides the mesh: keywords that define no mesh (*MATERIAL, *STEP, *END STEP); comments."
+        in capsys.readouterr().err
+    )
+    assert deck.read_bytes() == before
+    assert main(["repair", str(deck), "-o", str(deck), "--rewrite"]) == 0
+    assert io.read(deck).n_nodes == io.read(tmp_path / "other.inp").n_nodes
+
+
+def test_repair_replaces_a_file_of_nothing_but_a_mesh(deck):
+    io.write(deck, io.read(deck))
+    n_nodes = io.read(deck).n_nodes
+    with_a_loose_node(deck)
+    assert main(["repair", str(deck), "-o", str(deck)]) == 0
+    assert io.read(deck).n_nodes == n_nodes
+
+
+def test_a_result_that_would_lose_content_is_written_beside_the_file(deck, monkeypatch, capsys):
+    def refuse(*arguments):
+        raise CoordinatesError("its parts have moved differently")
+
+    before = deck.read_bytes()
+    monkeypatch.setattr(files, "replace_coordinates", refuse)
+    assert smooth(deck, deck) == 3
+    assert "its parts have moved differently. The result was written anew to" in capsys.readouterr().err
+    assert deck.read_bytes() == before
+    assert io.read(deck.with_name("deck-hexmend.inp")).n_nodes == io.read(deck).n_nodes
+
+
+def test_a_folder_as_output_is_named_as_such(deck, tmp_path, capsys):
+    (tmp_path / "folder").mkdir()
+    assert smooth(deck, tmp_path / "folder") == 3
+    assert capsys.readouterr().err.splitlines() == [
+        "hexmend: folder: is a folder: expected the name of a file to write. "
+        f"Name one, such as {tmp_path / 'folder' / 'deck.inp'}."
+    ]
+    assert main(["repair", str(deck), "-o", str(tmp_path / "folder")]) == 3
+    assert "is a folder" in capsys.readouterr().err
 
 
 def test_a_result_is_not_lost_where_the_input_has_changed_meanwhile(deck, monkeypatch, capsys):

@@ -61,6 +61,19 @@ def test_cubes_pass_and_inverted_hexes_fail(solver):
 
 
 @every
+@pytest.mark.parametrize("corner", [[0.3, 0.3, 0.3], [0.5, 0.5, 1.0]])
+def test_a_hex_with_one_inverted_or_flat_corner_fails_though_its_volume_is_positive(solver, corner):
+    x = UNIT_CUBE.copy()
+    x[6] = corner
+    mesh = Mesh(x, ONE)
+    assert mesh.quality("volume")[0] > 0
+    found = results(mesh, solver)["inverted hexes"]
+    assert (found.verdict, found.count) == ("failed", 1)
+    assert found.value == mesh.quality("scaled-jacobian")[0] <= 0
+    assert check_mesh(mesh, solver).verdict == "failed"
+
+
+@every
 def test_checks_depend_on_neither_size_nor_place(solver):
     mesh = scrambled(grid(3), 0.25)
     here, there = (results(mesh.with_points(x), solver) for x in (mesh.points, mesh.points * 2.0**-20 + 1e-3))

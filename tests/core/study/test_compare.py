@@ -9,6 +9,7 @@ import pytest
 from hexmend import gallery, io
 from hexmend.cli.main import main
 from hexmend.errors import ParameterError
+from hexmend.mesh.rules import MotionRules
 from hexmend.quality import Summary, measure, objective, summarise
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.run.recipe import Recipe
@@ -173,13 +174,43 @@ def test_the_command_writes_tables_that_agree_and_the_meshes(file, tmp_path, cap
     (["{file}", "-o", "{folder}", "--max-iterations", "few"], 2, "max_iterations = 'few' is not a whole number"),
     (["missing.vtu", "-o", "{folder}"], 3, "missing.vtu: there is no such file"),
     (["{file}", "-o", "{file}"], 3, "bridge.vtu: is a file"),
+    (["{file}", "-o", "{folder}", "--methods", "mend", "--target", "foo"], 2, "there is no target 'foo'"),
+    (["{file}", "-o", "{folder}", "--methods", "{recipe}"], 2, "there is no target 'bar'"),
+    (["{file}", "-o", "{folder}", "--fix", "nowhere"], 3, "'nowhere'"),
 ])  # fmt: skip
 def test_wrong_usage_is_reported_before_the_first_run(words, status, message, file, tmp_path, capsys):
-    words = [word.format(file=file, folder=tmp_path / "tables") for word in words]
+    write_recipe(tmp_path / "chain.toml", Recipe.of("laplacian", METHODS["mend"](target="bar")))
+    words = [word.format(file=file, folder=tmp_path / "tables", recipe=tmp_path / "chain.toml") for word in words]
     assert main(["compare", *words]) == status
     (line,) = capsys.readouterr().err.splitlines()
     assert message in line
     assert not (tmp_path / "tables").exists()
+
+
+def test_the_command_fails_where_every_method_fails(file, tmp_path, monkeypatch, capsys):
+    def steps(self, mesh):
+        raise ValueError("no")
+
+    monkeypatch.setattr(METHODS["laplacian"], "steps", steps)
+    words = ["compare", str(file), "-o", str(tmp_path / "tables"), "--max-iterations", "2", "--methods"]
+    assert main([*words, "laplacian"]) == 3
+    assert "every method failed" in capsys.readouterr().err
+    assert (tmp_path / "tables/comparison.md").exists()
+    assert main([*words, "laplacian,local-sd"]) == 0
+
+
+def test_rules_of_motion_hold_for_methods_and_recipes(mesh, tmp_path):
+    inside = np.flatnonzero(~mesh.topology.boundary)
+    some, others = inside[::2], inside[1::2]
+    io.write(tmp_path / "part.vtu", mesh.replace(node_sets={"some": some, "others": others}))
+    write_recipe(tmp_path / "chain.toml", Recipe.of("laplacian", title="Chain", rules=MotionRules(fix=["others"])))
+    words = ["compare", tmp_path / "part.vtu", "-o", tmp_path / "tables", "--write-meshes", "--max-iterations", 2]
+    words += ["--methods", f"laplacian,{tmp_path / 'chain.toml'}", "--fix", "some"]
+    assert main([*map(str, words)]) == 0
+    method, chain = (io.read(tmp_path / "tables" / f"part-{name}.vtu") for name in ("laplacian", "Chain"))
+    assert (method.points[some] == mesh.points[some]).all()
+    assert not (method.points[others] == mesh.points[others]).all()
+    assert (chain.points[inside] == mesh.points[inside]).all()
 
 
 def test_a_recipe_in_a_folder_with_commas_is_one_method(tmp_path, monkeypatch):

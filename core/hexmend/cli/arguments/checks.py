@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING
 
 from hexmend.errors import FileError, InsufficientMemoryError
 from hexmend.io.storage.atomic import check_writable
+from hexmend.layers.targets import AUTO
 from hexmend.run import memory
+from hexmend.run.recipe import Recipe
+from hexmend.target import SPECIFICATIONS, make_target
 
 if TYPE_CHECKING:
     from hexmend.mesh.mesh import Mesh
-    from hexmend.run.recipe import Recipe
     from hexmend.smoothers import Smoother
 
 
@@ -47,6 +49,27 @@ def check_memory(
     if not args.force:
         raise InsufficientMemoryError(f"{worst.problem} {worst.remedy(*remedies, 'run it anyway (--force)')}")
     print(f"hexmend: warning: {worst.problem}", file=sys.stderr)
+
+
+def check_element_targets(methods: Iterable[Smoother | Recipe], mesh: Mesh) -> None:
+    """Check that the mesh can have the targets of all methods that name data or a formula.
+
+    Parameters
+    ----------
+    methods : iterable of Smoother or Recipe
+    mesh : Mesh
+
+    Raises
+    ------
+    ParameterError
+        For the first target that the mesh cannot have.
+    """
+    smoothers: list[Smoother] = []
+    for method in methods:
+        smoothers += [stage.smoother for stage in method.stages] if isinstance(method, Recipe) else [method]
+    for target in dict.fromkeys(getattr(one, "target", AUTO) for one in smoothers):
+        if target not in (AUTO, *SPECIFICATIONS):
+            make_target(mesh, target)
 
 
 def check_targets(source: str, output: str, *targets: str | None) -> None:

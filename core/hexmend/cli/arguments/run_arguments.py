@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import Any
 
 from hexmend.cli.arguments.options import parse_settings
@@ -106,13 +105,16 @@ def _given_words(args: argparse.Namespace) -> dict[str, str]:
     return {name: text for name, text in words.items() if text is not None}
 
 
+def given_rules(args: argparse.Namespace) -> MotionRules:
+    """Return the rules of motion of the options of `add_motion`."""
+    return MotionRules(args.interfaces or "keep", args.fix, args.slide, args.free, args.plane, args.periodic)
+
+
 def motion_rules(args: argparse.Namespace) -> MotionRules:
-    """Return the rules of motion of the options of `add_motion`; those of a recipe come first."""
-    given = MotionRules(args.interfaces or "keep", args.fix, args.slide, args.free, args.plane, args.periodic)
+    """Return the rules of motion of the options of `add_motion`; those of the recipe of --recipe come first."""
     if not args.recipe:
-        return given
-    rules = read_recipe(args.recipe).rules.merge(given)
-    return replace(rules, interfaces=args.interfaces or rules.interfaces)
+        return given_rules(args)
+    return read_recipe(args.recipe).with_more_rules(given_rules(args), args.interfaces).rules
 
 
 def with_surface(args: argparse.Namespace, mesh: Mesh, method: Smoother | Recipe) -> Mesh:

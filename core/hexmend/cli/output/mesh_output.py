@@ -8,7 +8,7 @@ from pathlib import Path
 from hexmend.cli.output.mesh_messages import warn_of_losses
 from hexmend.errors import FileError
 from hexmend.io import Original, replaces_coordinates, write, write_as_given
-from hexmend.io.coordinates.replacement import ChangedFileError
+from hexmend.io.coordinates.replacement import ChangedFileError, LostContentError
 from hexmend.io.format_lookup import unused_path
 from hexmend.mesh.mesh import Mesh
 
@@ -25,10 +25,12 @@ class MeshOutput:
         As read from it.
     rewrite : bool
         Write the file anew even if it has the format of `source`.
+    spare : bool
+        Write a result that cannot replace its own file beside it, since it may have taken long.
     """
 
-    def __init__(self, path: str, source: str, mesh: Mesh, rewrite: bool):
-        self.path = path
+    def __init__(self, path: str, source: str, mesh: Mesh, rewrite: bool, *, spare: bool = True):
+        self.path, self._spare = path, spare
         self._source = None if rewrite else source
         self._original = None if rewrite else Original(Path(source), mesh)
 
@@ -43,13 +45,15 @@ class MeshOutput:
         Raises
         ------
         FileError
-            Where the file cannot be written. If the given file has changed meanwhile and would be overwritten, the
-            mesh is saved beside it.
+            Where the file cannot be written. If the given file would be overwritten and has changed meanwhile, or
+            would lose content, the mesh is saved beside it where `spare` says so.
         """
         expected = replaces_coordinates(self.path, self._original)
         try:
             written = write_as_given(self.path, mesh, self._original)
-        except ChangedFileError as error:
+        except (ChangedFileError, LostContentError) as error:
+            if not self._spare:
+                raise
             spare = unused_path(self.path)
             write(spare, mesh)
             remedy = f"The result was written anew to {spare}."

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
+
+from hexmend.io.storage.atomic_files import AtomicFiles
 
 
 class LocatedCoordinates(Protocol):
@@ -40,6 +42,22 @@ class LocatedCoordinates(Protocol):
         ------
         CoordinatesError
             Where the file cannot hold these points.
+        """
+
+
+@runtime_checkable
+class LocatedFiles(Protocol):
+    """Coordinates in several files, which are replaced together."""
+
+    def write_files(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
+        """Write a copy of all files that hold coordinates; else as `LocatedCoordinates.write`.
+
+        Parameters
+        ----------
+        files : AtomicFiles
+            Takes the target and the files beside it.
+        target : Path
+        points : (n, 3) float64
         """
 
 

@@ -11,14 +11,15 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.format import Format
-from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates
+from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates, LocatedFiles
 from hexmend.io.coordinates.original import Original, difference
-from hexmend.io.storage.atomic import atomic_write
+from hexmend.io.storage.atomic_files import atomic_files
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import was_turned
 
 _LOGGER = logging.getLogger(__name__)
-_REWRITE = "Choose another name, or write the file anew (--rewrite)."
+#: Remedy for a file that is not overwritten.
+REWRITE = "Choose another name, or write the file anew (--rewrite)."
 _TURNED = "Hexes that have been turned keep the order of nodes that they have in the file."
 #: Differences of coordinates, relative to the largest, that count as rounding: of a file that keeps seven digits.
 _ROUNDING = 1e-6
@@ -30,6 +31,10 @@ class ChangedFileError(FileError):
 
 class IncludedFileError(ChangedFileError):
     """File that is not written because the original file includes it."""
+
+
+class LostContentError(FileError):
+    """File that is not replaced by a new one, since it has content that the new one would not have."""
 
 
 @dataclass(frozen=True)
@@ -85,15 +90,18 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     turned = (_TURNED,) if was_turned(original.mesh) else ()
     if format.place:  # a folder, in which the format replaces files itself
         return Written(True, (*located.write(path, path, mesh.points), *turned), in_place)
-    with atomic_write(path) as file:
-        notes = located.write(file, path, mesh.points)
+    with atomic_files() as files:
+        if isinstance(located, LocatedFiles):
+            notes = located.write_files(files, path, mesh.points)
+        else:
+            notes = located.write(files.add(path), path, mesh.points)
     return Written(True, (*notes, *turned), in_place)
 
 
 def _located(original: Original, format: Format) -> LocatedCoordinates:
     """Find the coordinates of the original file, after a check that they are those of its mesh."""
     path, given = original.path, original.mesh.points
-    changed = ChangedFileError(path, "has changed since it was read", _REWRITE)
+    changed = ChangedFileError(path, "has changed since it was read", REWRITE)
     try:
         located = format.locate(path)
     except FileError:
@@ -101,7 +109,7 @@ def _located(original: Original, format: Format) -> LocatedCoordinates:
     except (OSError, ValueError, LookupError) as error:
         _LOGGER.debug("the coordinates of %s were not found", path, exc_info=True)
         reason = error.strerror if isinstance(error, OSError) and error.strerror else "it has changed since"
-        raise ChangedFileError(path, f"cannot be read again ({reason})", _REWRITE) from None
+        raise ChangedFileError(path, f"cannot be read again ({reason})", REWRITE) from None
     points = located.points
     if points.shape != given.shape:
         raise changed

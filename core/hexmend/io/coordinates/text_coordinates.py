@@ -14,6 +14,8 @@ from hexmend.io.coordinates.number_texts import number_texts, replace_lines, sci
 
 #: Fields that are checked at a time, which limits the memory.
 _CHUNK = 1 << 17
+#: Letters as NumPy parses them: exponents with e, blanks between numbers.
+_NUMBER = bytes.maketrans(b"Dd,", b"ee ")
 #: Numbers of the file that tell its style.
 _SAMPLE = 300
 
@@ -78,42 +80,34 @@ class TextCoordinates:
     fields : TextFields
     width : int
         Most characters of a number; 0 for no limit.
-    notes : tuple of str
+    parsed : bool
+        True if the points are those that `parse_fields` has found, so that they need no check.
     """
 
     data: bytes
     points: np.ndarray
     fields: TextFields
     width: int = 0
-    notes: tuple[str, ...] = ()
+    parsed: bool = False
 
     def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
         with open(file, "wb") as out:
             write_edited(out, self.data, self.edits(points))
-        return self.notes
+        return ()
 
     def edits(self, points: np.ndarray) -> Edits:
         """Return the edits that replace the coordinates that differ from `points`, (n, 3) float64."""
         changed = ~(points == self.points)  # not a number differs from everything
-        self._check(changed)
+        if not self.parsed:
+            self._check(changed)
         changed |= changed.any(axis=1)[:, None] & self.fields.absent
         return self.fields.edits(changed, number_texts(points[changed], self._style(), self.width))
 
     def _check(self, changed: np.ndarray) -> None:
         """Raise `CoordinatesError` unless the fields to be replaced hold the numbers that the reader has found."""
-        begin, end, values = self.fields.begin[changed], self.fields.end[changed], self.points[changed]
-        blank, data = begin == end, np.frombuffer(self.data, np.uint8)
-        good = not values[blank].any()
-        begin, end, values = begin[~blank], end[~blank], values[~blank]
-        for low in range(0, len(begin), _CHUNK):
-            part = slice(low, low + _CHUNK)
-            sizes = end[part] - begin[part]
-            text = gather(data, begin[part], sizes)
-            text = np.insert(text, np.cumsum(sizes), ord(" ")).tobytes().replace(b"D", b"e").replace(b"d", b"e")
-            found = parse_numbers(text, np.float64)
-            good &= found is not None and np.array_equal(found, values[part], equal_nan=True)
-        if not good:
+        found = parse_fields(self.data, self.fields.begin[changed], self.fields.end[changed])
+        if found is None or not np.array_equal(found, self.points[changed], equal_nan=True):
             raise CoordinatesError("its layout is not one in which coordinates can be replaced")
 
     def _style(self) -> str | None:
@@ -122,6 +116,37 @@ class TextCoordinates:
         ranges = zip(begin[::step].tolist(), end[::step].tolist(), strict=True)
         style = scientific_style(self.data[first:last] for first, last in ranges if last > first)
         return None if style is None or self.width else style
+
+
+def parse_fields(data: bytes, begin: np.ndarray, end: np.ndarray) -> np.ndarray | None:
+    """Parse fields of a text that are numbers or blank; None if one is something else.
+
+    Parameters
+    ----------
+    data : bytes
+    begin, end : (k,) int64
+        Byte range of each field, without blanks around it; a blank or a comma follows, or the text ends.
+
+    Returns
+    -------
+    (k,) float64 or None
+        0 for a blank field.
+    """
+    filled = np.flatnonzero(begin < end)
+    values, letters = np.zeros(len(begin)), np.frombuffer(data, np.uint8)
+    for low in range(0, len(filled), _CHUNK):
+        part = filled[low : low + _CHUNK]
+        sizes = end[part] - begin[part]
+        if end[part].max() < len(data):  # each field with the letter behind it
+            text = gather(letters, begin[part], sizes + 1).tobytes().translate(_NUMBER)
+        else:
+            text = b" ".join(data[a:b] for a, b in zip(begin[part].tolist(), end[part].tolist(), strict=True))
+            text = text.translate(_NUMBER)
+        found = parse_numbers(text, np.float64)
+        if found is None or len(found) != len(part):
+            return None
+        values[part] = found
+    return values
 
 
 def word_ranges(data: bytes, begin: int, end: int) -> tuple[np.ndarray, np.ndarray]:

@@ -42,7 +42,7 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
         if path.exists() and not path.is_file() and not path.is_dir():
             yield path
             return
-        target, mode = _writable(path)
+        target, mode = writable_target(path)
         temporary = TemporaryFile(target)
         temporary.create(mode)
         yield temporary.path
@@ -64,11 +64,28 @@ def check_writable(path: str | os.PathLike[str]) -> None:
     """Raise the `FileError` that `atomic_write` would raise, as far as it is known before writing."""
     path = Path(path)
     if not path.exists() or path.is_file() or path.is_dir():
-        _writable(path)
+        writable_target(path)
 
 
-def _writable(path: Path) -> tuple[Path, int | None]:
-    """Resolve links; returns the file and its permissions, None where it does not exist."""
+def writable_target(path: Path) -> tuple[Path, int | None]:
+    """Resolve the links of a path that is to be replaced.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    target : Path
+        The file.
+    mode : int or None
+        Its permissions; None where it does not exist.
+
+    Raises
+    ------
+    FileError
+        Where it cannot be replaced, as far as this is known before writing.
+    """
     if path.is_dir():
         raise FileError(path, "is a folder: expected the name of a file to write", "Add a file name.")
     target = Path(os.path.realpath(path))

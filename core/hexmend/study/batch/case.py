@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from hexmend.errors import ParameterError
@@ -46,11 +46,14 @@ class Case:
     smoother : Smoother or Recipe
     stop : StoppingCriteria or None
         Limits of the run of a method; None for a recipe, whose stages have their own.
+    rules : MotionRules
+        Rules of motion of the run of a method; those of a recipe are its own.
     """
 
     name: str
     smoother: Smoother | Recipe
     stop: StoppingCriteria | None = None
+    rules: MotionRules = field(default_factory=MotionRules)
 
     @property
     def stages(self) -> tuple[Stage, ...]:
@@ -79,7 +82,8 @@ class Case:
         """Return the case as data, without its name: the title of a recipe, and all values of the stages."""
         recipe = self.smoother if isinstance(self.smoother, Recipe) else None
         title = None if recipe is None else recipe.title
-        motion = {"motion": recipe.rules.values()} if recipe is not None and recipe.rules else {}
+        rules = self.rules if recipe is None else recipe.rules
+        motion = {"motion": rules.values()} if rules else {}
         return {"recipe": title, **motion, "stages": [stage.values() for stage in self.stages]}
 
 
@@ -101,8 +105,9 @@ def read_case(data: Mapping[str, Any]) -> Case:
         For data that this version of Hexmend does not know.
     """
     stages = tuple(read_stage(number, stage) for number, stage in enumerate(data["stages"], 1))
+    rules = MotionRules.from_values(data.get("motion", {}))
     if data["recipe"] is not None:
-        return Case(data["recipe"], Recipe(data["recipe"], stages, MotionRules.from_values(data.get("motion", {}))))
+        return Case(data["recipe"], Recipe(data["recipe"], stages, rules))
     if len(stages) != 1:
         raise ParameterError(f"a method has {len(stages)} stages: expected one")
-    return Case(stages[0].smoother.name, stages[0].smoother, stages[0].stop)
+    return Case(stages[0].smoother.name, stages[0].smoother, stages[0].stop, rules)

@@ -5,6 +5,7 @@ Files are data: nothing in them is executed.
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import os
 from collections import Counter
@@ -15,9 +16,10 @@ from typing import Any
 
 from hexmend.errors import ParameterError
 from hexmend.io.storage.toml_files import read_toml
+from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import declared, from_values
 from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import check_keys, migrate, read_table
+from hexmend.run.recipe import Recipe, check_keys, migrate, read_table
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
 from hexmend.study.batch.case import Case, TaskLimits
@@ -25,6 +27,9 @@ from hexmend.toml_text import parse_toml
 
 #: Most cases of one study.
 MAX_CASES = 10_000
+
+#: Keys of the recipe of a study.
+_KEYS = ("format", "title", "methods", "method", "stop", "task", "boundary", "motion")
 
 #: Placeholder for the name of the mesh in that of its surface.
 MESH_NAME = "{mesh}"
@@ -109,13 +114,17 @@ def parse_plan(text: str, folder: Path, title: str = "Study") -> Plan:
     ['laplacian', 'local-sd p=2 max_iterations=50', 'local-sd p=2 max_iterations=100']
     """
     data = migrate(parse_toml(text, "a recipe"))
-    check_keys("the study", data, ("format", "title", "methods", "method", "stop", "task", "boundary"))
+    check_keys("the study", data, _KEYS)
     if not isinstance(title := data.get("title", title), str):
         raise ParameterError(f"title = {title!r} is no text: expected a title in quotes")
     stop, boundary = read_table(data, "stop"), _boundary(read_table(data, "boundary"))
+    motion = read_table(data, "motion")
+    MotionRules.from_values(motion)  # an error of the study, not of its first method
     surface = boundary.pop("surface", None)
     found = (
-        case for place, table in _tables(data) for case in _locate_errors(place, _cases(table, folder, stop, boundary))
+        _with_rules(case, motion)
+        for place, table in _tables(data)
+        for case in _locate_errors(place, _cases(table, folder, stop, boundary))
     )
     cases = tuple(itertools.islice(found, MAX_CASES + 1))
     if not cases:
@@ -129,6 +138,16 @@ def parse_plan(text: str, folder: Path, title: str = "Study") -> Plan:
         raise ParameterError("a surface is given, but the boundary is fixed: set boundary = 'slide'")
     limits = from_values(TaskLimits, read_table(data, "task"), owner="task")
     return Plan(title, cases, limits, None if surface is None else folder / surface)
+
+
+def _with_rules(case: Case, motion: Mapping[str, Any]) -> Case:
+    """Return a case with the rules of motion of the study, in addition to those of its recipe."""
+    if not motion:
+        return case
+    rules, interfaces = MotionRules.from_values(motion), motion.get("interfaces")
+    if not isinstance(case.smoother, Recipe):
+        return dataclasses.replace(case, rules=rules)
+    return dataclasses.replace(case, smoother=case.smoother.with_more_rules(rules, interfaces))
 
 
 def _boundary(table: Mapping[str, Any]) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from hexmend.errors import FileError, HexmendError
 from hexmend.io import read, read_surface, write
 from hexmend.iteration import Result
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import summarise
 from hexmend.run import smooth
 from hexmend.study.batch.case import read_case
@@ -46,7 +47,7 @@ def run(task: Task, version: str) -> dict[str, Any]:
         case = read_case(task.case)
         mesh = _mesh(task)
         row |= _sizes(mesh)
-        result = smooth(mesh, case.smoother, case.stop)
+        result = smooth(with_rules(mesh, case.rules) if case.rules else mesh, case.smoother, case.stop)
         row |= _figures(result)
         if task.output:
             write(task.output, result.mesh)

@@ -3,11 +3,13 @@
 from io import BytesIO
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.io.coordinates.edits import Edits, write_edited
 from hexmend.io.coordinates.number_texts import number_texts, replace_lines, scientific_style
+from hexmend.io.coordinates.text_coordinates import parse_fields
 
 
 @given(st.data())
@@ -50,3 +52,15 @@ def test_a_style_is_that_of_all_words():
     assert scientific_style([]) is None
     assert scientific_style([b"1.00e+00", b"1.000e+00"]) is None
     assert scientific_style([b"-1.00e+00", b"1.00e-10"]) == "%.16e"
+
+
+@pytest.mark.parametrize("end", ["\n", ""])
+def test_fields_are_parsed_as_numbers_and_blank_ones_as_zero(end):
+    text = f"1, 2.5, -1D3,, 1e-3{end}".encode()
+    begin, end = np.array([0, 3, 8, 13, 15]), np.array([1, 6, 12, 13, 19])
+    np.testing.assert_array_equal(parse_fields(text, begin, end), [1, 2.5, -1000, 0, 0.001])
+
+
+@pytest.mark.parametrize("text", [b"1 2,", b"one,", b"1-2,"])
+def test_fields_that_are_no_numbers_are_none(text):
+    assert parse_fields(text, np.array([0]), np.array([len(text) - 1])) is None

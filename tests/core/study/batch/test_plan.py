@@ -4,6 +4,8 @@ import pytest
 
 from hexmend import Recipe
 from hexmend.errors import FileError, ParameterError
+from hexmend.mesh.rules import MotionRules
+from hexmend.run.recipe_files import write_recipe
 from hexmend.study.batch.case import read_case
 from hexmend.study.batch.plan import parse_plan, read_plan
 
@@ -81,8 +83,25 @@ def test_the_boundary_applies_to_methods_without_their_own(folder):
     assert made.surface_of(folder / "parts/wheel.vtk") == folder / "wheel.stl"
 
 
+def test_rules_of_motion_apply_to_methods_and_are_added_to_those_of_recipes(folder):
+    recipe = Recipe.of("getme", title="Sliding", rules=MotionRules(interfaces="slide", fix=["inlet"]))
+    write_recipe(folder / "sliding.toml", recipe)
+    text = 'methods = ["mend", "sliding.toml"]\n[motion]\n'
+    method, chain = plan(f'{text}fix = ["walls"]', folder).cases
+    assert method.rules == MotionRules(fix=["walls"])
+    assert chain.smoother.rules == MotionRules(interfaces="slide", fix=["inlet", "walls"])
+    kept = plan(f'{text}interfaces = "keep"', folder).cases[1]
+    assert kept.smoother.rules.interfaces == "keep"
+    for case in (method, chain):
+        again = read_case(case.values())
+        assert (again.smoother, again.stop, again.rules) == (case.smoother, case.stop, case.rules)
+
+
 @pytest.mark.parametrize(("text", "said"), [
     ("", "the study has no method"),
+    ('methods = ["mend"]\n[motion]\nkeep = "all"', "there is no rule 'keep': expected one of interfaces"),
+    ('methods = ["mend"]\n[motion]\ninterfaces = "glide"', "interfaces = 'glide': expected one of keep"),
+    ('methods = ["mend"]\nmotion = 4', "motion = 4 is not a table"),
     ("methods = []", "the study has no method"),
     ('methods = "mend"', "methods = 'mend' is no list of names"),
     ('method = "mend"', "method is no list of tables"),

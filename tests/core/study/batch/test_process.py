@@ -3,6 +3,7 @@
 import os
 import sys
 
+import numpy as np
 import pytest
 
 from hexmend import __version__, gallery, io, smooth
@@ -46,6 +47,20 @@ def test_a_result_is_that_of_the_method(tmp_path):
     assert 10 < row["peak_mb"] < 2000
     assert (io.read(out).points == result.mesh.points).all()
     assert is_answer(row)
+
+
+def test_rules_of_motion_hold_in_the_process_of_a_task(tmp_path):
+    mesh = gallery.make("bridge-sharp", size=864, scramble=0.4)
+    mesh = mesh.replace(node_sets={"some": np.flatnonzero(~mesh.topology.boundary)[:50]})
+    io.write(tmp_path / "bridge.vtu", mesh)
+    text = 'format = 2\nmethods = ["mend"]\nstop = { max_iterations = 2 }\n[motion]\nfix = ["some"]'
+    (case,) = parse_plan(text, tmp_path).cases
+    out = tmp_path / "out.vtu"
+    row = run_task(task(tmp_path / "bridge.vtu", case.values(), output=str(out)), memory_mb=0, threads=1)
+    assert (row["status"], row["reason"]) == ("done", "")
+    after, some = io.read(out), mesh.node_sets["some"]
+    assert (after.points[some] == mesh.points[some]).all()
+    assert not (after.points == mesh.points).all()
 
 
 @pytest.mark.parametrize(("does", "status", "said"), [

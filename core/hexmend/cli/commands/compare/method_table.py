@@ -7,25 +7,32 @@ import re
 import sys
 from pathlib import Path
 
-from hexmend.cli.arguments.checks import check_memory
-from hexmend.cli.arguments.run_arguments import given_limits, method_settings, stopping_criteria
+from hexmend.cli.arguments.checks import check_element_targets, check_memory
+from hexmend.cli.arguments.run_arguments import given_limits, given_rules, method_settings, stopping_criteria
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.output.rich_tables import print_table
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.io import Original, read, write_as_given, writer_for
 from hexmend.io.format_lookup import copy_suffix
+from hexmend.mesh.rules.resolution import with_rules
 from hexmend.report import comparison_rows, output_folder, record_table, write_documents
+from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
 from hexmend.study.method_spec import parse_methods, split_names
 
 
 def run(args: argparse.Namespace) -> int:
-    """Run the methods, write the tables, and print one; return 128 and the signal's number if interrupted."""
+    """Run the methods, write the tables, and print one.
+
+    Returns 3 if all methods failed, 128 and the signal's number if interrupted.
+    """
     names = split_names(args.methods) if args.methods else list(METHODS)
     settings = method_settings(args, [name for name in names if not name.endswith(".toml")])
     smoothers, limits = parse_methods(names, settings, given_limits(args)), stopping_criteria(args)
-    mesh = read(args.mesh)
+    mesh = with_rules(read(args.mesh), rules := given_rules(args))
+    smoothers = [one.with_more_rules(rules, args.interfaces) if isinstance(one, Recipe) else one for one in smoothers]
+    check_element_targets(smoothers, mesh)
     check_memory(args, smoothers, mesh, "compare fewer methods (--methods)")
     folder = output_folder(args.output)
     suffix, original = copy_suffix(args.mesh), Original(Path(args.mesh), mesh)
@@ -47,4 +54,9 @@ def run(args: argparse.Namespace) -> int:
         print(f"Written to {args.output}: {', '.join(path.name for path in paths)}.")
         if comparison.interrupted:
             print("Interrupted: the table holds the results so far.", file=sys.stderr)
-    return progress.signals.status if comparison.interrupted else 0
+    if comparison.interrupted:
+        return progress.signals.status
+    if all(row.mesh is None for row in comparison.rows):
+        print("hexmend: every method failed: the table tells why.", file=sys.stderr)
+        return 3
+    return 0

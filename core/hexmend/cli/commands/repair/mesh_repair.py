@@ -19,7 +19,7 @@ def run(args: argparse.Namespace) -> int:
     print_notes(mesh)
     given = mesh
     mesh, repaired = repair(given, args.only)
-    output = MeshOutput(args.output, args.mesh, given, args.rewrite)
+    output = MeshOutput(args.output, args.mesh, given, args.rewrite, spare=False)
     output.warn_of_losses(mesh)
     written = output.write(mesh)
     for finding in repaired:

@@ -12,6 +12,7 @@ from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.numbering import find_ids
+from hexmend.io.base.unread import some_names, unread_note
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
 from hexmend.io.formats.abaqus.model import Instance, Part
@@ -54,8 +55,7 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
     elements = _Elements(deck, instances, node_ids)
     unread = _unread(instances)
     if unread:
-        types = ", ".join(sorted(unread)[:6])
-        notes.append(f"{sum(unread.values()):,} elements of other types ({types}) are left out.")
+        notes.append(unread_note(f"{sum(unread.values()):,} elements of other types ({some_names(sorted(unread))})"))
 
     budget = MemberBudget(deck)
     of_nodes = _lookups(deck, instances, node_ids, "node_sets", budget)
@@ -64,7 +64,7 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
     element_sets = _sets(instances, of_elements, several)
     side_sets, n_other = _side_sets(instances, of_elements, elements, several)
     if n_other:
-        notes.append(f"{n_other:,} entries of surfaces that are not faces S1 to S6 of hexes are left out.")
+        notes.append(unread_note(f"{n_other:,} entries of surfaces that are not faces S1 to S6 of hexes"))
     n_unknown = sum(lookup.n_unknown for lookup in (*of_nodes, *of_elements))
     if n_unknown:
         notes.append(f"{n_unknown:,} members of sets that do not exist in the file are passed over.")

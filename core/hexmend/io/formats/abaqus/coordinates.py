@@ -9,12 +9,13 @@ import numpy as np
 
 from hexmend.io.base.cursor import quoted
 from hexmend.io.coordinates.located import CoordinatesError
-from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields
+from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields, parse_fields
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.included_output import write_files
 from hexmend.io.formats.abaqus.includes import read_deck
 from hexmend.io.formats.abaqus.model import Instance, Part, placement
 from hexmend.io.formats.abaqus.sets import name_key
+from hexmend.io.storage.atomic_files import AtomicFiles
 
 #: Characters of a real number that Abaqus and CalculiX read.
 _WIDTH = 20
@@ -37,7 +38,7 @@ class _PlacedCards:
 
 
 class AbaqusCoordinates:
-    """Coordinates of all instances, see `hexmend.io.coordinates.located.LocatedCoordinates`.
+    """Coordinates of all instances, see `hexmend.io.coordinates.located.LocatedFiles`.
 
     Parameters
     ----------
@@ -49,16 +50,18 @@ class AbaqusCoordinates:
     def __init__(self, deck: Deck, placed: list[_PlacedCards]):
         self._deck, self._placed = deck, placed
         self._rows: dict[int, np.ndarray] = {}  # by the line of the card
-        self._cards = {card.line: card for one in placed for card in one.cards}
+        self._fields: dict[int, TextFields] = {}
+        self._parsed = True
         for one in placed:
             for card in one.cards:
                 if card.line not in self._rows:
-                    self._rows[card.line] = deck.nodes(card)[1]
+                    self._rows[card.line] = self._parse(card)
                 one.instance.part.points.append(self._rows[card.line])
         self.points = np.concatenate([one.instance.points() for one in placed])
 
-    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
-        """Write the file with new coordinates; see `LocatedCoordinates.write`."""
+    def write_files(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
+        """Write the deck and its files with new coordinates; see `LocatedFiles.write_files`."""
+        file = files.add(target)
         new_rows: dict[int, np.ndarray] = {}
         first = 0
         for one in self._placed:
@@ -71,13 +74,19 @@ class AbaqusCoordinates:
                     raise CoordinatesError(f"instances of the part {name} share its nodes and have moved differently")
                 new_rows.setdefault(line, rows)
         given = np.concatenate(list(self._rows.values()))
-        cards = [self._cards[line] for line in self._rows]
-        fields = _joined([node_fields(self._deck.data, card.begin, card.end) for card in cards])
-        coordinates = TextCoordinates(self._deck.given, given, fields, _WIDTH)
+        fields = _joined([self._fields[line] for line in self._rows])
+        coordinates = TextCoordinates(self._deck.given, given, fields, _WIDTH, self._parsed)
         points = np.concatenate([new_rows[line] for line in self._rows])
         if not self._deck.pieces:
             return coordinates.write(file, target, points)
-        return write_files(self._deck, coordinates.edits(points), file, target)
+        return write_files(self._deck, coordinates.edits(points), file, target, files)
+
+    def _parse(self, card: Card) -> np.ndarray:
+        """Coordinates of a card's nodes, (k, 3), from the fields that will be replaced, or else as the reader does."""
+        fields = self._fields[card.line] = node_fields(self._deck.data, card.begin, card.end)
+        rows = parse_fields(self._deck.given, fields.begin.ravel(), fields.end.ravel())
+        self._parsed &= rows is not None
+        return self._deck.nodes(card)[1] if rows is None else rows.reshape(-1, 3)
 
 
 def _placed_cards(deck: Deck) -> list[_PlacedCards]:
@@ -140,10 +149,11 @@ def node_fields(data: bytes, begin: int, end: int) -> TextFields:
     breaks, commas = np.flatnonzero(letters == ord("\n")), np.flatnonzero(letters == ord(","))
     start, stop = np.append(0, breaks + 1), np.append(breaks, len(letters))
     start, stop = start[start < len(letters)], stop[start < len(letters)]
-    filled = np.logical_or.reduceat(letters > ord(" "), start)
-    start, stop = start[filled], stop[filled]
     first = np.searchsorted(commas, start)
     count = np.searchsorted(commas, stop) - first
+    if not count.all():  # lines without a comma may be blank
+        filled = np.logical_or.reduceat(letters > ord(" "), start)
+        start, stop, first, count = start[filled], stop[filled], first[filled], count[filled]
     commas = np.append(commas, [0] * 4)  # never read for fields that are absent
     _, last = _trimmed(letters, start, stop)
     low, high = np.empty((len(start), 3), np.int64), np.empty((len(start), 3), np.int64)

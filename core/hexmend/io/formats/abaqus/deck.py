@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,6 @@ from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.formats.abaqus.deck_file import Piece
 
-_KEYWORD = re.compile(rb"^[ \t]*\*(?!\*)[^\n]*", re.MULTILINE)
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
 _FIELD = re.compile(r'(?:[^,"]|"[^"]*"?)+')
 _BLANKS = b" \t\r\v\f"
@@ -75,7 +75,10 @@ class Deck:
         if b"**" in data:
             data = _COMMENT.sub(lambda comment: b" " * len(comment.group()), data)
         self.path, self.data = path, data
-        self._cursor = ByteCursor(path, data.replace(b",", b" "))
+
+    @cached_property
+    def _cursor(self) -> ByteCursor:
+        return ByteCursor(self.path, self.data.replace(b",", b" "))
 
     def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
         """Make the error to raise."""
@@ -93,20 +96,20 @@ class Deck:
     def cards(self) -> Iterator[Card]:
         """Iterate over all cards in order."""
         line, counted_to, next_begin = 1, 0, 0
-        keywords = list(_KEYWORD.finditer(self.data))
-        for k, keyword in enumerate(keywords):
-            if keyword.start() < next_begin:
+        keywords = list(_keyword_lines(self.data))
+        for k, (first, last) in enumerate(keywords):
+            if first < next_begin:
                 continue
-            line += self.data.count(b"\n", counted_to, keyword.start())
-            counted_to = keyword.start()
-            head, begin = keyword.group(), keyword.end() + 1
+            line += self.data.count(b"\n", counted_to, first)
+            counted_to = first
+            head, begin = self.data[first:last], last + 1
             while head.rstrip().endswith(b",") and begin < len(self.data):  # continued on the next line
                 after = self.data.find(b"\n", begin)
                 after = len(self.data) if after < 0 else after
                 head, begin = head + self.data[begin:after], after + 1
             next_begin = begin
-            end = keywords[k + 1].start() if k + 1 < len(keywords) else len(self.data)
-            end = max(end, keyword.end())
+            end = keywords[k + 1][0] if k + 1 < len(keywords) else len(self.data)
+            end = max(end, last)
             name, options = _split_keyword(head.decode("utf-8", errors="replace"))
             yield Card(name, options, min(begin, end), end, line)
 
@@ -157,9 +160,25 @@ class Deck:
             raise self.error(f"*NODE holds {quoted(field)}: expected a number") from None
 
 
+def _keyword_lines(data: bytes) -> Iterator[tuple[int, int]]:
+    """Byte ranges of the lines whose first letter is a single asterisk."""
+    at = data.find(b"*")
+    while at >= 0:
+        begin, end = data.rfind(b"\n", 0, at) + 1, data.find(b"\n", at)
+        end = len(data) if end < 0 else end
+        if not data[begin:at].strip(b" \t") and data[at + 1 : at + 2] != b"*":
+            yield begin, end
+        at = data.find(b"*", end)
+
+
 def _has_even_lines(text: bytes) -> bool:
     """Return True if all lines that are not empty have the same number of commas."""
     letters = np.frombuffer(b"\n" + text, np.uint8)
+    marks = letters[(letters == ord("\n")) | (letters == ord(","))]
+    counts = np.diff(np.flatnonzero(marks == ord("\n")), append=len(marks)) - 1
+    counts = counts[:-1] if text.endswith(b"\n") else counts
+    if counts.all():  # no line is empty: much faster than the general case
+        return bool((counts == counts[:1]).all())
     starts = np.flatnonzero(letters == ord("\n"))
     commas = np.add.reduceat(letters == ord(","), starts, dtype=np.int64)[np.diff(starts, append=len(letters)) > 1]
     return bool((commas == commas[:1]).all())

@@ -17,10 +17,10 @@ from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.deck_file import DeckFile, Reference
 from hexmend.io.formats.abaqus.includes import read_deck
-from hexmend.io.storage.atomic import atomic_write
+from hexmend.io.storage.atomic_files import AtomicFiles
 
 
-def write_files(deck: Deck, edits: Edits, file: Path, target: Path) -> tuple[str, ...]:
+def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: AtomicFiles) -> tuple[str, ...]:
     """Write a deck and the files that it includes with other coordinates.
 
     Where the deck replaces itself, so do its files. Else a file with moved nodes is written next to the new deck with
@@ -34,6 +34,8 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path) -> tuple[str
         Of the joined text.
     file, target : Path
         As of `LocatedCoordinates.write`.
+    files : AtomicFiles
+        Takes the files beside the target.
 
     Returns
     -------
@@ -57,8 +59,7 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path) -> tuple[str
     if is_same_file(root.path, target):
         for one, part in own.items():
             if one is not root:
-                with atomic_write(one.path) as copy:
-                    _write(copy, one, part)
+                _write(files.add(one.path), one, part)
         _write(file, root, own.get(root, _none()))
         changed = sorted(one.path.name for one in own if one is not root)
         return (f"Coordinates are replaced in {', '.join(changed)} too.",) if changed else ()
@@ -67,13 +68,12 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path) -> tuple[str
     for one in reversed(list(root.walk())[1:]):  # included files before those that include them
         if one in renamed:
             part = _with_names(own.get(one, _none()), _references(one, renamed))
-            with atomic_write(_place(target, renamed[one])) as copy:
-                _write(copy, one, part)
+            _write(files.add(_place(target, renamed[one])), one, part)
             notes.append(f"{one.reference.name} is written as {renamed[one]}.")
         else:
-            notes += _copied(one, renamed, root, target)
+            notes += _copied(one, renamed, target, files)
     _write(file, root, _with_names(own.get(root, _none()), _references(root, renamed)))
-    return tuple(reversed(notes))
+    return tuple(dict.fromkeys(reversed(notes)))
 
 
 def _references(file: DeckFile, renamed: dict[DeckFile, str]) -> list[tuple[Reference, str]]:
@@ -166,7 +166,7 @@ def _place(target: Path, name: str) -> Path:
     return path
 
 
-def _copied(file: DeckFile, renamed: dict[DeckFile, str], root: DeckFile, target: Path) -> list[str]:
+def _copied(file: DeckFile, renamed: dict[DeckFile, str], target: Path, files: AtomicFiles) -> list[str]:
     """Copy an included file that stays as it is to where the new deck looks for it; returns notes."""
     name, parent = Path(file.reference.name), file.reference.parent
     folder = Path(renamed.get(parent, parent.reference.name if parent.reference else "")).parent
@@ -176,5 +176,5 @@ def _copied(file: DeckFile, renamed: dict[DeckFile, str], root: DeckFile, target
     if found is not None or ".." in name.parts:
         same = found is not None and (is_same_file(file.path, found) or found.read_bytes() == file.data)
         return [] if same else [f"The new deck includes {name}, which was not copied: check that it is the right file."]
-    shutil.copyfile(file.path, _place(target, str(name)))
+    shutil.copyfile(file.path, files.add(_place(target, str(name))))
     return [f"{name} is copied next to the new deck."]

@@ -29,8 +29,9 @@ def read_deck(path: Path) -> Deck:
         For an included file that cannot be read, or one that includes itself.
     """
     root = DeckFile(path, read_text_bytes(path))
-    if b"INPUT" not in root.data.upper():
-        return Deck(path, root.data)
+    deck = Deck(path, root.data)
+    if next(_including(deck), None) is None:
+        return deck
     joined = _Joined(root)
     joined.add(root, ())
     return Deck(path, b"".join(joined.texts), tuple(joined.pieces), joined.hidden)

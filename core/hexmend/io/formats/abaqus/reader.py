@@ -11,6 +11,7 @@ from typing import NoReturn
 import numpy as np
 
 from hexmend.io.base.cursor import quoted
+from hexmend.io.base.unread import some_names, unread_note
 from hexmend.io.formats.abaqus.content import to_mesh
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.elements import kind_of
@@ -78,14 +79,12 @@ class _Reader:
             raise self.deck.error("has no line that begins with *", "Is it an Abaqus file? Check its suffix.")
         notes = []
         if self.other_cards:
-            names = ", ".join(f"*{quoted(name)[1:-1]}" for name in list(self.other_cards)[:6])
-            more = "" if len(self.other_cards) <= 6 else f" and {len(self.other_cards) - 6} others"
-            notes.append(f"Keywords that define no mesh ({names}{more}) are not read.")
+            names = some_names(f"*{quoted(name)[1:-1]}" for name in self.other_cards)
+            notes.append(unread_note(f"keywords that define no mesh ({names})"))
         instances = self.instances or [Instance(part.name, part) for part in self.parts.values()]
         unused = sum(all(instance.part is not part for instance in instances) for part in self.parts.values())
         if unused:
-            phrase = count_phrase(unused, "part without an instance is", "parts without an instance are")
-            notes.append(f"{phrase} left out.")
+            notes.append(unread_note(count_phrase(unused, "part without an instance", "parts without an instance")))
         return [replace(one, part=one.part.merged(one.own)) for one in instances], self.assembly, notes
 
     def _refuse(self, card: Card) -> NoReturn:

@@ -13,6 +13,7 @@ from hexmend.io.base.cursor import quoted
 from hexmend.io.base.fixed_marks import FIXED
 from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.base.unread import unread_note
 from hexmend.io.formats.exodus.columns import join_columns
 from hexmend.io.formats.exodus.elements import FACE_OF_SIDE, ORDER, PINS_PROPERTY, kinds_of
 from hexmend.io.formats.exodus.ids import id_lines
@@ -53,7 +54,7 @@ class _Reader:
         steps = store.dimensions.get("time_step", 0)
         self.variables = CheckedVariables(path, store, max(0, steps - 1))
         if steps > 1 and any(f"name_{entity}_var" in store for entity in ("nod", "elem")):
-            self.notes.append(f"Of {steps:,} time steps the last is read.")
+            self.notes.append(unread_note(f"all {steps:,} time steps but the last"))
 
     def content(self) -> Content:
         """Read everything."""
@@ -126,7 +127,7 @@ class _Reader:
         kind = next((kind for kind in kinds if node_count(kind) == width), None)
         if kind is None and (not kinds or width < node_count(kinds[0])):
             title = f"type {quoted(type_)[1:-1] if type_ else 'unnamed'} in block {number}"
-            self.notes.append(f"{count:,} cells of {title} are left out.")
+            self.notes.append(unread_note(f"{count:,} cells of {title}"))
             self.unread[title] = count
             return None
         nodes = self.variables.integers(variable, count, width) - 1
@@ -180,7 +181,7 @@ class _Reader:
             rows = np.searchsorted(hexes, elements).clip(0, max(0, len(hexes) - 1))
             of_hex = hexes[rows] == elements if len(hexes) else np.zeros(len(elements), bool)
             if not of_hex.all():
-                self.notes.append(f"{int((~of_hex).sum()):,} sides of other cells in {name!r} are left out.")
+                self.notes.append(unread_note(f"{int((~of_hex).sum()):,} sides of other cells in {name!r}"))
             sides = sides[of_hex]
             if sides.size and (sides.min() < 1 or sides.max() > 6):
                 raise FileError(self.path, f"{name!r} has the sides {sides.min()} to {sides.max()}: expected 1 to 6")

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from hexmend.io.base.unread import unread_note
 from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
 from hexmend.io.formats.exodus.store import ExodusStore
 
@@ -53,7 +54,7 @@ def unread_notes(store: ExodusStore) -> list[str]:
     sets = [f"{entity}{k}" for entity, count in counts.items() for k in range(1, min(len(store), count) + 1)]
     if any(_has_factors(store, name) for name in sets):
         left.insert(0, "distribution factors other than 1")
-    return [f"Data that Hexmend does not keep are left out: {', '.join(left)}."] if left else []
+    return [unread_note(", ".join(left))] if left else []
 
 
 def _has_factors(store: ExodusStore, set_name: str) -> bool:

@@ -15,6 +15,7 @@ from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import find_ids
+from hexmend.io.base.unread import unread_note
 from hexmend.io.formats.gmsh.element_types import KIND_OF_TYPE, ORDER
 from hexmend.io.formats.gmsh.physical_groups import PHYSICAL_NAMES, group_numbers, unnamed_group
 from hexmend.io.formats.gmsh.sections import DataSection, ElementBlock, Sections
@@ -41,7 +42,7 @@ def to_mesh(path: Path, sections: Sections) -> Mesh:
     n_other = sum(len(part.tags) for part in sections.elements if part.type not in KIND_OF_TYPE)
     if n_other:
         types = "types that Hexmend does not keep (orders above 2, prisms of 18 nodes)"
-        notes.append(f"{n_other:,} elements of {types} are left out.")
+        notes.append(unread_note(f"{n_other:,} elements of {types}"))
     partitioned = any(part.partitions is not None and part.partitions.any() for part in sections.elements)
     cell_data = {data.name for data in sections.data if not data.of_nodes}
     partition = unused_name(PARTITION, cell_data) if PARTITION in cell_data else PARTITION

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
+from hexmend.io.base.unread import some_names, unread_note
 from hexmend.io.formats.gmsh import periodic, version_1, version_2, version_4
 from hexmend.io.formats.gmsh.content import to_mesh
 from hexmend.io.formats.gmsh.data import DATA, read_data
@@ -66,7 +67,7 @@ def read(path: Path) -> Mesh:
     if not version:
         raise source.error("has no section $MeshFormat")
     if skipped:
-        sections.notes.append(f"Sections that are not kept ({', '.join(list(skipped)[:6])}) are left out.")
+        sections.notes.append(unread_note(f"sections ({some_names(skipped)})"))
     return periodic.with_periodic_surfaces(path, to_mesh(path, sections), sections)
 
 

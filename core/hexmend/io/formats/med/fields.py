@@ -17,6 +17,7 @@ from hexmend.io.base.hdf5 import text_of
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.base.unique_names import make_unique
+from hexmend.io.base.unread import some_names, unread_note
 from hexmend.io.formats.med.arrays import read_array
 from hexmend.io.formats.med.elements import GEOMETRY_BITS
 
@@ -77,11 +78,11 @@ def read_fields(path: Path, file: Mapping, mesh: str, counts: Mapping[str, int],
                 budget.charge(8 * width * counts[entity], f"the field {name}")
                 fields[entity][name] = _values(path, file, group, width, counts[entity])
     for names, words in (
-        (other_meshes, "Fields of other meshes are left out"),
-        (unsupported, "Fields at Gauss points, or at the nodes of each element, are left out"),
-        (several_steps, "Of fields with several time steps the last is read"),
+        (other_meshes, "fields of other meshes"),
+        (unsupported, "fields at Gauss points, or at the nodes of each element"),
+        (several_steps, "all time steps but the last of fields"),
     ):
-        notes += [f"{words}: {', '.join(names[:6])}{', ...' if len(names) > 6 else ''}."] if names else []
+        notes += [unread_note(f"{words} ({some_names(names)})")] if names else []
     return fields
 
 

@@ -14,6 +14,7 @@ from hexmend.io.base import hdf5
 from hexmend.io.base.cell_kinds import node_count, to_vtk_order
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.base.unread import unread_note
 from hexmend.io.formats.med.arrays import max_bytes, read_array, read_integers
 from hexmend.io.formats.med.elements import KIND_OF_TYPE, ORDER, TYPE_OF_KIND
 from hexmend.io.formats.med.fields import read_fields
@@ -50,7 +51,7 @@ def _content(path: Path, file: Mapping) -> Content:
         raise FileError(path, "holds no mesh (no ENS_MAA)", "Is it a MED file? Check its suffix.")
     meshes, notes = list(file["ENS_MAA"]), []
     if len(meshes) > 1:
-        notes.append(f"Of {len(meshes)} meshes the first, {meshes[0]}, is read.")
+        notes.append(unread_note(f"all {len(meshes)} meshes but the first, {meshes[0]}"))
     mesh = first_step(path, meshes[0], file["ENS_MAA"][meshes[0]], notes)
     families = file["FAS"][meshes[0]] if "FAS" in file and meshes[0] in file["FAS"] else {}
 
@@ -64,7 +65,7 @@ def _content(path: Path, file: Mapping) -> Content:
         else:
             left_out.append(type)
     if left_out:
-        notes.append(f"Cells of the kinds {', '.join(left_out)} are left out.")
+        notes.append(unread_note(f"cells of the kinds {', '.join(left_out)}"))
     counts = {"NOE": len(points), **{f"MAI.{TYPE_OF_KIND[block.kind]}": len(block) for block in blocks}}
     fields = read_fields(path, file, meshes[0], counts, notes)
     blocks = [replace(block, data={**fields[f"MAI.{TYPE_OF_KIND[block.kind]}"], **block.data}) for block in blocks]
@@ -84,7 +85,7 @@ def first_step(path: Path, name: str, mesh: Mapping, notes: list[str]) -> Mappin
     if not steps:
         raise FileError(path, f"the mesh {name} has no nodes (no NOE)", DAMAGED)
     if len(steps) > 1:
-        notes.append(f"Of {len(steps)} steps of the mesh the first is read.")
+        notes.append(unread_note(f"all {len(steps)} steps of the mesh but the first"))
     return mesh[steps[0]]
 
 

@@ -13,6 +13,7 @@ from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.base.numbering import find_ids
 from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.base.unread import some_names, unread_note
 from hexmend.io.formats.nastran.bulk import BulkData
 from hexmend.io.formats.nastran.card_blocks import CardBlock, natural_numbers
 from hexmend.io.formats.nastran.cards import KINDS_OF_CARD, ORDER, element_layout
@@ -167,8 +168,8 @@ class BulkModel:
             partial = f"{self.n_partial:,} elements have some of their mid-nodes only"
             notes.append(f"{partial}: they are read with their corners only.")
         if self.other_cards:
-            words = ", ".join(f"{count:,} {quoted(name)[1:-1]}" for name, count in list(self.other_cards.items())[:6])
-            notes.append(f"Other cards ({words}{', ...' if len(self.other_cards) > 6 else ''}) are not read.")
+            words = some_names(f"{count:,} {quoted(name)[1:-1]}" for name, count in self.other_cards.items())
+            notes.append(unread_note(f"other cards ({words})"))
         blocks = [_block(self.bulk.path, kind, rows.array(), node_ids) for kind, rows in self.elements.items()]
         blocks.sort(key=lambda block: (block.kind not in HEX_KINDS, HEX_KINDS.get(block.kind, 0)))
         return Content(self.points.array(), tuple(blocks), {ID: node_ids}, notes=tuple(notes))

@@ -1,5 +1,8 @@
 """Decks that include other files are read as one, and keep their files when coordinates are replaced."""
 
+import errno
+import os
+
 import numpy as np
 import pytest
 
@@ -148,3 +151,75 @@ def test_a_file_that_the_deck_includes_is_not_overwritten(deck):
     with pytest.raises(FileError, match=r"material\.inp: is included by in\.inp"):
         write_as_given(deck.parent / "material.inp", mesh, Original(deck, given))
     assert before == {path: path.read_bytes() for path in deck.parent.rglob("*") if path.is_file()}
+
+
+@pytest.fixture
+def three(tmp_path):
+    """A deck, and two files with its nodes."""
+    lines = NODES.splitlines(keepends=True)
+    folder = tmp_path / "three"
+    folder.mkdir()
+    (folder / "low.inp").write_text("*NODE\n" + "".join(lines[:4]))
+    (folder / "high.inp").write_text("*NODE\n" + "".join(lines[4:]))
+    nodes = "*INCLUDE, INPUT=low.inp\n*INCLUDE, INPUT=high.inp\n"
+    (folder / "in.inp").write_text(nodes + "** materials\n" + HEX + "*STEP\n*END STEP\n")
+    return folder / "in.inp"
+
+
+def contents(deck):
+    return {path.name: path.read_bytes() for path in deck.parent.iterdir()}
+
+
+@pytest.mark.parametrize("target", ["in.inp", "out.inp"])
+@pytest.mark.parametrize("n_before", [0, 1, 2])
+def test_files_are_replaced_together_or_not_at_all(three, target, n_before, monkeypatch):
+    given, mesh = moved(three)
+    before, replace, done = contents(three), os.replace, []
+
+    def failing(source, path):
+        if len(done) == n_before:
+            done.append("failure")
+            raise OSError(errno.EBUSY, "Device or resource busy", str(path))
+        done.append(path.name)
+        replace(source, path)
+
+    monkeypatch.setattr(os, "replace", failing)
+    with pytest.raises(FileError, match="cannot be replaced: Device or resource busy") as raised:
+        write_as_given(three.with_name(target), mesh, Original(three, given))
+    assert contents(three) == before
+    for name in done[:n_before]:
+        assert name in str(raised.value)
+    assert str(raised.value).count("as before") == bool(n_before)
+    monkeypatch.undo()
+    assert write_as_given(three.with_name(target), mesh, Original(three, given)).replaced
+    np.testing.assert_array_equal(io.read(three.with_name(target)).points, mesh.points)
+    assert not [path for path in three.parent.iterdir() if path.name.startswith(".")]
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="the superuser may write everywhere")
+def test_a_file_that_cannot_be_written_leaves_all_as_they_are(three):
+    given, mesh = moved(three)
+    before = contents(three)
+    three.with_name("high.inp").chmod(0o400)
+    with pytest.raises(FileError, match=r"high\.inp: cannot be written: the file is read-only"):
+        write_as_given(three, mesh, Original(three, given))
+    assert contents(three) == before
+
+
+def test_old_files_are_restored_where_the_file_system_has_no_links(three, monkeypatch):
+    given, mesh = moved(three)
+    before, replace = contents(three), os.replace
+
+    def no_link(*names):
+        raise OSError(errno.EPERM, "Operation not permitted")
+
+    def failing(source, path):
+        if path.name == "in.inp":
+            raise OSError(errno.EBUSY, "Device or resource busy", str(path))
+        replace(source, path)
+
+    monkeypatch.setattr(os, "link", no_link)
+    monkeypatch.setattr(os, "replace", failing)
+    with pytest.raises(FileError, match=r"in\.inp: cannot be replaced: .*; high\.inp, low\.inp are as before"):
+        write_as_given(three, mesh, Original(three, given))
+    assert contents(three) == before

@@ -140,7 +140,7 @@ def test_data_that_are_not_kept_are_noted(tmp_path):
     globals_ = [("name_glo_var", ("num_glo_var", "len_name"), letters(["energy"]))]
     assert io.read(written(tmp_path / "a.exo", UNIT_CUBE, blocks, more)).notes == ()  # factors of 1 are the default
     mesh = io.read(written(tmp_path / "b.exo", UNIT_CUBE, blocks, [*more, *factors, *globals_]))
-    words = "Data that Hexmend does not keep are left out: distribution factors other than 1, global variables."
+    words = "Not read: distribution factors other than 1, global variables."
     assert mesh.notes == (words,)
 
 
@@ -179,4 +179,4 @@ def test_a_note_says_that_the_last_of_several_time_steps_is_read(steps, tmp_path
     ]
     mesh = io.read(written(tmp_path / "t.exo", UNIT_CUBE, [("HEX8", "", [range(1, 9)])], more))
     assert mesh.node_data["T"][0] == 8 * (steps - 1)
-    assert mesh.notes == (("Of 3 time steps the last is read.",) if steps == 3 else ())
+    assert mesh.notes == (("Not read: all 3 time steps but the last.",) if steps == 3 else ())

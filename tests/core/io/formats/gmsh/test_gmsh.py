@@ -248,4 +248,4 @@ def test_skipped_sections_are_noted(tmp_path):
     io.write(tmp_path / "a.msh", grid(2), encoding="ascii")
     with open(tmp_path / "a.msh", "a", encoding="ascii") as file:
         file.write("$GhostElements\n0\n$EndGhostElements\n")
-    assert io.read(tmp_path / "a.msh").notes == ("Sections that are not kept ($GhostElements) are left out.",)
+    assert io.read(tmp_path / "a.msh").notes == ("Not read: sections ($GhostElements).",)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.cli.main import main
 from hexmend.errors import FileError
 from hexmend.run import smooth
 from tests.core.grids import grid, scrambled
@@ -77,3 +78,24 @@ def test_a_damaged_section_is_an_error(rows, version, tmp_path):
     path.write_text(text + links)
     with pytest.raises(FileError, match=r"cell\.msh"):
         io.read(path)
+
+
+def test_a_file_written_anew_lacks_the_pairs_and_it_is_said(path, tmp_path, capsys):
+    mesh, out = io.read(path), tmp_path / "out.msh"
+    assert "periodic pairs (surface 5 with surface 7)" in io.unsupported_data(out, mesh)
+    words = ["smooth", str(path), "-o", str(out), "--method", "laplacian", "--max-iterations", "1"]
+    main([*words, "--rewrite"])
+    assert "cannot hold periodic pairs (surface 5 with surface 7), which is left out" in capsys.readouterr().err
+    assert not io.read(out).periodic_pairs
+    main(words)
+    assert "left out" not in capsys.readouterr().err
+    assert io.read(out).periodic_pairs == mesh.periodic_pairs
+
+
+def test_repair_does_not_drop_the_pairs_of_its_own_file(tmp_path, capsys):
+    path = tmp_path / "cell.msh"
+    text = (version_2(CUBE) + text_2(PAIRS)).replace("$Nodes\n64\n", "$Nodes\n65\n999 0 0 77\n")
+    path.write_text(text)
+    assert main(["repair", str(path), "-o", str(path)]) == 3
+    assert "would lose what it has besides the mesh: periodic pairs." in capsys.readouterr().err
+    assert path.read_text() == text

@@ -23,8 +23,8 @@ def test_fields_of_medcoupling_are_read_as_data():
     np.testing.assert_array_equal(mesh.hex_data["part"], [np.nan, 99])  # of one hex only
     np.testing.assert_array_equal(mesh.hex_data["press"], [17, 18])  # of two steps the last
     assert mesh.notes == (
-        "Fields at Gauss points, or at the nodes of each element, are left out: elno.",
-        "Of fields with several time steps the last is read: press.",
+        "Not read: fields at Gauss points, or at the nodes of each element (elno).",
+        "Not read: all time steps but the last of fields (press).",
     )
 
 
@@ -113,7 +113,7 @@ def test_fields_of_other_meshes_are_left_out_with_a_note(tmp_path):
     path = changed(tmp_path, lambda file, part: file["CHA/temp"].attrs.__setitem__("MAI", np.bytes_("other")))
     mesh = io.read(path)
     assert "temp" not in mesh.node_data
-    assert "Fields of other meshes are left out: temp." in mesh.notes
+    assert "Not read: fields of other meshes (temp)." in mesh.notes
 
 
 def test_fields_renamed_for_their_type_are_reported(tmp_path):

@@ -1,0 +1,168 @@
+"""Replacement of several files that belong together: all of them, or none."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from hexmend.errors import FileError
+from hexmend.io.storage.atomic import writable_target
+from hexmend.io.storage.temporary_files import TemporaryFile, flush_file, flush_folder
+from hexmend.signal_guard import uninterrupted
+
+
+@dataclass(frozen=True)
+class _Replacement:
+    """File to be replaced, its temporary file, and the one that keeps its old content until all are replaced."""
+
+    path: Path
+    target: Path
+    temporary: TemporaryFile
+    backup: TemporaryFile | None
+
+
+class AtomicFiles:
+    """Files that are replaced together; see `atomic_files`."""
+
+    def __init__(self) -> None:
+        self._replacements: list[_Replacement] = []
+        self._named: dict[Path, Path] = {}  # path given by the user, by all that errors of the system may name
+
+    def add(self, path: Path) -> Path:
+        """Add a file to be replaced, and return a temporary file with the same suffix, to be written.
+
+        Parameters
+        ----------
+        path : Path
+
+        Raises
+        ------
+        FileError
+            Where the file cannot be replaced, see `hexmend.io.storage.atomic.atomic_write`.
+        """
+        if path.exists() and not path.is_file() and not path.is_dir():
+            return path  # a pipe
+        target, mode = writable_target(path)
+        with _named(path):
+            temporary = TemporaryFile(target)
+            temporary.create(mode)
+        backup = None if mode is None else TemporaryFile(target)
+        self._replacements.append(_Replacement(path, target, temporary, backup))
+        self._named |= dict.fromkeys((path, target, temporary.path, temporary.lock_path), path)
+        return temporary.path
+
+    def commit(self) -> None:
+        """Replace all files, those that were added first last.
+
+        Raises
+        ------
+        FileError
+            If one of them cannot be replaced; those that were replaced before it have their old content again.
+        """
+        for one in self._replacements:
+            with _named(one.path):
+                flush_file(one.temporary.path)
+        if len(self._replacements) > 1:
+            for one in self._replacements:
+                with _named(one.path):
+                    _keep(one)
+        self._replace()
+        for folder in dict.fromkeys(one.target.parent for one in self._replacements):
+            flush_folder(folder)
+
+    @uninterrupted
+    def _replace(self) -> None:
+        done: list[_Replacement] = []
+        for one in reversed(self._replacements):
+            try:
+                os.replace(one.temporary.path, one.target)
+            except OSError as error:
+                problem = f"cannot be replaced: {error.strerror or error}{_restore(done)}"
+                raise FileError(one.path, problem, "Free the place or choose another.") from None
+            done.append(one)
+
+    def path_of(self, error: OSError) -> Path | None:
+        """Return the path that an error is about: the first where the error names none, None for another file's."""
+        if error.filename is None:
+            return next(iter(self._named.values()), None)
+        return self._named.get(Path(error.filename))
+
+    @uninterrupted
+    def remove(self) -> None:
+        """Remove the temporary files that are left."""
+        for one in self._replacements:
+            one.temporary.remove()
+            if one.backup is not None:
+                one.backup.remove()
+
+
+@contextmanager
+def atomic_files() -> Iterator[AtomicFiles]:
+    """Context manager that replaces files at its end, all of them or none.
+
+    All new files are on the disk before the first is renamed. If the block raises, or a file cannot be replaced, all
+    old files are there as before.
+
+    Yields
+    ------
+    AtomicFiles
+
+    Raises
+    ------
+    FileError
+        Where a file cannot be written.
+    """
+    files = AtomicFiles()
+    try:
+        yield files
+        files.commit()
+    except OSError as error:
+        path = files.path_of(error)
+        if path is None:
+            raise  # of another file, which the block uses
+        with _named(path):
+            raise
+    finally:
+        files.remove()
+
+
+@contextmanager
+def _named(path: Path) -> Iterator[None]:
+    """Context manager in which errors of the system become errors of a file."""
+    try:
+        yield
+    except OSError as error:
+        problem = f"cannot be written: {error.strerror or error}"
+        raise FileError(path, problem, "Free the place or choose another.") from None
+
+
+def _keep(one: _Replacement) -> None:
+    """Keep the old content of a file: by another name where the file system has links, else in a copy."""
+    if one.backup is None:
+        return
+    one.backup.create(None)
+    one.backup.path.unlink()
+    try:
+        os.link(one.target, one.backup.path)
+    except OSError:
+        shutil.copy2(one.target, one.backup.path)
+
+
+def _restore(done: list[_Replacement]) -> str:
+    """Restore the old files; returns words about them for a message, "" if there are none."""
+    kept, names = [], [one.path.name for one in done]
+    for one in reversed(done):
+        try:
+            if one.backup is None:
+                one.target.unlink()
+            else:
+                os.replace(one.backup.path, one.target)
+        except OSError:
+            kept.append(one.path.name)
+    if kept:
+        return f", and {', '.join(kept)} cannot be restored: the new content stays there"
+    return f"; {', '.join(names)} {'is' if len(names) == 1 else 'are'} as before" if names else ""
