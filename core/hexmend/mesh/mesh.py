@@ -180,6 +180,8 @@ class Mesh(MeshMotion):
             mesh._set(_target=self.target)
         if "_rules" in self.__dict__ and "hexes" not in changes:
             mesh._set(_rules=self.node_rules)
-        if self.linear_motion is not None and "points" not in changes:
-            mesh._set(_motion=self.linear_motion, _motion_start=self.motion_start)
+        if "points" not in changes:
+            own = self if "hexes" not in changes else self.without_motion_of_rules()
+            names = ("_motion", "_motion_start", "_own_motion", "_own_start")
+            mesh._set(**{name: own.__dict__[name] for name in names if name in own.__dict__})
         return mesh
