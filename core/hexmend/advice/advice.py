@@ -55,21 +55,23 @@ class Advice:
     no_suggestion: str
 
 
-def advise(result: Result) -> Advice:
+def advise(result: Result, outside: np.ndarray | None = None) -> Advice:
     """Explain a run that ended.
 
     Parameters
     ----------
     result : Result
+    outside : (n,) bool, optional
+        Nodes pinned for this run alone, outside of the part of the mesh to which it was limited.
 
     Returns
     -------
     Advice
     """
-    now = Situation(result)
+    now = Situation(result, outside)
     suggestions = [suggestion for rule in RULES if (suggestion := rule(now)) is not None]
     if result.outcome is Outcome.NOTHING_FREE:
-        suggestions = [one for one in suggestions if one.unpin.size]
+        suggestions = [one for one in suggestions if one.releases]
     untried = result.outcome is Outcome.STOPPED and not result.iterations
     worse = describe_regressions(result.before, result.after, result.target_q), describe_losses(result.layers)
     limits, none = result.active, np.empty(0, dtype=np.int64)
@@ -143,6 +145,8 @@ def _locked(now: Situation) -> str:
     which = count_phrase(many, "of them is", "of them are")
     if many == now.result.after.inverted:
         which = "It is" if many == 1 else "All of them are"
+    if now.fixing_sets or now.outside_nodes.size:  # suggestions say how to release these
+        return f"{which} locked: fixed nodes alone hold {them} in inversion."
     if now.result.surface is not None:
         rest = f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
         remedy = "" if now.cut_short else " Correct the boundary where the mesh was made."
@@ -156,4 +160,4 @@ def _locked(now: Situation) -> str:
         remedy = " Correct the boundary where the mesh was made, or try mend with boundary = slide: it also moves nodes"
         remedy += " off the surface within the tolerance."
     text = f"{which} locked: fixed nodes alone hold {them} in inversion{rest}"
-    return text if now.pinned_nodes(now.locked).size else text + remedy
+    return text if now.pinned_nodes.size else text + remedy

@@ -6,6 +6,9 @@ import argparse
 
 from hexmend.errors import ParameterError
 
+#: Rings of hexes around those of --only that are smoothed too.
+DEFAULT_RINGS = 1
+
 
 def add_mesh(parser: argparse.ArgumentParser) -> None:
     """Declare the mesh file, and the option that keeps its orientation."""
