@@ -76,6 +76,11 @@ class Smoother(Parametrised, ABC):
         """True if boundary layers keep their heights by a target."""
         return False
 
+    @property
+    def ignored_parameters(self) -> str:
+        """Sentence about parameters that have no effect because of others; "" if all have one."""
+        return ""
+
     def slides_on(self, mesh: Mesh) -> bool:
         """Return True if nodes of a mesh slide: of its boundary, or those for which its rules say so."""
         return self.slides

@@ -11,6 +11,7 @@ from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 from hexmend.target import SPECIFICATIONS
+from hexmend.target.builders import SIZE_WEIGHT, WITHOUT_SIZES
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class TargetedSmoother(SlidingSmoother):
         "file or a formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
     )
     size_weight: float = parameter(
-        1.0, low=0, high=1000, help="Weight of the size relative to the shape, where the target has sizes."
+        SIZE_WEIGHT, low=0, high=1000, help="Weight of the size relative to the shape, where the target has sizes."
     )
     layers: str = parameter(
         "auto",
@@ -35,6 +36,16 @@ class TargetedSmoother(SlidingSmoother):
     @property
     def keeps_layers(self) -> bool:
         return keeps_layers(self.target, self.layers)
+
+    @property
+    def weighs_sizes(self) -> bool:
+        """True if the target that the parameters name may have sizes, which `size_weight` weighs."""
+        return self.target not in (AUTO, *WITHOUT_SIZES)
+
+    @property
+    def ignored_parameters(self) -> str:
+        ignored = not self.weighs_sizes and self.size_weight != SIZE_WEIGHT
+        return f"size_weight has no effect with target = {self.target}, which has no sizes." if ignored else ""
 
     def with_target(self, mesh: Mesh, layers: Layers, quality: ElementQuality | None = None) -> Mesh:
         kept = layers if self.keeps_layers else Layers()
