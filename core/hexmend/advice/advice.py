@@ -109,7 +109,7 @@ def _end(now: Situation) -> str:
             else f"Converged after {count}: a further step would gain less than the rounding error."
         )
     if result.outcome is Outcome.MAX_ITERATIONS:
-        return f"Stopped at the limit of {stop.max_iterations:,} iterations before it converged.{still}"
+        return f"Stopped at the limit of {count_phrase(stop.max_iterations, 'iteration')} before it converged.{still}"
     if result.outcome is Outcome.MAX_SECONDS:
         return f"Stopped at the limit of {stop.max_seconds:g} s, after {count}, before it converged.{still}"
     if result.outcome is Outcome.STOPPED and not result.iterations:
@@ -129,7 +129,7 @@ def _state(now: Situation) -> str:
         if now.result.active is not None:
             least += f", the least scaled Jacobian is {after.scaled_jacobian_min:.4f}"
         return f"No hex is inverted; the worst has q = {least}.{mended}{done}"
-    hexes = f"of {after.hexes:,} hexes"
+    hexes = f"of {count_phrase(after.hexes, 'hex', 'hexes')}"
     words = [f"{count_phrase(after.inverted, f'{hexes} is', f'{hexes} are')} inverted."]
     if before.inverted != after.inverted:
         earlier = count_phrase(before.inverted, "was", "were") if before.inverted else "None was"

@@ -15,6 +15,7 @@ from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh_motion import SHARED, MeshMotion, TargetSurface
 from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.validation import check_finite, points_like
+from hexmend.terminal_text import count_phrase
 
 __all__ = ["Mesh", "TargetSurface"]
 
@@ -139,7 +140,8 @@ class Mesh(MeshMotion):
             For a target of another number of hexes.
         """
         if target is not None and len(target.lengths) != self.n_hexes:
-            raise MeshError(f"the target is for {len(target.lengths)} hexes: the mesh has {self.n_hexes}")
+            hexes = count_phrase(len(target.lengths), "hex", "hexes")
+            raise MeshError(f"the target is for {hexes}: the mesh has {self.n_hexes:,}")
         return self._copy(*SHARED, _element_target=target)
 
     def replace(self, **changes: object) -> Mesh:

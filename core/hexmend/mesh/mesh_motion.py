@@ -16,6 +16,7 @@ from hexmend.mesh.materials import STRUCTURED_BLOCKS, Materials, find_materials
 from hexmend.mesh.mesh_data import MeshData
 from hexmend.mesh.rules.motion_rules import MotionRules, NodeRules
 from hexmend.mesh.validation import as_bools, check_finite, points_like
+from hexmend.terminal_text import count_phrase
 
 #: Cached properties that do not depend on the points.
 SHARED = ("fixed", "free", "immovable", "materials")
@@ -193,8 +194,8 @@ class MeshMotion(MeshData):
             return self._copy("materials")._without("_motion", "_motion_start", "_own_motion", "_own_start")
         if motion.largest_node >= self.n_nodes:
             raise MeshError(
-                f"the linear motion names node {motion.largest_node}, but the mesh has {self.n_nodes} nodes, counted "
-                "from 0: correct the number"
+                f"the linear motion names node {motion.largest_node}, but the mesh has "
+                f"{count_phrase(self.n_nodes, 'node')}, counted from 0: correct the number"
             )
         moving = self._copy("materials", "immovable", _motion=motion, _motion_start=self.points)
         return moving._without("_own_motion", "_own_start")
