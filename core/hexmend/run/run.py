@@ -260,8 +260,8 @@ class Run(Iterator[Iteration]):
 
     @property
     def layers(self) -> Layers:
-        """Boundary layers of the mesh as given."""
-        return self._shapes.layers
+        """Boundary layers of the mesh as given: on walls that the current stage names, or those that are found."""
+        return self._shapes.layers_of(self.stage.smoother)
 
     @property
     def layers_message(self) -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexmend.layers import KEEP_LAYERS, Layers, keeps_layers, run_target
+from hexmend.errors import MeshError, ParameterError
+from hexmend.layers import KEEP_LAYERS, Layers, keeps_layers, layers_on_sets, named_walls, run_target
 from hexmend.layers.targets import AUTO
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
@@ -29,13 +30,25 @@ class TargetedSmoother(SlidingSmoother):
     )
     layers: str = parameter(
         "auto",
-        choices=KEEP_LAYERS,
-        help="Boundary layers: keep their heights, or leave them free; auto: keep them unless a target is named.",
+        suggestions=KEEP_LAYERS,
+        sets=True,
+        help="Boundary layers: keep their heights, or leave them free; auto: keep them unless a target is named. Names "
+        "of sets: keep the layers on these walls, whether or not their heights grow.",
     )
 
     @property
     def keeps_layers(self) -> bool:
         return keeps_layers(self.target, self.layers)
+
+    def layers_of(self, mesh: Mesh, found: Layers, quality: ElementQuality | None = None) -> Layers:
+        names = named_walls(self.layers)
+        if not names:
+            return found
+        try:
+            return layers_on_sets(mesh, names, quality)
+        except MeshError as error:
+            expected = f"expected {', '.join(KEEP_LAYERS)}, or names of sets with commas between them"
+            raise ParameterError(f"layers = {self.layers}: {error} ({expected})") from None
 
     @property
     def weighs_sizes(self) -> bool:

@@ -3,7 +3,7 @@
 The edges that are parallel to each other in a hex, those parallel to them in its neighbours, and so on, belong to one
 dual sheet. Lengths change little from one edge of a sheet to the next, while they may change fast across sheets, as in
 a boundary layer. Where edges are noisy, their lengths are therefore filled in from sound edges of the same sheet:
-edges between fixed nodes, such as those of the boundary, and edges away from distorted hexes and noise.
+edges of the boundary and of interfaces between materials, and edges away from distorted hexes and noise.
 """
 
 from __future__ import annotations
@@ -141,7 +141,7 @@ def _log_edge_lengths(mesh: Mesh) -> np.ndarray:
 def _noisy_edges(
     mesh: Mesh, sheets: _Sheets, logs: np.ndarray, quality: ElementQuality, region: np.ndarray
 ) -> np.ndarray:
-    """Mark edges whose ends are not both fixed, at skewed hexes or unlike their neighbours, (e + 1,) bool."""
+    """Mark edges whose ends are not both `_as_given`, at skewed hexes or unlike their neighbours, (e + 1,) bool."""
     some = np.append(np.ones(sheets.count, dtype=bool), False)
     average, _ = sheets.averages(logs, some, sheets.groups)
     noise = np.abs(logs - average)
@@ -154,9 +154,22 @@ def _noisy_edges(
     near = mask(mesh.hexes[skewed], mesh.n_nodes)[mesh.hexes[region]].any(axis=1)
     noisy[sheets.groups.reshape(-1, 12)[near]] = True
     low, high = mesh.topology.edges.T
-    noisy[:-1] &= ~(mesh.fixed[low] & mesh.fixed[high])
+    sound = _as_given(mesh)
+    noisy[:-1] &= ~(sound[low] & sound[high])
     noisy[-1] = False
     return noisy
+
+
+def _as_given(mesh: Mesh) -> np.ndarray:
+    """Mark the nodes that are where they were made, (n,) bool: of the boundary, and of interfaces that are kept.
+
+    Pinned nodes are not among them: a mesh has the same lengths whatever is pinned for a run.
+    """
+    motion, materials = mesh.linear_motion, mesh.interfaces
+    given = mesh.topology.boundary.copy()
+    if motion is not None:
+        given &= ~motion.marks(mesh.n_nodes)
+    return given if materials is None else given | materials.interface_nodes
 
 
 def _filled(sheets: _Sheets, logs: np.ndarray, noisy: np.ndarray, groups: np.ndarray) -> np.ndarray:
