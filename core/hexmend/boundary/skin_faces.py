@@ -47,8 +47,8 @@ def skin_faces(mesh: Mesh) -> SkinFaces:
 def _holds_interface(faces: np.ndarray, free: np.ndarray, boundary: np.ndarray) -> np.ndarray:
     """Mark the faces (k, 4) of interfaces that have no freed node, or one in a face with an inner node on it, (k,)."""
     freed = free[faces]
-    held = (~freed & ~boundary[faces]).any(axis=1)
-    near = mask(faces[held], len(free))
+    slides = (~freed & ~boundary[faces]).any(axis=1)
+    near = mask(faces[slides], len(free))
     return ~freed.any(axis=1) | (freed & near[faces]).any(axis=1)
 
 
