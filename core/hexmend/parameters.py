@@ -26,6 +26,8 @@ from hexmend.errors import ParameterError
 
 T = TypeVar("T")
 
+#: Beginning of the name of a set where the name alone is a word with another meaning.
+SET = "set:"
 _TRUE, _FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
@@ -61,6 +63,7 @@ class Parameter:
     help: str
     no_limit: str = ""
     suggestions: tuple[str, ...] = ()
+    sets: bool = False
 
     def check(self, value: Any) -> Any:
         """Return `value` as this parameter's type, or raise `ParameterError` saying what was expected.
@@ -78,6 +81,9 @@ class Parameter:
                 raise self._error(_shown(value), "is not a switch")
             return value
         if self.type is str:
+            if self.sets and isinstance(value, list | tuple) and value and all(isinstance(name, str) for name in value):
+                names = ",".join(value)
+                return f"{SET}{names}" if names in self.suggestions else names
             return str(value)
         if self.no_limit and isinstance(value, str) and value == self.no_limit:
             return value
@@ -110,7 +116,8 @@ class Parameter:
         if self.type is bool:
             return "true or false"
         if self.type is str:
-            return f"{', '.join(self.suggestions)}, or another text" if self.suggestions else "a text"
+            other = "names of sets with commas between them" if self.sets else "another text"
+            return f"{', '.join(self.suggestions)}, or {other}" if self.suggestions else "a text"
         words = self._kind
         if self.low is not None and self.high is not None:
             words += f" from {self.low:g} to {self.high:g}"
@@ -136,7 +143,9 @@ class Parameter:
 
     def to_json(self) -> dict[str, Any]:
         """The row of `hexmend methods --json`."""
-        row = {key: value for key, value in vars(self).items() if key not in ("type", "no_limit", "suggestions")}
+        row = {
+            key: value for key, value in vars(self).items() if key not in ("type", "no_limit", "suggestions", "sets")
+        }
         return row | {"choices": None if self.choices is None else list(self.choices)}
 
 
@@ -155,10 +164,11 @@ def parameter(
     help: str,
     no_limit: str = "",
     suggestions: tuple[str, ...] = (),
+    sets: bool = False,
 ) -> Any:
     """Declare a dataclass field as a parameter; its type is the field's annotation, the rest as in `Parameter`."""
     own = {"low": low, "high": high, "choices": choices, "unit": unit, "help": help, "no_limit": no_limit}
-    own["suggestions"] = suggestions
+    own |= {"suggestions": suggestions, "sets": sets}
     return dataclasses.field(default=default, metadata={"parameter": own})
 
 

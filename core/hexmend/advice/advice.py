@@ -55,21 +55,23 @@ class Advice:
     no_suggestion: str
 
 
-def advise(result: Result) -> Advice:
+def advise(result: Result, outside: np.ndarray | None = None) -> Advice:
     """Explain a run that ended.
 
     Parameters
     ----------
     result : Result
+    outside : (n,) bool, optional
+        Nodes pinned for this run alone, outside of the part of the mesh to which it was limited.
 
     Returns
     -------
     Advice
     """
-    now = Situation(result)
+    now = Situation(result, outside)
     suggestions = [suggestion for rule in RULES if (suggestion := rule(now)) is not None]
     if result.outcome is Outcome.NOTHING_FREE:
-        suggestions = [one for one in suggestions if one.unpin.size]
+        suggestions = [one for one in suggestions if one.releases]
     untried = result.outcome is Outcome.STOPPED and not result.iterations
     worse = describe_regressions(result.before, result.after, result.target_q), describe_losses(result.layers)
     limits, none = result.active, np.empty(0, dtype=np.int64)
@@ -107,7 +109,7 @@ def _end(now: Situation) -> str:
             else f"Converged after {count}: a further step would gain less than the rounding error."
         )
     if result.outcome is Outcome.MAX_ITERATIONS:
-        return f"Stopped at the limit of {stop.max_iterations:,} iterations before it converged.{still}"
+        return f"Stopped at the limit of {count_phrase(stop.max_iterations, 'iteration')} before it converged.{still}"
     if result.outcome is Outcome.MAX_SECONDS:
         return f"Stopped at the limit of {stop.max_seconds:g} s, after {count}, before it converged.{still}"
     if result.outcome is Outcome.STOPPED and not result.iterations:
@@ -127,7 +129,7 @@ def _state(now: Situation) -> str:
         if now.result.active is not None:
             least += f", the least scaled Jacobian is {after.scaled_jacobian_min:.4f}"
         return f"No hex is inverted; the worst has q = {least}.{mended}{done}"
-    hexes = f"of {after.hexes:,} hexes"
+    hexes = f"of {count_phrase(after.hexes, 'hex', 'hexes')}"
     words = [f"{count_phrase(after.inverted, f'{hexes} is', f'{hexes} are')} inverted."]
     if before.inverted != after.inverted:
         earlier = count_phrase(before.inverted, "was", "were") if before.inverted else "None was"
@@ -143,6 +145,8 @@ def _locked(now: Situation) -> str:
     which = count_phrase(many, "of them is", "of them are")
     if many == now.result.after.inverted:
         which = "It is" if many == 1 else "All of them are"
+    if now.fixing_sets or now.outside_nodes.size:  # suggestions say how to release these
+        return f"{which} locked: fixed nodes alone hold {them} in inversion."
     if now.result.surface is not None:
         rest = f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
         remedy = "" if now.cut_short else " Correct the boundary where the mesh was made."
@@ -156,4 +160,4 @@ def _locked(now: Situation) -> str:
         remedy = " Correct the boundary where the mesh was made, or try mend with boundary = slide: it also moves nodes"
         remedy += " off the surface within the tolerance."
     text = f"{which} locked: fixed nodes alone hold {them} in inversion{rest}"
-    return text if now.pinned_nodes(now.locked).size else text + remedy
+    return text if now.pinned_nodes.size else text + remedy

@@ -8,13 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
 from hexmend.advice.limits import larger_limits, with_last_kept
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
 from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.smoothers import METHODS
+from hexmend.terminal_text import count_phrase
 
 Mend, SequentialGETMe, SmartLaplacian = METHODS["mend"], METHODS["getme-sequential"], METHODS["smart-laplacian"]
 
@@ -32,8 +31,7 @@ Rule = Callable[[Situation], Suggestion | None]
 
 def unpin(now: Situation) -> Suggestion | None:
     """Suggest to unpin nodes that keep hexes inverted."""
-    remaining = now.unlocked[: None if _is_mend(now) and not now.cut_short else 0]
-    pins = now.pinned_nodes(np.concatenate([now.locked, remaining]))
+    pins = now.pinned_nodes
     if not pins.size:
         return None
     nodes, fixed, them = f"{pins.size:,} nodes", "are fixed only by pins", "them"
@@ -41,6 +39,30 @@ def unpin(now: Situation) -> Suggestion | None:
         nodes, fixed, them = "node", "is fixed only by a pin", "it"
     text = f"Unpin the {nodes} of inverted hexes that {fixed}, then run Mend, which can move {them} then."
     return Suggestion("Unpin, then Mend", text, "inverted", Mend(**now.objective), unpin=pins)
+
+
+def release(now: Situation) -> Suggestion | None:
+    """Suggest a run without the rules that fix the nodes of sets, and so keep hexes inverted."""
+    names = now.fixing_sets
+    if not names:
+        return None
+    rules = now.mesh.node_rules.rules
+    named = " and ".join(f"{name!r}" for name in names)
+    text = f"Run Mend without the rule that fixes the nodes of {named} (fix): it holds hexes inverted."
+    left = replace(rules, fix=tuple(name for name in rules.fix if name not in names))
+    smoother = Mend(**now.objective, **now.sliding)
+    return Suggestion("Mend without the fixed sets", text, "inverted", smoother, rules=left)
+
+
+def widen(now: Situation) -> Suggestion | None:
+    """Suggest a larger part of the mesh for a run whose part ends at inverted hexes."""
+    if not now.outside_nodes.size:
+        return None
+    text = (
+        f"Run Mend on a larger part of the mesh: {count_phrase(now.outside_nodes.size, 'node')} of inverted hexes "
+        f"{'is' if now.outside_nodes.size == 1 else 'are'} outside of this one."
+    )
+    return Suggestion("Mend on a larger part", text, "inverted", Mend(**now.objective, **now.sliding), widen=True)
 
 
 def untangle(now: Situation) -> Suggestion | None:
@@ -54,6 +76,8 @@ def untangle(now: Situation) -> Suggestion | None:
 def slide(now: Situation) -> Suggestion | None:
     """Suggest a sliding boundary for locked hexes that it can free."""
     if not now.locked.size or now.result.surface is not None or now.smoother.slides or not now.freed:
+        return None
+    if now.fixing_sets or now.outside_nodes.size:  # which are to be released first
         return None
     many = now.locked.size
     which = "The locked hex can" if many == 1 else f"{now.freed:,} of the {many:,} locked hexes can"
@@ -178,6 +202,8 @@ def regularise(now: Situation) -> Suggestion | None:
 
 RULES: tuple[Rule, ...] = (
     unpin,
+    release,
+    widen,
     untangle,
     slide,
     regularise,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +11,8 @@ from hexmend.boundary import freed_by_sliding
 from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules.named_sets import nodes_in_set
+from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import ElementQuality, measure, objective
 from hexmend.quality.measure import locked_hexes
 from hexmend.smoothers import METHODS, Smoother
@@ -28,6 +31,12 @@ _MIN_RISE = 1e-4
 class Situation:
     """A run that ended, with the quality of its mesh.
 
+    Parameters
+    ----------
+    result : Result
+    outside : (n,) bool, optional
+        Nodes pinned for this run alone, outside of the part of the mesh to which it was limited.
+
     Attributes
     ----------
     result : Result
@@ -42,10 +51,11 @@ class Situation:
         Numbers, from 0, of the inverted hexes that no move of free nodes can repair, and of the other inverted ones.
     """
 
-    def __init__(self, result: Result):
+    def __init__(self, result: Result, outside: np.ndarray | None = None):
         last = result.stages[-1]
         self.result = result
         self.mesh: Mesh = result.mesh
+        self._outside = np.zeros(self.mesh.n_nodes, dtype=bool) if outside is None else outside
         self.smoother: Smoother = METHODS[last.method](**last.parameters)
         self.stop: StoppingCriteria = last.stop
         self.quality: ElementQuality = measure(self.mesh.points, self.mesh.hexes)
@@ -67,6 +77,11 @@ class Situation:
     def objective(self) -> dict[str, float]:
         """The method's parameters p and offset of the objective, if it has them."""
         return {name: value for name, value in self.smoother.values().items() if name in ("p", "offset")}
+
+    @property
+    def sliding(self) -> dict[str, str]:
+        """The parameter that lets the boundary slide, if it slides."""
+        return {"boundary": "slide"} if self.smoother.slides else {}
 
     @property
     def max_p(self) -> float:
@@ -108,9 +123,51 @@ class Situation:
         which[self.locked] = True
         return int(np.count_nonzero(freed_by_sliding(self.mesh, which, self.smoother.feature_angle)))
 
-    def pinned_nodes(self, hexes: np.ndarray) -> np.ndarray:
-        """Return the nodes of hexes (k,) that only a pin fixes: their numbers in ascending order, (j,) int."""
+    @property
+    def resisting(self) -> np.ndarray:
+        """Inverted hexes that released nodes may free, (k,): the locked ones, and those that Mend left at its end."""
+        left = self.unlocked if isinstance(self.smoother, METHODS["mend"]) and not self.cut_short else self.unlocked[:0]
+        return np.concatenate([self.locked, left])
+
+    @cached_property
+    def pinned_nodes(self) -> np.ndarray:
+        """Nodes of resisting hexes that only a pin of the mesh fixes: their numbers in ascending order, (j,) int."""
         if self.mesh.pinned is None:
             return np.zeros(0, dtype=np.int64)
-        nodes = np.unique(self.mesh.hexes[hexes])
-        return nodes[self.mesh.pinned[nodes] & ~self.mesh.topology.boundary[nodes]]
+        nodes = np.unique(self.mesh.hexes[self.resisting])
+        return nodes[(self.mesh.pinned & ~self._outside & ~self.mesh.topology.boundary)[nodes]]
+
+    @cached_property
+    def outside_nodes(self) -> np.ndarray:
+        """Nodes of resisting hexes that are free but for the part to which the run was limited, (j,) int."""
+        nodes = np.unique(self.mesh.hexes[self.resisting])
+        nodes = nodes[self._outside[nodes]]
+        return nodes[self._movable(self.mesh.replace(pinned=self._without_outside))[nodes]]
+
+    @cached_property
+    def fixing_sets(self) -> tuple[str, ...]:
+        """Names of the sets that a rule fixes, and without which nodes of resisting hexes can move."""
+        rules, found = self.mesh.node_rules.rules, []
+        if not rules.fix or not self.resisting.size:
+            return ()
+        nodes = np.unique(self.mesh.hexes[self.resisting])
+        without = self._movable(with_rules(self.mesh, replace(rules, fix=())))
+        released = nodes[(without & ~self._movable(self.mesh) & ~self._outside)[nodes]]
+        for name in rules.fix:
+            if np.isin(nodes_in_set(self.mesh, name), released).any():
+                found.append(name)
+        return tuple(found)
+
+    @property
+    def can_release(self) -> bool:
+        """True if resisting hexes have nodes that a pin, a rule or the part of the run fixes."""
+        return bool(self.pinned_nodes.size or self.fixing_sets or self.outside_nodes.size)
+
+    @property
+    def _without_outside(self) -> np.ndarray | None:
+        return None if self.mesh.pinned is None else self.mesh.pinned & ~self._outside
+
+    def _movable(self, mesh: Mesh) -> np.ndarray:
+        """Mark the nodes of a mesh that are free, and those of its boundary that slide, (n,) bool."""
+        sliding = mesh.topology.boundary & ~mesh.immovable
+        return mesh.free | sliding if self.smoother.slides else mesh.free

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from hexmend.iteration import StoppingCriteria
+from hexmend.mesh.rules import MotionRules
 from hexmend.smoothers import Smoother
 
 
@@ -31,6 +32,10 @@ class Suggestion:
         True if the last run is to be undone first.
     unpin : (k,) int
         Nodes to be unpinned first.
+    rules : MotionRules, optional
+        Rules of motion for the run; None for those of the last run.
+    widen : bool
+        True if the part of the mesh to which the last run was limited is to be larger.
     """
 
     title: str
@@ -40,3 +45,10 @@ class Suggestion:
     stop: StoppingCriteria = field(default_factory=StoppingCriteria)
     undo: bool = False
     unpin: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    rules: MotionRules | None = None
+    widen: bool = False
+
+    @property
+    def releases(self) -> bool:
+        """True if nodes that were fixed in the last run are free in this one."""
+        return bool(self.unpin.size) or self.rules is not None or self.widen

@@ -86,6 +86,10 @@ class Boundary:
         node_class[nodes], component[nodes] = NodeClass.INSIDE, -1
         return replace(self, node_class=node_class, component=component)
 
+    def with_faces(self, which: np.ndarray) -> Boundary:
+        """Return the boundary with some of its faces (k,) bool alone; nodes, curves and patches stay as they are."""
+        return replace(self, faces=self.faces[which], patch_of_face=self.patch_of_face[which])
+
     def count(self, node_class: NodeClass) -> int:
         """Return the number of nodes of a class."""
         return int(np.count_nonzero(self.node_class == node_class))

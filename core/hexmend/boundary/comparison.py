@@ -15,6 +15,7 @@ from hexmend.boundary.features import FEATURE_ANGLE, dihedral_angles
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_faces, as_points, points_like
+from hexmend.terminal_text import count_phrase
 
 #: Nodes that have moved less, in mean edge lengths, count as unmoved.
 _MOVE_TOLERANCE = 1e-9
@@ -76,11 +77,18 @@ class SurfaceChange:
     def sentence(self) -> str:
         """Description of the change as a sentence."""
         return (
-            f"The boundary slid: {self.moved:,} of its nodes moved; it is at most {self.max:.2g} mean edge lengths "
-            f"({self.max_percent_of_diagonal:.2g} % of the diagonal) from {self.reference or 'where it was'}, "
-            f"{self.mean:.2g} in the mean; its volume changed by {100 * self.volume_change:+.2g} %; "
-            f"{self.features_kept:,} of {self.features:,} sharp edges are kept."
+            f"{self._motion} it is at most {self.max:.2g} mean edge lengths ({self.max_percent_of_diagonal:.2g} % of "
+            f"the diagonal) from {self.reference or 'where it was'}, {self.mean:.2g} in the mean; its volume changed "
+            f"by {100 * self.volume_change:+.2g} %; {self.features_kept:,} of "
+            f"{count_phrase(self.features, 'sharp edge')} {'is' if self.features_kept == 1 else 'are'} kept."
         )
+
+    @property
+    def _motion(self) -> str:
+        """Beginning of the description: the number of nodes that moved."""
+        if not self.moved:
+            return "The boundary could slide, but none of its nodes moved:"
+        return f"The boundary slid: {self.moved:,} of its nodes moved;"
 
     def to_dict(self) -> dict[str, float | int]:
         """Return the values by name, lengths in mean edge lengths."""

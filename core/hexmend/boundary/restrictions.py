@@ -50,3 +50,24 @@ def freed_by_rules(mesh: Mesh) -> np.ndarray:
     if rules.free is not None:
         moves |= rules.free & ~mesh.topology.boundary
     return np.flatnonzero(moves & ~mesh.fixed)
+
+
+def moving_with_surface(mesh: Mesh, faces: np.ndarray) -> np.ndarray:
+    """Mark the faces of `hexmend.boundary.skin_faces` that stay on the surface: freed nodes take theirs off interfaces.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    faces : (k, 4) int32
+        Those of the boundary first.
+
+    Returns
+    -------
+    (k,) bool
+    """
+    free = mesh.node_rules.free
+    stays = np.ones(len(faces), dtype=bool)
+    first = len(mesh.topology.boundary_faces)
+    if free is not None:
+        stays[first:] = ~free[faces[first:]].any(axis=1)
+    return stays

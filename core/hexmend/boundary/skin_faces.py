@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import boundary_faces_in_sets
@@ -28,16 +29,27 @@ class SkinFaces(NamedTuple):
 
 
 def skin_faces(mesh: Mesh) -> SkinFaces:
-    """Return the boundary faces of a mesh, and the faces of interfaces whose nodes are kept or slide."""
+    """Return the boundary faces of a mesh, and the faces of interfaces on which nodes are kept or slide.
+
+    Faces of freed nodes next to nodes that are not freed are among them: an interface has no hole where a node left it.
+    """
     hexes, _ = np.nonzero(mesh.topology.face_neighbours < 0)
     faces, hexes = mesh.topology.boundary_faces, np.stack([hexes, np.full_like(hexes, -1)], axis=1)
     materials, free = mesh.interfaces, mesh.node_rules.free
     if materials is None:
         return SkinFaces(faces, hexes)
     between = materials.interface_faces
-    kept = slice(None) if free is None else ~free[between].any(axis=1)
+    kept = slice(None) if free is None else _holds_interface(between, free, mesh.topology.boundary)
     both = materials.interface_sides[kept][:, [0, 2]]
     return SkinFaces(np.concatenate([faces, between[kept]]), np.concatenate([hexes, both]))
+
+
+def _holds_interface(faces: np.ndarray, free: np.ndarray, boundary: np.ndarray) -> np.ndarray:
+    """Mark the faces (k, 4) of interfaces that have no freed node, or one in a face with an inner node on it, (k,)."""
+    freed = free[faces]
+    slides = (~freed & ~boundary[faces]).any(axis=1)
+    near = mask(faces[slides], len(free))
+    return ~freed.any(axis=1) | (freed & near[faces]).any(axis=1)
 
 
 def edges_between_sets(mesh: Mesh) -> np.ndarray:

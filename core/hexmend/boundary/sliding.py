@@ -14,10 +14,11 @@ from hexmend.boundary.classification import NodeClass, classify
 from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints, triangulate
 from hexmend.boundary.comparison import MAX_TARGET_DISTANCE
 from hexmend.boundary.corner_detection import boundary_with_kept_corners
+from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
 from hexmend.boundary.flat_parts import flat_motion
 from hexmend.boundary.normals import unit_vectors, vertex_normals
-from hexmend.boundary.restrictions import fixed_on_surface, freed_by_rules, interface_nodes
+from hexmend.boundary.restrictions import fixed_on_surface, freed_by_rules, interface_nodes, moving_with_surface
 from hexmend.boundary.surface import PartitionedSurface
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding_surface as kernels
@@ -53,7 +54,7 @@ class SlidingBoundary(Band):
     Attributes
     ----------
     boundary : Boundary
-        With nodes that stay as corners.
+        With nodes that stay as corners, and without the faces of interfaces that freed nodes take off the surface.
     surface : Surface
     node_class : (n,) uint8
         `NodeClass` of each node with respect to the surface.
@@ -80,6 +81,9 @@ class SlidingBoundary(Band):
             given = PartitionedSurface(target.points, classify(target.points, target.faces, feature_angle))
             self.surface = given.attached(start, self.boundary, MAX_TARGET_DISTANCE * mesh.mean_edge_length)
         self.node_class = self.surface.node_class
+        moves_with = moving_with_surface(mesh, whole.faces)
+        self.boundary = self.boundary.with_faces(moves_with)
+        self._left_faces = whole.faces[~moves_with]
         slides = self.node_class >= NodeClass.CURVE
         if mesh.linear_motion is not None:
             slides &= ~mesh.linear_motion.marks(mesh.n_nodes)
@@ -209,7 +213,9 @@ class SlidingBoundary(Band):
         node_class, whole = self.node_class, self.mesh.topology.rings
         node = np.repeat(np.arange(self.mesh.n_nodes), np.diff(whole.start))
         edges = [np.stack([node, whole.items], axis=1)[self._number[node] < 0]]
-        for of, along in (NodeClass.CURVE, self.boundary.segments), (NodeClass.PATCH, self.skin.edges.nodes):
+        across = np.concatenate([self.skin.edges.nodes, SurfaceEdges(self._left_faces, self.mesh.n_nodes).nodes])
+        across = np.unique(across, axis=0) if len(self._left_faces) else across
+        for of, along in (NodeClass.CURVE, self.boundary.segments), (NodeClass.PATCH, across):
             both = np.concatenate([along, along[:, ::-1]])
             edges.append(both[node_class[both[:, 0]] == of])
         edges = np.concatenate(edges)

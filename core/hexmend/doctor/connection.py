@@ -28,9 +28,10 @@ class NonManifoldFaces(Problem):
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         count = mesh.topology.n_nonmanifold_faces
+        faces = count_phrase(count, "face (counted once a hex) belongs", "faces (counted once a hex) belong")
         return self.finding(
             where,
-            f"{count:,} faces (counted once a hex) belong to more than two hexes; they are treated as boundary.",
+            f"{faces} to more than two hexes; {'it is' if count == 1 else 'they are'} treated as boundary.",
             count=count,
         )
 
@@ -55,9 +56,11 @@ class DisconnectedParts(Problem):
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         sizes = np.bincount(parts_of(mesh, others=True))
         more = len(sizes) - 1
+        parts = count_phrase(more, "part besides the largest that hangs", "parts besides the largest that hang")
+        others = ", ".join(f"{n:,}" for n in np.sort(sizes)[::-1][1:4])
         return self.finding(
             where,
-            f"The mesh has {count_phrase(more, 'part')} besides the largest that hang together with no other "
-            f"({sizes.max():,} hexes, then {', '.join(f'{n:,}' for n in np.sort(sizes)[::-1][1:4])}).",
+            f"The mesh has {parts} together with no other ({count_phrase(sizes.max(), 'hex', 'hexes')}, "
+            f"then {others}).",
             count=more,
         )

@@ -89,7 +89,9 @@ class HangingNodes(Problem):
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return self.finding(
-            where, f"{where.size:,} nodes hang in the middle of edges or faces of hexes that do not use them."
+            where,
+            f"{count_phrase(where.size, 'node hangs', 'nodes hang')} in the middle of edges or faces of hexes that do "
+            f"not use {'it' if where.size == 1 else 'them'}.",
         )
 
 

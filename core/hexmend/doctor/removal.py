@@ -63,10 +63,11 @@ def renumber_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
         node_sets=_renumbered_sets(mesh.node_sets, target),
         cells=tuple(Cells(c.kind, target[c.nodes].astype(np.int32), c.data, c.sets) for c in mesh.cells),
     )
-    motion = mesh.linear_motion
+    own = mesh.without_motion_of_rules()  # the rules name nodes as they were, and are gone
+    motion = own.linear_motion
     if motion is None:
         return rebuilt
-    start = rebuilt.with_points(mesh.motion_start[first])
+    start = rebuilt.with_points(own.motion_start[first])
     return start.with_linear_motion(motion.renumbered(target)).with_points(rebuilt.points)
 
 

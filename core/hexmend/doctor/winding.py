@@ -7,7 +7,7 @@ import numpy as np
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.mesh.hexahedron import FACES, VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.orientation import mirror_hexes, mirrored_parts
+from hexmend.mesh.orientation import mirror_hexes, mirrored_parts, whole_parts_are
 from hexmend.quality import corner_determinants
 from hexmend.terminal_text import count_phrase
 
@@ -27,8 +27,8 @@ class MirroredParts(Problem):
         return np.flatnonzero(mirrored_parts(mesh))
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        whole = "All hexes" if where.size == mesh.n_hexes else f"{where.size:,} hexes, which make whole parts,"
-        return self.finding(where, f"{whole} are inside out: their corners are numbered left-handed.")
+        are = whole_parts_are(where.size, mesh.n_hexes)
+        return self.finding(where, f"{are} inside out: corners are numbered left-handed.")
 
     def mend(self, mesh: Mesh) -> Mesh:
         return mirror_hexes(mesh, mirrored_parts(mesh))

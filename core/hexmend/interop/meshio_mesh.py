@@ -15,6 +15,7 @@ from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data,
 from hexmend.io.base.fixed_marks import with_marks
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import count_phrase
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -127,7 +128,10 @@ def _content(mesh: meshio.Mesh) -> Content:
     notes = []
     if unread:
         kinds = ", ".join(sorted(unread))
-        notes.append(f"{sum(unread.values()):,} cells of other kinds ({kinds}) are left out.")
+        cells = count_phrase(
+            sum(unread.values()), f"cell of another kind ({kinds}) is", f"cells of other kinds ({kinds}) are"
+        )
+        notes.append(f"{cells} left out.")
     blocks, points = tuple(_without_empty_sets(merged)), np.array(mesh.points)
     node_data = {name: np.array(values) for name, values in mesh.point_data.items()}
     node_sets = {name: np.array(members, np.int64) for name, members in mesh.point_sets.items()}

@@ -1,4 +1,6 @@
-"""Valence of edges, from which the block structure of a mesh follows."""
+"""
+Valence of edges, from which the block structure of a mesh follows, and averages along dual sheets.
+"""
 
 from typing import Annotated
 
@@ -14,4 +16,22 @@ def edges(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C'
     ends: the lower node first, ascending. valence: hexes that have the edge; one that has it twice, its
     nodes being one, counts once. outside: True for an edge of a boundary face. start, corners and
     neighbours are those of `incidence`. OverflowError where there are more than `max_items` edges.
+    """
+
+def average_along_sheets(groups: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], average: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], count: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Average values of edges (e + 1,) over the groups (g, 4) int32 of parallel edges around each edge; writes
+    average (e + 1,) float64 and count (e + 1,) int32, the number of groups.
+
+    It is the mean of the groups' means, and 0 without a group. The number e, and the last value, stand for
+    no edge.
+    """
+
+def fill_along_sheets(groups: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], known: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Fill in the values (e + 1,) float64 of edges that are not known (e + 1,) bool, front by front; changes
+    both.
+
+    Each front is reached by groups (g, 4) int32 with a known edge: its values are the means of the means of
+    their known edges. Edges that no front reaches stay as they are.
     """

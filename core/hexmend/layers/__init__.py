@@ -2,8 +2,9 @@
 
 from hexmend.layers.detection import find_layers
 from hexmend.layers.grading import grading_message
+from hexmend.layers.named_walls import layers_on_sets
 from hexmend.layers.report import LayerReport, LayerState, describe_layers, describe_losses, layer_report
-from hexmend.layers.targets import KEEP_LAYERS, keeps_layers, run_target
+from hexmend.layers.targets import KEEP_LAYERS, keeps_layers, named_walls, run_target
 from hexmend.layers.walls import Layers, Wall
 
 __all__ = [
@@ -18,5 +19,7 @@ __all__ = [
     "grading_message",
     "keeps_layers",
     "layer_report",
+    "layers_on_sets",
+    "named_walls",
     "run_target",
 ]

@@ -12,8 +12,9 @@ Lengths = Callable[[np.ndarray], np.ndarray]
 
 #: Most layers of a column.
 MAX_LAYERS = 500
-#: Ratios of successive heights with which a column goes on.
+#: Ratios of successive heights with which a column goes on; on a wall that is named, heights may also fall.
 LEAST_RATIO, GREATEST_RATIO = 0.97, 2.5
+LEAST_RATIO_NAMED = 1 / GREATEST_RATIO
 #: Height, as a multiple of the lateral length, from which on a hex is not part of a layer.
 ISOTROPIC = 1.0
 
@@ -103,7 +104,9 @@ def lateral_lengths(lengths: np.ndarray, faces: np.ndarray, neighbours: np.ndarr
     return np.where(np.isfinite(shorter), shorter, others.min(axis=1))
 
 
-def walk_columns(neighbours: np.ndarray, lengths: Lengths, hexes: np.ndarray, faces: np.ndarray) -> Columns:
+def walk_columns(
+    neighbours: np.ndarray, lengths: Lengths, hexes: np.ndarray, faces: np.ndarray, least_ratio: float = LEAST_RATIO
+) -> Columns:
     """Follow columns from faces of the boundary inwards, through opposite faces, while their heights grow steadily.
 
     Parameters
@@ -114,6 +117,8 @@ def walk_columns(neighbours: np.ndarray, lengths: Lengths, hexes: np.ndarray, fa
         Returns the lengths of some hexes.
     hexes, faces : (w,) int
         The faces of the boundary.
+    least_ratio : float
+        Least ratio of successive heights.
 
     Returns
     -------
@@ -133,7 +138,7 @@ def walk_columns(neighbours: np.ndarray, lengths: Lengths, hexes: np.ndarray, fa
         size = lengths(following)
         upper = size[np.arange(len(size)), entry // 2]
         lateral = lateral_lengths(size, entry, neighbours[following])
-        continues = (upper >= LEAST_RATIO * height) & (upper <= GREATEST_RATIO * height) & (upper < ISOTROPIC * lateral)
+        continues = (upper >= least_ratio * height) & (upper <= GREATEST_RATIO * height) & (upper < ISOTROPIC * lateral)
         active, current, entry, height = active[continues], following[continues], entry[continues], upper[continues]
         if not active.size:
             break

@@ -15,7 +15,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend.target.edge_lengths import given_lengths
 from hexmend.target.sheets import recovered_lengths
-from hexmend.terminal_text import capitalised
+from hexmend.terminal_text import capitalised, count_phrase
 
 #: Factor by which heights of the first layer may change in the mean before the layers count as lost.
 LOST_FACTOR = 1.25
@@ -87,10 +87,10 @@ class LayerReport:
         """The layers before and after, in a line."""
         was, now = self.before, self.after
         return (
-            f"Layers at '{self.wall}' ({self.layers} layers on {self.faces:,} faces): first height "
-            f"{was.first_height_mean:.4g} → {now.first_height_mean:.4g} (least {now.first_height_min:.4g}), growth "
-            f"{was.growth:.3f} → {now.growth:.3f}, {now.angle_mean:.1f}° from the wall's normal (at most "
-            f"{now.angle_max:.1f}°)."
+            f"Layers at '{self.wall}' ({count_phrase(self.layers, 'layer')} on {count_phrase(self.faces, 'face')}): "
+            f"first height {was.first_height_mean:.4g} → {now.first_height_mean:.4g} (least "
+            f"{now.first_height_min:.4g}), growth {was.growth:.3f} → {now.growth:.3f}, {now.angle_mean:.1f}° from the "
+            f"wall's normal (at most {now.angle_max:.1f}°)."
         )
 
     def to_dict(self) -> dict[str, Any]:

@@ -8,11 +8,13 @@ from hexmend.layers.profile import fitted_lengths
 from hexmend.layers.walls import Layers
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import SET
 from hexmend.quality import ElementQuality, measure
 from hexmend.target.builders import make_target
 from hexmend.target.sheets import DISTORTED, recovered_lengths
 
-#: Treatments of layers: kept unless a target is asked for; kept; treated as the other hexes.
+#: Treatments of layers: kept unless a target is asked for; kept; treated as the other hexes. Other texts are names of
+#: sets, on which layers stand that are kept.
 KEEP_LAYERS = ("auto", "keep", "free")
 #: Target that was not asked for; see `run_target`.
 AUTO = "auto"
@@ -28,7 +30,18 @@ _MAX_DISTORTED = 0.01
 
 def keeps_layers(specification: str, layers: str) -> bool:
     """Return True if a run with this target and treatment of layers keeps the layers."""
-    return layers == "keep" or (layers == "auto" and specification in (AUTO, *_AS_THEY_ARE))
+    return layers not in ("auto", "free") or (layers == "auto" and specification in (AUTO, *_AS_THEY_ARE))
+
+
+def named_walls(layers: str) -> tuple[str, ...]:
+    """Return the names of the sets that a treatment of layers names; empty for those of `KEEP_LAYERS`.
+
+    >>> named_walls("keep"), named_walls("plate, wing"), named_walls("set:keep")
+    ((), ('plate', 'wing'), ('keep',))
+    """
+    if layers in KEEP_LAYERS:
+        return ()
+    return tuple(name.strip().removeprefix(SET) for name in layers.split(","))
 
 
 def run_target(

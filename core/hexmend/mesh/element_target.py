@@ -13,6 +13,9 @@ from hexmend.errors import MeshError
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.validation import as_reals, location
 
+#: Lengths beyond which energies overflow or vanish.
+MIN_LENGTH, MAX_LENGTH = 1e-100, 1e100
+
 
 @dataclass(frozen=True, eq=False)
 class Target:
@@ -34,7 +37,7 @@ class Target:
     Raises
     ------
     MeshError
-        For another shape or type, and for values that are not positive and finite.
+        For another shape or type, and for values that are not positive and finite, or that overflow in energies.
 
     Examples
     --------
@@ -50,12 +53,12 @@ class Target:
         lengths = as_reals(self.lengths, "lengths of the target")
         if lengths.ndim != 2 or lengths.shape[1] != 3:
             raise MeshError(f"lengths of the target have shape {lengths.shape}: expected (m, 3), a row for each hex")
-        wrong = np.argwhere(~((lengths > 0) & np.isfinite(lengths)))
+        wrong = np.argwhere(~((lengths >= MIN_LENGTH) & (lengths <= MAX_LENGTH)))
         if len(wrong):
             at = tuple(wrong[0].tolist())
             raise MeshError(
                 f"a length of the target is {lengths[at]:g} at {location(('hex', 'direction'), at)}: "
-                "expected positive finite numbers"
+                f"expected positive finite numbers from {MIN_LENGTH:g} to {MAX_LENGTH:g}"
             )
         if not (self.size_weight >= 0 and np.isfinite(self.size_weight)):
             raise MeshError(f"the weight of the size is {self.size_weight}: expected a number of at least 0")

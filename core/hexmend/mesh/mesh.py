@@ -15,6 +15,7 @@ from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh_motion import SHARED, MeshMotion, TargetSurface
 from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.validation import check_finite, points_like
+from hexmend.terminal_text import count_phrase
 
 __all__ = ["Mesh", "TargetSurface"]
 
@@ -139,7 +140,8 @@ class Mesh(MeshMotion):
             For a target of another number of hexes.
         """
         if target is not None and len(target.lengths) != self.n_hexes:
-            raise MeshError(f"the target is for {len(target.lengths)} hexes: the mesh has {self.n_hexes}")
+            hexes = count_phrase(len(target.lengths), "hex", "hexes")
+            raise MeshError(f"the target is for {hexes}: the mesh has {self.n_hexes:,}")
         return self._copy(*SHARED, _element_target=target)
 
     def replace(self, **changes: object) -> Mesh:
@@ -180,6 +182,8 @@ class Mesh(MeshMotion):
             mesh._set(_target=self.target)
         if "_rules" in self.__dict__ and "hexes" not in changes:
             mesh._set(_rules=self.node_rules)
-        if self.linear_motion is not None and "points" not in changes:
-            mesh._set(_motion=self.linear_motion, _motion_start=self.motion_start)
+        if "points" not in changes:
+            own = self if "hexes" not in changes else self.without_motion_of_rules()
+            names = ("_motion", "_motion_start", "_own_motion", "_own_start")
+            mesh._set(**{name: own.__dict__[name] for name in names if name in own.__dict__})
         return mesh

@@ -17,8 +17,9 @@ from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_hexes, as_points, check_finite
 
-#: Attributes that are no fields, but kept by derived meshes: surfaces for sliding, target, rules, linear motion.
-_DERIVED = ("_surface", "_target", "_element_target", "_rules", "_motion", "_motion_start")
+#: Attributes that are no fields, but kept by derived meshes: surfaces for sliding, target, rules, linear motion, and
+#: the linear motion without that of rules.
+_DERIVED = ("_surface", "_target", "_element_target", "_rules", "_motion", "_motion_start", "_own_motion", "_own_start")
 
 
 @dataclass(frozen=True, eq=False)

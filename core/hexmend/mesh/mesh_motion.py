@@ -16,6 +16,7 @@ from hexmend.mesh.materials import STRUCTURED_BLOCKS, Materials, find_materials
 from hexmend.mesh.mesh_data import MeshData
 from hexmend.mesh.rules.motion_rules import MotionRules, NodeRules
 from hexmend.mesh.validation import as_bools, check_finite, points_like
+from hexmend.terminal_text import count_phrase
 
 #: Cached properties that do not depend on the points.
 SHARED = ("fixed", "free", "immovable", "materials")
@@ -160,6 +161,8 @@ class MeshMotion(MeshData):
         given = {"_surface": as_immutable(points)}
         if self.linear_motion is not None:
             given["_motion_start"] = given["_surface"]
+        if self.__dict__.get("_own_motion") is not None:
+            given["_own_start"] = given["_surface"]
         return self._copy(*SHARED, **given)
 
     @property
@@ -188,16 +191,34 @@ class MeshMotion(MeshData):
             For a node that does not exist.
         """
         if not motion:
-            copy = self._copy("materials")
-            copy.__dict__.pop("_motion", None)
-            copy.__dict__.pop("_motion_start", None)
-            return copy
+            return self._copy("materials")._without("_motion", "_motion_start", "_own_motion", "_own_start")
         if motion.largest_node >= self.n_nodes:
             raise MeshError(
-                f"the linear motion names node {motion.largest_node}, but the mesh has {self.n_nodes} nodes, counted "
-                "from 0: correct the number"
+                f"the linear motion names node {motion.largest_node}, but the mesh has "
+                f"{count_phrase(self.n_nodes, 'node')}, counted from 0: correct the number"
             )
-        return self._copy("materials", "immovable", _motion=motion, _motion_start=self.points)
+        moving = self._copy("materials", "immovable", _motion=motion, _motion_start=self.points)
+        return moving._without("_own_motion", "_own_start")
+
+    def with_motion_of_rules(self: M, motion: LinearMotion) -> M:
+        """Return the mesh with a linear motion that includes that of its rules; see `without_motion_of_rules`."""
+        own = self.without_motion_of_rules()
+        start = own.__dict__.get("_motion_start")
+        return self.with_linear_motion(motion)._copy(*SHARED, _own_motion=own.linear_motion, _own_start=start)
+
+    def without_motion_of_rules(self: M) -> M:
+        """Return the mesh with the linear motion that it had before rules added theirs."""
+        if "_own_motion" not in self.__dict__:
+            return self
+        motion, start = self.__dict__["_own_motion"], self.__dict__["_own_start"]
+        mesh = self.with_linear_motion(motion)
+        return mesh if motion is None else mesh._copy(*SHARED, _motion_start=start)
+
+    def _without(self: M, *names: str) -> M:
+        """Remove some attributes of this new copy, and return it."""
+        for name in names:
+            self.__dict__.pop(name, None)
+        return self
 
     @property
     def motion_start(self) -> np.ndarray:

@@ -8,18 +8,20 @@ from hexmend.kernels import elements
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MIRRORED_MID_NODES
 from hexmend.mesh.topology.components import components_of_cells
+from hexmend.terminal_text import count_phrase
 
 #: Corners, and faces, of a hex whose lower and upper face are exchanged.
 MIRRORED_CORNERS = np.array([4, 5, 6, 7, 0, 1, 2, 3])
 MIRRORED_FACES = np.array([0, 1, 2, 3, 5, 4])
 
-#: End of the note on hexes that were renumbered.
-_TURNED = "were wound the other way (inside out) in the file, and have been turned."
+#: End of the note on hexes that were renumbered, and that of version 0.1.
+_RENUMBERED = "numbered inside out in the file (left-handed), and renumbered on reading."
+_RENUMBERED_BEFORE = "were wound the other way (inside out) in the file, and have been turned."
 
 
 def was_turned(mesh: Mesh) -> bool:
     """Return True if parts of the mesh were renumbered on reading."""
-    return any(note.endswith(_TURNED) for note in mesh.notes)
+    return any(note.endswith((_RENUMBERED, _RENUMBERED_BEFORE)) for note in mesh.notes)
 
 
 def with_consistent_orientation(mesh: Mesh) -> Mesh:
@@ -39,8 +41,19 @@ def with_consistent_orientation(mesh: Mesh) -> Mesh:
     count = int(which.sum())
     if not count:
         return mesh
-    where = "All hexes" if count == mesh.n_hexes else f"{count:,} hexes, which make whole parts,"
-    return mirror_hexes(mesh, which).replace(notes=(*mesh.notes, f"{where} {_TURNED}"))
+    note = f"{whole_parts_are(count, mesh.n_hexes)} {_RENUMBERED}"
+    return mirror_hexes(mesh, which).replace(notes=(*mesh.notes, note))
+
+
+def whole_parts_are(count: int, n_hexes: int) -> str:
+    """Return the subject and verb of a sentence about hexes that make whole parts of a mesh.
+
+    >>> whole_parts_are(8, 8), whole_parts_are(1, 8), whole_parts_are(1, 1)
+    ('All hexes are', '1 hex, which makes a whole part, is', 'The only hex is')
+    """
+    if count == n_hexes:
+        return "The only hex is" if count == 1 else "All hexes are"
+    return count_phrase(count, "hex, which makes a whole part, is", "hexes, which make whole parts, are")
 
 
 def mirrored_parts(mesh: Mesh) -> np.ndarray:

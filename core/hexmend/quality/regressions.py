@@ -7,16 +7,16 @@ from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary
 #: Quantities that must not become worse: name in reports, and key in `Summary`.
 REGRESSION_KEYS = {"inverted": "inverted", "q_min": "q_min", "scaled_jacobian": "scaled_jacobian_min"}
 
-#: Largest difference by rounding alone, as for a perfect grid.
-_ROUNDING = 1e-12
-
+#: Difference of q and scaled Jacobian, whose range is 1, from which on a value counts as worse: the last digits of a
+#: result depend on the tolerance of the run and on rounding.
+WORSE_BY = 1e-7
 
 #: Name of the least q of target in reports, which takes the place of "q_min" where hexes are not to be cubes.
 Q_OF_TARGET = "q_of_target"
 
 
 def regressions(before: Summary, after: Summary, target_q: tuple[float, float] | None = None) -> tuple[str, ...]:
-    """Return the names in `REGRESSION_KEYS` of the quantities that are worse, in that order.
+    """Return the names in `REGRESSION_KEYS` of the quantities that are worse by more than `WORSE_BY`, in that order.
 
     Parameters
     ----------
@@ -41,11 +41,11 @@ def regressions(before: Summary, after: Summary, target_q: tuple[float, float] |
     names = [
         name
         for name, key in REGRESSION_KEYS.items()
-        if SUMMARY_QUANTITIES[key].better * (getattr(after, key) - getattr(before, key)) < -_ROUNDING
+        if SUMMARY_QUANTITIES[key].better * (getattr(after, key) - getattr(before, key)) < -WORSE_BY
     ]
     if target_q is not None:
         names = [name for name in names if name != "q_min"]
-        names += [Q_OF_TARGET] * (target_q[1] - target_q[0] < -_ROUNDING)
+        names += [Q_OF_TARGET] * (target_q[1] - target_q[0] < -WORSE_BY)
     return tuple(names)
 
 

@@ -12,7 +12,7 @@ from hexmend.quality.summary import SUMMARY_QUANTITIES
 from hexmend.quantity import Quantity, format_count, format_microseconds, format_milliseconds, format_significant
 from hexmend.report.documents import write_document
 from hexmend.report.tables import Table
-from hexmend.terminal_text import WorsenedText
+from hexmend.terminal_text import WorsenedText, count_phrase
 
 #: How a run ended, where the record's own word is not the clearest.
 _ENDED = {
@@ -132,10 +132,10 @@ def record_table(
             raise ParameterError(f"two methods are called {head!r}: expected a name for each")
         columns[head] = record
     if title is None:
-        title = f"{comparison['mesh']}: {initial['hexes']:,} hexes, {initial['free_nodes']:,} free nodes"
+        title = f"{comparison['mesh']}: {_counts(initial)}"
     notes = []
     if initial["locked_inverted"]:
-        notes.append(f"{initial['locked_inverted']:,} of the inverted hexes are locked: fixed nodes alone invert them.")
+        notes.append(f"{_locked(initial['locked_inverted'])}")
     if comparison["interrupted"]:
         notes.append("The comparison was interrupted: the last method is incomplete, and those after it are missing.")
     return comparison_table(title, columns, notes=notes)
@@ -195,3 +195,14 @@ def _explained(records: Sequence[Mapping[str, Any]]) -> list[str]:
     }
     failed = [f"{record['method']}: {record['message']}" for record in records if record.get("outcome") == "failed"]
     return [sentence for key, sentence in sentences.items() if key in ended] + failed
+
+
+def _counts(record: Mapping[str, Any]) -> str:
+    """The numbers of hexes and free nodes."""
+    return f"{count_phrase(record['hexes'], 'hex', 'hexes')}, {count_phrase(record['free_nodes'], 'free node')}"
+
+
+def _locked(count: int) -> str:
+    """Tell how many inverted hexes are locked."""
+    which = count_phrase(count, "of the inverted hexes is", "of the inverted hexes are")
+    return f"{which} locked: fixed nodes alone hold {'it' if count == 1 else 'them'} in inversion."

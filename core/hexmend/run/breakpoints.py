@@ -9,6 +9,7 @@ import numpy as np
 
 from hexmend.aliases import reads_old_names
 from hexmend.iteration import Iteration
+from hexmend.terminal_text import count_phrase
 
 
 @dataclass(frozen=True)
@@ -91,4 +92,4 @@ class Breakpoints:
         count = now.diagnostics.get("backtracks", 0)
         if self.backtracks is not None and count > self.backtracks:
             length = now.diagnostics.get("step_length", 0.0)
-            yield Hit(f"The line search shortened the step {count} times, to {length:.3g}")
+            yield Hit(f"The line search shortened the step {count_phrase(count, 'time')}, to {length:.3g}")

@@ -58,8 +58,8 @@ def interface_message(before: Mesh, after: Mesh, volumes: Mapping[str, MaterialV
     motion = "moved off them freely" if freely == moved else some
     largest = max((abs(volume.change) for volume in volumes.values()), default=0.0)
     return (
-        f"{many}: {moved:,} of {nodes.size:,} nodes on their interfaces {motion}; no material's volume changed by more "
-        f"than {100 * largest:.2g} %."
+        f"{many}: {moved:,} of {count_phrase(nodes.size, 'node')} on their interfaces {motion}; no material's volume "
+        f"changed by more than {100 * largest:.2g} %."
     )
 
 

@@ -9,6 +9,7 @@ from pathlib import Path, PurePosixPath
 from hexmend.mesh.mesh import Mesh
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS, Smoother
+from hexmend.terminal_text import count_phrase
 
 #: Bytes of every run, however small the mesh: SciPy with its libraries, and memory that the allocator retains.
 FIXED = 64 << 20
@@ -56,8 +57,8 @@ class Shortage:
     def problem(self) -> str:
         """The shortage, as a sentence."""
         return (
-            f"{self.title} on {self.hexes:,} hexes needs about {format_bytes(self.needed)} of memory, and "
-            f"{format_bytes(self.available)} are free."
+            f"{self.title} on {count_phrase(self.hexes, 'hex', 'hexes')} needs about {format_bytes(self.needed)} of "
+            f"memory, and {format_bytes(self.available)} are free."
         )
 
     def remedy(self, *more: str, titled: bool = False) -> str:

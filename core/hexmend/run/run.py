@@ -76,7 +76,7 @@ class Run(Iterator[Iteration]):
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
         self._stage_runs = [self._stage_of(self._stages[0], 1, self.start, self.start)]
-        self._note_ignored_target()
+        self._note_ignored()
         self._end_if_done()
 
     def __next__(self) -> Iteration:
@@ -260,8 +260,8 @@ class Run(Iterator[Iteration]):
 
     @property
     def layers(self) -> Layers:
-        """Boundary layers of the mesh as given."""
-        return self._shapes.layers
+        """Boundary layers of the mesh as given: on walls that the current stage names, or those that are found."""
+        return self._shapes.layers_of(self.stage.smoother)
 
     @property
     def layers_message(self) -> str:
@@ -297,13 +297,16 @@ class Run(Iterator[Iteration]):
         count = count_phrase(last.number - done.stage_start.number, "iteration")
         self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
         self._stage_runs.append(self._stage_of(self._remaining_stages[0], done.number + 1, reached, last))
-        self._note_ignored_target()
+        self._note_ignored()
         self._end_if_done()
 
-    def _note_ignored_target(self) -> None:
-        """Add a decision if the mesh has a target and the method of the stage minimises no energy."""
-        if self._target is not None and not self._stage_run.smoother.optimises:
-            self.decisions.append(f"{self._stage_run.smoother.title} takes no account of the target of the hexes.")
+    def _note_ignored(self) -> None:
+        """Add a decision about parameters without effect, and a target of a method that minimises no energy."""
+        smoother = self._stage_run.smoother
+        if smoother.ignored_parameters:
+            self.decisions.append(smoother.ignored_parameters)
+        if self._target is not None and not smoother.optimises:
+            self.decisions.append(f"{smoother.title} takes no account of the target of the hexes.")
 
     def _end_if_done(self) -> None:
         """End the run if the current stage has ended and no other one follows."""

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.iteration import Iteration
-from hexmend.layers import LayerReport, describe_losses, find_layers, grading_message, layer_report
+from hexmend.layers import LayerReport, Layers, describe_losses, find_layers, grading_message, layer_report
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure_against_target
@@ -25,26 +25,34 @@ class ShapeWatch:
     quality : ElementQuality
         Of its hexes.
 
-    Attributes
-    ----------
-    layers : Layers
-        Boundary layers of the mesh as given.
     """
 
     def __init__(self, mesh: Mesh, quality: ElementQuality):
-        self.layers = find_layers(mesh, quality)
         self._mesh, self._quality = mesh, quality
+        self._layers: dict[str, Layers] = {}  # by the treatment of layers that names their walls
+
+    @cached_property
+    def _found(self) -> Layers:
+        return find_layers(self._mesh, self._quality)
+
+    def layers_of(self, smoother: Smoother) -> Layers:
+        """Return the layers of the mesh as given that count for a stage: on walls that it names, or those found."""
+        key = getattr(smoother, "layers", "")
+        if key not in self._layers:
+            self._layers[key] = smoother.layers_of(self._mesh, self._found, self._quality)
+        return self._layers[key]
 
     def with_target(self, smoother: Smoother) -> Mesh:
         """Return the mesh as given with the target of a stage, whatever earlier stages have done."""
-        return smoother.with_target(self._mesh, self.layers, self._quality)
+        return smoother.with_target(self._mesh, self.layers_of(smoother), self._quality)
 
     def reports(self, smoother: Smoother, points: np.ndarray) -> tuple[LayerReport, ...]:
         """Compare the layers of the mesh as given and with the points (n, 3) that a method has reached."""
-        if not self.layers:
+        layers = self.layers_of(smoother)
+        if not layers:
             return ()
         after, kept = self._mesh.with_points(points), smoother.keeps_layers
-        return layer_report(self.layers, self._mesh, after, self._given_lengths, kept)
+        return layer_report(layers, self._mesh, after, self._given_lengths, kept)
 
     def target_q(self, target: Target | None, *iterations: Iteration) -> tuple[float, ...] | None:
         """Least q of target of the hexes at some iterations; None without a target."""
@@ -55,9 +63,10 @@ class ShapeWatch:
 
     def layers_message(self, *smoothers: Smoother) -> str:
         """The layers that were found and whether the methods of a run keep them, as a sentence; "" without layers."""
+        layers = self.layers_of(smoothers[0])
         keep = [smoother.keeps_layers for smoother in smoothers]
         kept = "kept" if all(keep) else "kept in some stages only" if any(keep) else "not kept"
-        return f"Boundary layers at {self.layers.names} are {kept}." if self.layers else ""
+        return f"Boundary layers at {layers.names} are {kept}." if layers else ""
 
     def message(self, smoother: Smoother, walls: tuple[LayerReport, ...], result: Mesh | None) -> str:
         """Tell what has become of layers, or of the lengths of hexes in a mesh without layers; "" for nothing.

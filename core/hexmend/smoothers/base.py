@@ -76,6 +76,11 @@ class Smoother(Parametrised, ABC):
         """True if boundary layers keep their heights by a target."""
         return False
 
+    @property
+    def ignored_parameters(self) -> str:
+        """Sentence about parameters that have no effect because of others; "" if all have one."""
+        return ""
+
     def slides_on(self, mesh: Mesh) -> bool:
         """Return True if nodes of a mesh slide: of its boundary, or those for which its rules say so."""
         return self.slides
@@ -83,6 +88,25 @@ class Smoother(Parametrised, ABC):
     def movable(self, mesh: Mesh) -> np.ndarray:
         """Mark the nodes that the method may move, (n,) bool: the free ones, and those that slide."""
         return mesh.free
+
+    def layers_of(self, mesh: Mesh, found: Layers, quality: ElementQuality | None = None) -> Layers:
+        """Return the layers of a mesh that count: those that were found, or those on walls that the parameters name.
+
+        Parameters
+        ----------
+        mesh : Mesh
+            As given to the run.
+        found : Layers
+            Of `hexmend.layers.find_layers`.
+        quality : ElementQuality, optional
+            Of its hexes.
+
+        Raises
+        ------
+        ParameterError
+            For a set that does not exist, and one without a face on the boundary.
+        """
+        return found
 
     def with_target(self, mesh: Mesh, layers: Layers, quality: ElementQuality | None = None) -> Mesh:
         """Return the mesh with the target of its hexes that the parameters name; the mesh itself by default.

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexmend.layers import KEEP_LAYERS, Layers, keeps_layers, run_target
+from hexmend.errors import MeshError, ParameterError
+from hexmend.layers import KEEP_LAYERS, Layers, keeps_layers, layers_on_sets, named_walls, run_target
 from hexmend.layers.targets import AUTO
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 from hexmend.target import SPECIFICATIONS
+from hexmend.target.builders import SIZE_WEIGHT, WITHOUT_SIZES
 
 
 @dataclass(frozen=True)
@@ -24,17 +26,39 @@ class TargetedSmoother(SlidingSmoother):
         "file or a formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
     )
     size_weight: float = parameter(
-        1.0, low=0, high=1000, help="Weight of the size relative to the shape, where the target has sizes."
+        SIZE_WEIGHT, low=0, high=1000, help="Weight of the size relative to the shape, where the target has sizes."
     )
     layers: str = parameter(
         "auto",
-        choices=KEEP_LAYERS,
-        help="Boundary layers: keep their heights, or leave them free; auto: keep them unless a target is named.",
+        suggestions=KEEP_LAYERS,
+        sets=True,
+        help="Boundary layers: keep their heights, or leave them free; auto: keep them unless a target is named. Names "
+        "of sets: keep the layers on these walls, whether or not their heights grow.",
     )
 
     @property
     def keeps_layers(self) -> bool:
         return keeps_layers(self.target, self.layers)
+
+    def layers_of(self, mesh: Mesh, found: Layers, quality: ElementQuality | None = None) -> Layers:
+        names = named_walls(self.layers)
+        if not names:
+            return found
+        try:
+            return layers_on_sets(mesh, names, quality)
+        except MeshError as error:
+            expected = f"expected {', '.join(KEEP_LAYERS)}, or names of sets with commas between them"
+            raise ParameterError(f"layers = {self.layers}: {error} ({expected})") from None
+
+    @property
+    def weighs_sizes(self) -> bool:
+        """True if the target that the parameters name may have sizes, which `size_weight` weighs."""
+        return self.target not in (AUTO, *WITHOUT_SIZES)
+
+    @property
+    def ignored_parameters(self) -> str:
+        ignored = not self.weighs_sizes and self.size_weight != SIZE_WEIGHT
+        return f"size_weight has no effect with target = {self.target}, which has no sizes." if ignored else ""
 
     def with_target(self, mesh: Mesh, layers: Layers, quality: ElementQuality | None = None) -> Mesh:
         kept = layers if self.keeps_layers else Layers()

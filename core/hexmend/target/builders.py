@@ -8,6 +8,7 @@ from hexmend.errors import ParameterError
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
+from hexmend.target.edge_lengths import given_lengths
 from hexmend.target.formula import evaluate
 from hexmend.target.sheets import recovered_lengths
 
@@ -20,6 +21,10 @@ SPECIFICATIONS = {
 }
 #: Weight of the size relative to the shape where none is named.
 SIZE_WEIGHT = 1.0
+#: Largest ratio, either way, of lengths of a field to the median length of the mesh: beyond it energies overflow.
+MAX_RATIO = 1e15
+#: Targets of which only ratios of lengths count.
+WITHOUT_SIZES = ("ideal", "given-shape")
 
 
 def make_target(
@@ -48,7 +53,8 @@ def make_target(
     Raises
     ------
     ParameterError
-        For a name or formula that is unknown, and for lengths that are not positive and finite.
+        For a name or formula that is unknown, and for lengths that are not positive and finite, or out of
+        proportion to the mesh (`MAX_RATIO`).
 
     Examples
     --------
@@ -82,11 +88,15 @@ def _field(mesh: Mesh, text: str) -> np.ndarray:
         raise ParameterError(f"target {text!r} has {len(columns)} values a hex: expected one length, or three")
     lengths = np.empty((mesh.n_hexes, 3))
     lengths.T[:] = [np.broadcast_to(column, mesh.n_hexes) for column in columns]
-    wrong = np.argwhere(~((lengths > 0) & np.isfinite(lengths)))
+    unit = float(np.median(given_lengths(mesh)))
+    least, greatest = unit / MAX_RATIO, unit * MAX_RATIO
+    wrong = np.argwhere(~((lengths >= least) & (lengths <= greatest)))
     if len(wrong):
         hex_, direction = wrong[0]
         raise ParameterError(
-            f"target {text!r} is {lengths[hex_, direction]:g} at hex {hex_}: expected positive finite lengths"
+            f"target {text!r} is {lengths[hex_, direction]:g} at hex {hex_} (counted from 0): expected positive finite "
+            f"lengths in the unit of the mesh, from {least:.3g} to {greatest:.3g} (its median length divided and "
+            f"multiplied by {MAX_RATIO:g})"
         )
     return lengths
 

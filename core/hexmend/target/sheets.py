@@ -3,7 +3,7 @@
 The edges that are parallel to each other in a hex, those parallel to them in its neighbours, and so on, belong to one
 dual sheet. Lengths change little from one edge of a sheet to the next, while they may change fast across sheets, as in
 a boundary layer. Where edges are noisy, their lengths are therefore filled in from sound edges of the same sheet:
-edges between fixed nodes, such as those of the boundary, and edges away from distorted hexes and noise.
+edges of the boundary and of interfaces between materials, and edges away from distorted hexes and noise.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from hexmend.arrays import as_immutable, mask
+from hexmend.kernels import structure
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
 from hexmend.target.edge_lengths import edge_numbers, given_lengths
@@ -55,15 +56,15 @@ class _Sheets:
     def __init__(self, mesh: Mesh, hexes: np.ndarray):
         self.count = len(mesh.topology.edges)
         numbers = edge_numbers(mesh.topology)[hexes]
-        self.groups = np.where(numbers < 0, self.count, numbers).reshape(-1, 4)
+        self.groups = np.where(numbers < 0, np.int32(self.count), numbers).reshape(-1, 4)
 
-    def averages(self, values: np.ndarray, known: np.ndarray, groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Average the known values over the edges in the groups around each edge.
+    def averages(self, values: np.ndarray, groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Average values over the edges in the groups around each edge.
 
         Parameters
         ----------
-        values, known : (count + 1,) float64, (count + 1,) bool
-            Of the edges; the last stands for none and is not known.
+        values : (count + 1,) float64
+            Of the edges; the last stands for none.
         groups : (g, 4) int32
             Rows of `groups` that count.
 
@@ -72,15 +73,9 @@ class _Sheets:
         (count + 1,) float64, (count + 1,) bool
             The averages, and True for the edges that have one.
         """
-        marks = known[groups]
-        number = marks.sum(axis=1)
-        some = number > 0
-        groups, number = groups[some], number[some]
-        means = np.einsum("ij,ij->i", values[groups], marks[some]) / number
-        edges = groups.ravel()
-        total = np.bincount(edges, np.repeat(means, 4), minlength=self.count + 1)
-        number = np.bincount(edges, minlength=self.count + 1)
-        return total / np.maximum(number, 1), number > 0
+        average, number = np.empty(self.count + 1), np.empty(self.count + 1, dtype=np.int32)
+        structure.average_along_sheets(groups, values, average, number)
+        return average, number > 0
 
 
 def recovered_lengths(mesh: Mesh, quality: ElementQuality | None = None) -> np.ndarray:
@@ -141,12 +136,11 @@ def _log_edge_lengths(mesh: Mesh) -> np.ndarray:
 def _noisy_edges(
     mesh: Mesh, sheets: _Sheets, logs: np.ndarray, quality: ElementQuality, region: np.ndarray
 ) -> np.ndarray:
-    """Mark edges whose ends are not both fixed, at skewed hexes or unlike their neighbours, (e + 1,) bool."""
-    some = np.append(np.ones(sheets.count, dtype=bool), False)
-    average, _ = sheets.averages(logs, some, sheets.groups)
+    """Mark edges whose ends are not both `_as_given`, at skewed hexes or unlike their neighbours, (e + 1,) bool."""
+    average, _ = sheets.averages(logs, sheets.groups)
     noise = np.abs(logs - average)
     for _ in range(_NOISE_PASSES):
-        noise, found = sheets.averages(noise, some, sheets.groups)
+        noise, found = sheets.averages(noise, sheets.groups)
     noisy = found & (noise > NOISE)
     skewed = region[quality.scaled_jacobian[region] < _SKEWED]
     if len(skewed) > _SCRAMBLED * len(region):
@@ -154,27 +148,30 @@ def _noisy_edges(
     near = mask(mesh.hexes[skewed], mesh.n_nodes)[mesh.hexes[region]].any(axis=1)
     noisy[sheets.groups.reshape(-1, 12)[near]] = True
     low, high = mesh.topology.edges.T
-    noisy[:-1] &= ~(mesh.fixed[low] & mesh.fixed[high])
+    sound = _as_given(mesh)
+    noisy[:-1] &= ~(sound[low] & sound[high])
     noisy[-1] = False
     return noisy
+
+
+def _as_given(mesh: Mesh) -> np.ndarray:
+    """Mark the nodes that are where they were made, (n,) bool: of the boundary, and of interfaces that are kept.
+
+    Pinned nodes are not among them: a mesh has the same lengths whatever is pinned for a run.
+    """
+    motion, materials = mesh.linear_motion, mesh.interfaces
+    given = mesh.topology.boundary.copy()
+    if motion is not None:
+        given &= ~motion.marks(mesh.n_nodes)
+    return given if materials is None else given | materials.interface_nodes
 
 
 def _filled(sheets: _Sheets, logs: np.ndarray, noisy: np.ndarray, groups: np.ndarray) -> np.ndarray:
     """Fill in the values of noisy edges from the others of their sheet, front by front, and average them."""
     values, known = logs.copy(), ~noisy
     known[-1] = False
-    unfinished = groups
-    while unfinished.size:
-        average, found = sheets.averages(values, known, unfinished)
-        front = found & ~known
-        front[-1] = False
-        if not front.any():
-            break
-        values[front] = average[front]
-        known |= front
-        unfinished = unfinished[~known[unfinished].all(axis=1)]
-    some = np.append(np.ones(sheets.count, dtype=bool), False)
+    structure.fill_along_sheets(groups, values, known)
     for _ in range(_PASSES):
-        average, found = sheets.averages(values, some, groups)
+        average, _ = sheets.averages(values, groups)
         values[noisy] = average[noisy]
     return values

@@ -3,6 +3,7 @@
 #include "mesh/hex_mesh.hpp"
 #include "mesh/incidence.hpp"
 #include "mesh/metrics.hpp"
+#include "mesh/sheets.hpp"
 
 namespace hexmend {
 
@@ -111,13 +112,23 @@ void bind_metrics(nb::module_ m) {
 }
 
 void bind_structure(nb::module_ m) {
-    m.doc() = "Valence of edges, from which the block structure of a mesh follows.";
+    m.doc() = "Valence of edges, from which the block structure of a mesh follows, and averages along dual sheets.";
     m.def("edges", &edges, "hexes"_a, "start"_a, "corners"_a, "neighbours"_a, "max_items"_a = MOST_ITEMS, ReleaseGil(),
           "Every edge once, with the number of hexes around it: (ends (e, 2) int32, valence (e,) int32, outside\n"
           "(e,) bool).\n\n"
           "ends: the lower node first, ascending. valence: hexes that have the edge; one that has it twice, its\n"
           "nodes being one, counts once. outside: True for an edge of a boundary face. start, corners and\n"
           "neighbours are those of `incidence`. OverflowError where there are more than `max_items` edges.");
+    m.def("average_along_sheets", &average_along_sheets, "groups"_a, "values"_a, "average"_a, "count"_a, ReleaseGil(),
+          "Average values of edges (e + 1,) over the groups (g, 4) int32 of parallel edges around each edge; writes\n"
+          "average (e + 1,) float64 and count (e + 1,) int32, the number of groups.\n\n"
+          "It is the mean of the groups' means, and 0 without a group. The number e, and the last value, stand for\n"
+          "no edge.");
+    m.def("fill_along_sheets", &fill_along_sheets, "groups"_a, "values"_a, "known"_a, ReleaseGil(),
+          "Fill in the values (e + 1,) float64 of edges that are not known (e + 1,) bool, front by front; changes\n"
+          "both.\n\n"
+          "Each front is reached by groups (g, 4) int32 with a known edge: its values are the means of the means of\n"
+          "their known edges. Edges that no front reaches stay as they are.");
 }
 
 }  // namespace hexmend

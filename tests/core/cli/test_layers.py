@@ -61,6 +61,10 @@ def test_a_recipe_keeps_the_target(cylinder, tmp_path):
     (["--target", "x - 5"], "target 'x - 5' is "),
     (["--target", "ideal", "--set", "target=given"], "--target and --set target=... set the same value"),
     (["--target", "ideal", "--method", "laplacian"], "--target ideal: there are no targets in laplacian"),
+    (["--set", "size_weight=2"], "--set size_weight=2: the target auto has no sizes; name one that has (--target given"),
+    (["--set", "size_weight=1", "--target", "given-shape"], "the target given-shape has no sizes"),
+    (["--target", "1e300"], "target '1e300' is 1e+300 at hex 0 (counted from 0): expected positive finite lengths"),
+    (["--target", "0"], "target '0' is 0 at hex 0"),
     (["--layers", "keep", "--method", "getme"], "--layers keep: there are no targets, which keep layers, in getme"),
 ])  # fmt: skip
 def test_what_is_wrong_is_said_before_the_run(cylinder, tmp_path, capsys, options, complaint):

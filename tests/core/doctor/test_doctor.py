@@ -73,7 +73,7 @@ def test_nodes_of_second_order_are_no_unused_ones_and_turn_with_their_hex():
     again = with_consistent_orientation(wrong)
     np.testing.assert_array_equal(again.hexes, mesh.hexes)
     np.testing.assert_array_equal(again.mid_nodes, mesh.mid_nodes)
-    assert "turned" in again.notes[-1]
+    assert "renumbered" in again.notes[-1]
     for hexes, middles in ((wrong.hexes[0], wrong.mid_nodes[0]),):
         np.testing.assert_allclose(points[hexes[ends]].mean(axis=1), points[middles[:12]])
 
@@ -112,7 +112,7 @@ def test_flat_hexes_do_not_keep_a_part_from_being_turned(degrees):
     mirrored = mirror_hexes(flat, np.ones(27, dtype=bool))
     assert found_in(mirrored)["mirrored-parts"].count == 27
     np.testing.assert_array_equal(with_consistent_orientation(mirrored).hexes, flat.hexes)
-    assert "have been turned" in with_consistent_orientation(mirrored).notes[-1]
+    assert "renumbered on reading" in with_consistent_orientation(mirrored).notes[-1]
     assert with_consistent_orientation(flat) is flat
     nothing = Mesh(points * [1, 1, 0] @ spin.T, SOUND.hexes)  # flat all over
     assert with_consistent_orientation(nothing) is nothing

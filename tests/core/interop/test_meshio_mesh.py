@@ -118,7 +118,7 @@ def test_cells_of_other_kinds_are_handled_as_in_a_file():
     assert mesh.n_hexes == 22
     assert mesh.pinned[CUBE.hexes[:2, [0, 1, 3, 4]]].all()
     assert mesh.notes == (
-        "1 cells of other kinds (type polygon) are left out.",
+        "1 cell of another kind (type polygon) is left out.",
         "2 tetra cells next to the hexes are kept, and their nodes are fixed.",
     )
 
@@ -137,7 +137,7 @@ def test_physical_groups_of_gmsh_are_sets():
 
 def test_hexes_wound_the_other_way_are_turned_unless_they_are_wanted_so():
     other = hx.to_meshio(CUBE.rebuilt(hexes=CUBE.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]]))
-    assert "turned" in hx.from_meshio(other).notes[-1]
+    assert "renumbered" in hx.from_meshio(other).notes[-1]
     assert hx.from_meshio(other, as_is=True).quality().max() == 0
 
 

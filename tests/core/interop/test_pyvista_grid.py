@@ -128,7 +128,7 @@ def test_cells_of_other_kinds_are_handled_as_in_a_file(tmp_path):
 def test_hexes_wound_the_other_way_are_turned_unless_they_are_wanted_so():
     grid = hx.to_pyvista(CUBE.rebuilt(hexes=CUBE.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]]))
     assert hx.from_pyvista(grid).quality().min() > 0
-    assert "turned" in hx.from_pyvista(grid).notes[-1]
+    assert "renumbered" in hx.from_pyvista(grid).notes[-1]
     assert hx.from_pyvista(grid, as_is=True).quality().max() == 0
 
 

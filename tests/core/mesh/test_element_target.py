@@ -24,6 +24,9 @@ def mesh():
         (np.zeros((2, 3)), "is 0 at hex 0"),
         ([[1, 1, 1], [1, np.nan, 1]], "is nan at hex 1, direction 1"),
         ([[1, 1, np.inf]], "positive finite"),
+        ([[1, 1, -1]], "is -1 at hex 0, direction 2"),
+        ([[1, 1e300, 1]], r"is 1e\+300 at hex 0, direction 1 .*: expected positive .* from 1e-100 to 1e\+100"),
+        ([[1e-300, 1, 1]], "is 1e-300 at hex 0, direction 0"),
         (np.ones((2, 3), bool), "type bool"),
     ],
 )

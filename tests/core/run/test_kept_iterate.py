@@ -1,5 +1,6 @@
 """Which iterate a run keeps, and that it says what is worse: no method ends worse silently."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -11,7 +12,15 @@ from hexmend import io
 from hexmend.cli.main import main
 from hexmend.gallery import GALLERY, make
 from hexmend.iteration import StoppingCriteria
-from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, measure
+from hexmend.quality import (
+    REGRESSION_KEYS,
+    SUMMARY_QUANTITIES,
+    describe_regressions,
+    measure,
+    regressions,
+    summarise,
+)
+from hexmend.quality.regressions import WORSE_BY
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage, from_toml, to_toml
 from hexmend.smoothers import METHODS
@@ -88,7 +97,7 @@ def test_worse_tells_exactly_what_is_worse(name, stop, mesh):
         "q_min": after.q.min() - before.q.min(),
         "scaled_jacobian": after.scaled_jacobian.min() - before.scaled_jacobian.min(),
     }
-    assert list(result.worse) == [one for one in rise if rise[one] < -1e-12]
+    assert list(result.worse) == [one for one in rise if rise[one] < -WORSE_BY]
     assert ("Worse than at the start" in result.message) == bool(result.worse)
     for one, key in REGRESSION_KEYS.items():
         words = result.message.partition("Worse than at the start")[2]
@@ -154,6 +163,26 @@ def test_a_method_that_takes_over_goes_on_from_the_newest_and_may_end_better(bri
 
 def test_a_perfect_grid_is_not_worse_for_rounding():
     assert all(smooth(grid(3), name, LAST).worse == () for name in METHODS)
+
+
+def test_the_last_digits_of_a_layered_mesh_are_no_regression():
+    mesh = make("layered", size=2000)
+    result = smooth(mesh)
+    fallen = result.after.scaled_jacobian_min - result.before.scaled_jacobian_min
+    assert abs(fallen) < WORSE_BY
+    assert result.worse == ()
+    assert "Worse than at the start" not in result.message
+
+
+def test_the_reported_difference_is_that_beyond_the_last_digits():
+    before = summarise(make("five-side", size=500))
+    for change, names in ((0.5 * WORSE_BY, ()), (2 * WORSE_BY, ("q_min", "scaled_jacobian"))):
+        lower = {key: getattr(before, key) - change for key in ("q_min", "scaled_jacobian_min")}
+        after = dataclasses.replace(before, **lower)
+        assert regressions(before, after) == names
+        assert bool(describe_regressions(before, after)) == bool(names)
+    assert regressions(before, before, (0.5, 0.5 - 2 * WORSE_BY)) == ("q_of_target",)
+    assert regressions(before, before, (0.5, 0.5 - 0.5 * WORSE_BY)) == ()
 
 
 @pytest.mark.parametrize("words", [[], ["--keep-last"]])

@@ -150,3 +150,11 @@ def test_a_tangled_mesh_that_does_not_move_loses_no_layers(method):
     assert "layers" not in result.worse
     (wall,) = result.layers
     assert wall.after.first_height_mean == pytest.approx(wall.before.first_height_mean)
+
+
+def test_a_weight_without_sizes_is_said_to_have_no_effect():
+    said = "size_weight has no effect with target = given-shape, which has no sizes."
+    recipe = Recipe.of("laplacian", METHODS["mend"](target="given-shape", size_weight=3))
+    assert said in smooth(scrambled(grid(2), 0.2), recipe).message
+    assert said in smooth(scrambled(grid(2), 0.2), target="given-shape", size_weight=3).message
+    assert "no effect" not in smooth(scrambled(grid(2), 0.2), target="given", size_weight=3).message

@@ -130,3 +130,38 @@ def test_hexes_between_the_boundary_and_an_interface_are_locked_and_sliding_free
     assert kept.after.locked_inverted
     assert not smooth(folded, interfaces="free").after.inverted
     assert not smooth(mesh.keeping_surface().with_points(moved), interfaces="slide").after.inverted
+
+
+@pytest.mark.parametrize("name", SLIDING)
+def test_a_node_freed_from_an_interface_leaves_its_neighbours_sliding_on_it(name):
+    mesh = bumpy()
+    between, outer = mesh.materials.interface_nodes, mesh.topology.boundary
+    inner = np.flatnonzero(between & ~outer)
+    middle = inner[np.linalg.norm(mesh.points[inner] - 0.5, axis=1).argmin()]
+    mesh = mesh.replace(node_sets={"middle": [middle]}).with_rules(interfaces="slide", free="middle")
+    sliding = SlidingBoundary(mesh, outer=False)
+    assert sliding.node_class[middle] == NodeClass.INSIDE
+    assert (sliding.node_class[np.setdiff1d(inner, middle)] == NodeClass.PATCH).all()
+    after = smooth(mesh, name, max_iterations=30).mesh.points
+    ring = np.intersect1d(mesh.topology.rings.of(np.array([middle])), inner)
+    assert ring.size == 4
+    assert (after[[middle, *ring]] != mesh.points[[middle, *ring]]).any(axis=1).all()
+    wave = 0.5 + 0.06 * np.sin(2 * np.pi * after[ring, 1]) * np.sin(2 * np.pi * after[ring, 2])
+    assert np.abs(after[ring, 0] - wave).max() < 0.1 * mesh.mean_edge_length
+
+
+def test_a_part_of_an_interface_that_is_freed_ends_the_surface_beyond_the_nodes_that_slide():
+    mesh = bumpy()
+    inner = mesh.materials.interface_nodes & ~mesh.topology.boundary
+    upper = np.flatnonzero(inner & (mesh.points[:, 2] > 0.6))
+    sliding = SlidingBoundary(mesh.replace(node_sets={"upper": upper}).with_rules(interfaces="slide", free="upper"))
+    rest = np.setdiff1d(np.flatnonzero(inner), upper)
+    assert (sliding.node_class[rest] == NodeClass.PATCH).all()
+    assert (sliding.node_class[upper] == NodeClass.INSIDE).all()
+    assert not np.isin(upper, sliding.boundary.faces).any()
+
+
+def test_an_interface_that_is_freed_as_a_whole_has_no_faces():
+    mesh = bumpy().with_rules(free="low")
+    assert len(SlidingBoundary(mesh).boundary.faces) == len(mesh.topology.boundary_faces)
+    assert len(SlidingBoundary(mesh).surface.trees.pieces) < len(SlidingBoundary(bumpy()).surface.trees.pieces)

@@ -50,7 +50,12 @@ def test_data_of_hexes_and_nodes_are_lengths():
 
 @pytest.mark.parametrize(("specification", "complaint"), [
     ("given-shap", "there is no target 'given-shap': expected ideal, given-shape, given-size, given, data"),
-    ("x - 100", r"target 'x - 100' is -99.9 at hex 0: expected positive finite lengths"),
+    ("x - 100", r"target 'x - 100' is -99.9 at hex 0 .*: expected positive finite lengths .* from 2e-16 to 2e\+14 "),
+    ("0", "target '0' is 0 at hex 0"),
+    ("1e300", r"target '1e300' is 1e\+300 at hex 0"),
+    ("0.1, 1e-300, 0.1", "is 1e-300 at hex 0"),
+    ("gap", "target 'gap' is nan at hex 3"),
+    ("gap * 2", "is nan at hex 3"),
     ("1, 2", "has 2 values a hex: expected one length, or three"),
     ("log(0) * x", "is -inf at hex 0"),
     ("pair", "has 2 values a hex"),
@@ -58,6 +63,15 @@ def test_data_of_hexes_and_nodes_are_lengths():
 ])  # fmt: skip
 def test_what_is_wrong_is_named(specification, complaint):
     mesh = stack()
-    data = {"pair": np.ones((mesh.n_hexes, 2)), "word": np.full(mesh.n_hexes, "a")}
+    data = {"pair": np.ones((mesh.n_hexes, 2)), "word": np.full(mesh.n_hexes, "a"), "gap": np.ones(mesh.n_hexes)}
+    data["gap"][3] = np.nan
     with pytest.raises(ParameterError, match=complaint):
         make_target(mesh.replace(hex_data=data), specification)
+
+
+def test_the_range_of_lengths_is_relative_to_the_mesh():
+    mesh = stack()
+    large = mesh.with_points(mesh.points * 1e20)
+    assert make_target(large, "1e20").lengths[0, 0] == 1e20
+    with pytest.raises(ParameterError, match="is 1 at hex 0"):
+        make_target(large, "1")

@@ -6,6 +6,9 @@ import argparse
 
 from hexmend.errors import ParameterError
 
+#: Rings of hexes around those of --only that are smoothed too.
+DEFAULT_RINGS = 1
+
 
 def add_mesh(parser: argparse.ArgumentParser) -> None:
     """Declare the mesh file, and the option that keeps its orientation."""
@@ -124,8 +127,9 @@ def _add_target(parser: argparse.ArgumentParser) -> None:
         help="what hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the "
         "file or a formula in x, y, z (default: ideal, or given-shape for a mesh with boundary layers)",
     )
-    text = "keep the heights of boundary layers (default unless --target is given) or leave them free"
-    parser.add_argument("--layers", choices=("keep", "free", "off"), help=text)
+    text = "keep the heights of boundary layers (default unless --target is given), leave them free, or keep those on "
+    text += "the walls that these sets are, whether or not heights grow (set:NAME for a set with the name keep)"
+    parser.add_argument("--layers", metavar="keep|free|SET[,SET]", help=text)
 
 
 def _add_limits(parser: argparse.ArgumentParser) -> None:

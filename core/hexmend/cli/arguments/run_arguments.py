@@ -51,7 +51,14 @@ def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop
             )
         return read_recipe(args.recipe).limited(**given_limits(args)), None
     name = args.method or DEFAULT_METHOD
-    return from_strings(METHODS[name], method_settings(args, [name]), owner=name), stopping_criteria(args)
+    settings = method_settings(args, [name])
+    method = from_strings(METHODS[name], settings, owner=name)
+    if "size_weight" in settings and not method.weighs_sizes:
+        raise ParameterError(
+            f"--set size_weight={settings['size_weight']}: the target {method.target} has no sizes; name one that has "
+            "(--target given-size, given, data of the file or a formula), or leave the weight out"
+        )
+    return method, stopping_criteria(args)
 
 
 def method_settings(args: argparse.Namespace, methods: Iterable[str]) -> dict[str, str]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
+from hexmend.terminal_text import count_phrase
 
 #: True while a file is read whose nodes without finite coordinates are to be interpolated.
 INTERPOLATE_MISSING: ContextVar[bool] = ContextVar("INTERPOLATE_MISSING", default=False)
@@ -46,7 +47,7 @@ def interpolate_missing(points: np.ndarray, hexes: Sequence[np.ndarray]) -> tupl
         found = np.flatnonzero(count)
         points[found] = total[found] / count[found, None]
         known[found] = True
-    return points, f"{missing:,} nodes had no finite coordinates, and have been put between their neighbours."
+    return points, f"{count_phrase(missing, 'node')} had no finite coordinates: put between neighbours."
 
 
 def _neighbours(width: int) -> list[tuple[int, int]]:

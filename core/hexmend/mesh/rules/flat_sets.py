@@ -14,6 +14,10 @@ FLATNESS_TOLERANCE = 1e-6
 _ROUNDING = 1e-12
 
 
+def _on_a_line(count: int) -> str:
+    return f"expected three nodes or more, it has {count}" if count < 3 else f"its {count} nodes are on one line"
+
+
 def normal_of_set(mesh: Mesh, name: str) -> np.ndarray:
     """Find the normal of the plane in which the nodes of a set lie.
 
@@ -40,7 +44,7 @@ def normal_of_set(mesh: Mesh, name: str) -> np.ndarray:
     x = (x - x.mean(axis=0)) / unit if nodes.size else x
     axes = np.linalg.eigh(x.T @ x)[1]  # the first direction is that of least extent
     if nodes.size < 3 or np.abs(x @ axes[:, :2]).max() <= FLATNESS_TOLERANCE:
-        raise MeshError(f"the set {name!r} has no plane: its {nodes.size} nodes are on one line")
+        raise MeshError(f"the set {name!r} has no plane: {_on_a_line(nodes.size)}")
     distance = np.abs(x @ axes[:, 0])
     if distance.max() > FLATNESS_TOLERANCE:
         raise MeshError(

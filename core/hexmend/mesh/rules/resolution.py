@@ -20,8 +20,8 @@ from hexmend.mesh.rules.periodic_sets import PeriodicPair, match_periodic
 def with_rules(mesh: Mesh, rules: MotionRules) -> Mesh:
     """Return the mesh with rules of motion of its nodes, in place of those it has.
 
-    Pins of the mesh stay as they are: the rules hold for runs, and no file keeps them. A node that is both fixed and
-    freed is fixed.
+    Pins of the mesh stay as they are, and so does a linear motion that no rule has given: the rules hold for runs, and
+    no file keeps them. A node that is both fixed and freed is fixed.
 
     Parameters
     ----------
@@ -50,6 +50,7 @@ def with_rules(mesh: Mesh, rules: MotionRules) -> Mesh:
     free = _marks(mesh, rules.free)
     if free is not None:
         free &= mesh.topology.used
+    mesh = mesh.without_motion_of_rules()
     mesh = mesh.with_node_rules(NodeRules(rules, _marks(mesh, rules.fix), free, _marks(mesh, rules.slide)))
     return _with_motion(mesh, rules) if rules.plane or rules.periodic else mesh
 
@@ -97,7 +98,7 @@ def _with_motion(mesh: Mesh, rules: MotionRules) -> Mesh:
     for pair in pairs:
         moves = ~(ends[pair.nodes] | ends[pair.partners])
         motion = motion.merge(LinearMotion.tying(pair.partners[moves], pair.nodes[moves], pair.rotation))
-    return _with_node_marks(mesh, motion, pairs).with_linear_motion(motion)
+    return _with_node_marks(mesh, motion, pairs).with_motion_of_rules(motion)
 
 
 def _nodes_of_other_faces(mesh: Mesh, sets: list[np.ndarray]) -> np.ndarray:

@@ -210,7 +210,7 @@ def test_hexes_that_were_turned_on_reading_stay_as_the_file_has_them(tmp_path):
     given = io.read(tmp_path / "a.msh")
     assert not np.array_equal(given.hexes, mirrored.hexes)
     written = write_as_given(tmp_path / "b.msh", moved(given), Original(tmp_path / "a.msh", given))
-    assert any("turned" in note for note in written.notes)
+    assert any("inside out" in note for note in written.notes)
     hx.write(tmp_path / "b.msh", moved(given), like=tmp_path / "a.msh")
     np.testing.assert_array_equal(io.read(tmp_path / "b.msh", as_is=True).hexes, mirrored.hexes)
 

@@ -2,9 +2,12 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from hexmend.errors import MeshError, ParameterError
 from hexmend.mesh.fixing import with_region_free
+from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.flat_sets import normal_of_set
 from hexmend.mesh.rules.periodic_sets import match_periodic
@@ -58,6 +61,54 @@ def test_rules_leave_the_pins_and_a_region_limits_them():
     assert mesh.free[pinned].all()
     part = with_region_free(mesh, TWO["high"][:1], 0)
     assert not part.free[np.setdiff1d(np.arange(part.n_nodes), part.hexes[TWO["high"][0]])].any()
+
+
+RULES = st.fixed_dictionaries(
+    {},
+    optional={
+        "interfaces": st.sampled_from(["keep", "slide", "free"]),
+        "fix": st.sampled_from(["x0", "low"]),
+        "slide": st.sampled_from(["y0", "z1"]),
+        "free": st.just("low"),
+        "plane": st.sampled_from(["z0", "x1", ("y0", "z0")]),
+        "periodic": st.sampled_from([(("x0", "x1"),), (("y0", "y1"),)]),
+    },
+)
+
+
+def assert_equal_motion(one, other):
+    """Check that two meshes let the same nodes move in the same way."""
+    np.testing.assert_array_equal(one.free, other.free)
+    np.testing.assert_array_equal(one.immovable, other.immovable)
+    assert (one.linear_motion is None) == (other.linear_motion is None)
+    if one.linear_motion is None:
+        return
+    np.testing.assert_array_equal(one.motion_start, other.motion_start)
+    for name in ("nodes", "projectors", "tied", "master", "rotations"):
+        np.testing.assert_array_equal(getattr(one.linear_motion, name), getattr(other.linear_motion, name))
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(RULES, min_size=1, max_size=3), RULES, st.booleans())
+def test_rules_replace_those_before_whatever_motion_these_gave(earlier, rules, has_own):
+    mesh = MESH.with_linear_motion(LinearMotion.in_planes(SIDES["y1"], [0, 1, 0])) if has_own else MESH
+    again = mesh
+    for given_before in earlier:
+        again = again.with_rules(**given_before)
+    assert_equal_motion(again.with_rules(**rules), mesh.with_rules(**rules))
+
+
+def test_a_linear_motion_given_after_rules_outlives_them():
+    motion = LinearMotion.in_planes(SIDES["y1"], [0, 1, 0])
+    mesh = MESH.with_rules(plane="z0").with_linear_motion(motion).with_rules()
+    assert mesh.linear_motion is motion
+    assert mesh.with_rules(plane="z0").with_linear_motion(None).with_rules().linear_motion is None
+
+
+def test_a_mesh_of_other_hexes_has_neither_rules_nor_their_motion():
+    mesh = MESH.with_rules(plane="z0").rebuilt(hexes=MESH.hexes[:10], hex_sets={})
+    assert mesh.linear_motion is None
+    assert not mesh.node_rules.rules
 
 
 def test_a_set_that_does_not_exist_is_named_with_those_that_do():

@@ -10,6 +10,7 @@ from hexmend.errors import ParameterError
 from hexmend.gallery import GALLERY
 from hexmend.io import write
 from hexmend.parameters import from_strings
+from hexmend.terminal_text import count_phrase
 
 
 def run(args: argparse.Namespace) -> int:
@@ -25,5 +26,5 @@ def run(args: argparse.Namespace) -> int:
         raise ParameterError("no output is named: expected -o MESH, as in -o five-side.vtu")
     mesh = recipe.build()
     write(args.output, mesh)
-    print(f"{args.output}: {mesh.n_hexes:,} hexes, {mesh.n_nodes:,} nodes")
+    print(f"{args.output}: {count_phrase(mesh.n_hexes, 'hex', 'hexes')}, {count_phrase(mesh.n_nodes, 'node')}")
     return 0

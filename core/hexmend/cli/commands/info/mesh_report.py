@@ -26,7 +26,7 @@ from hexmend.quality import (
     summarise_second_order,
 )
 from hexmend.quality.material_volumes import material_volumes
-from hexmend.terminal_text import printable
+from hexmend.terminal_text import count_phrase, printable
 
 #: Places of a problem that are printed.
 _MAX_PLACES = 10
@@ -129,7 +129,7 @@ def _print_checks(mesh: Mesh, solver: str, quality: ElementQuality) -> None:
 
 def _layer_line(wall: dict[str, Any]) -> str:
     return (
-        f"Layers at '{wall['wall']}': {wall['layers']} on {wall['faces']:,} faces, first height "
+        f"Layers at '{wall['wall']}': {wall['layers']} on {count_phrase(wall['faces'], 'face')}, first height "
         f"{wall['first_height_mean']:.4g} (least {wall['first_height_min']:.4g}), growth {wall['growth']:.3f}, "
         f"{wall['angle_mean']:.1f}° from the wall's normal."
     )

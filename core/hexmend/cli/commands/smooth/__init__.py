@@ -19,7 +19,7 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     add_motion(parser)
     parser.add_argument("--only", metavar="SET", help="smooth only the hexes of this set, or 'inverted' ones")
     text = "with --only: also K rings of hexes around (default 1)"
-    parser.add_argument("--rings", metavar="K", type=int, default=1, help=text)
+    parser.add_argument("--rings", metavar="K", type=int, help=text)
     add_force(parser)
     parser.add_argument("--save-recipe", metavar="FILE.toml", help="write the methods and all values as a recipe")
     parser.add_argument("--json", metavar="FILE", help="write a report")

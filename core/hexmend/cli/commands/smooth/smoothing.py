@@ -6,15 +6,19 @@ import argparse
 import sys
 from dataclasses import replace
 
+import numpy as np
+
 from hexmend.advice import advise
 from hexmend.cli.arguments.checks import check_memory, check_targets
+from hexmend.cli.arguments.options import DEFAULT_RINGS
 from hexmend.cli.arguments.run_arguments import method_and_limits, motion_rules, with_surface
-from hexmend.cli.commands.smooth.suggested_command import suggested_command
+from hexmend.cli.commands.smooth.suggested_command import RunOptions, suggested_command
 from hexmend.cli.output.mesh_messages import print_notes, print_problems
 from hexmend.cli.output.mesh_output import MeshOutput
 from hexmend.cli.output.progress import follow
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
+from hexmend.errors import ParameterError
 from hexmend.io import read, writer_for
 from hexmend.iteration import Result
 from hexmend.mesh.fixing import with_region_free
@@ -34,6 +38,7 @@ def run(args: argparse.Namespace) -> int:
     method, limits = method_and_limits(args)
     writer_for(args.output, None if args.rewrite else args.mesh)  # raises before the run, and not after it
     check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
+    rings = _rings(args)
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
     print_problems(args.mesh, mesh)
@@ -44,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
     if isinstance(method, Recipe):  # the mesh has the recipe's rules now, changed by the options
         method = replace(method, rules=MotionRules())
     if args.only:
-        mesh = with_region_free(mesh, hexes_in_set(mesh, args.only), max(args.rings, 0))
+        mesh = with_region_free(mesh, hexes_in_set(mesh, args.only), rings)
     check_memory(args, [method], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
     smoothing = iterate(with_surface(args, mesh, method), method, limits)
     if smoothing.layers:
@@ -60,6 +65,9 @@ def run(args: argparse.Namespace) -> int:
         result = smoothing.result()
         written = output.write(result.mesh.replace(pinned=pinned))
         _report(args, mesh, method.title, result, written)
+        if result.after.inverted:
+            kept = RunOptions(mesh.node_rules.rules, args.as_is, args.surface, args.only, rings)
+            _print_advice(args, result, _outside(mesh, pinned), kept)
     return 4 if result.after.inverted else 0
 
 
@@ -74,7 +82,6 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, wr
         write_json(args.json, report)
     if args.history:
         write_history(args.history, result)
-    advice = advise(result) if result.after.inverted else None
     print_summaries(f"{args.mesh}: {title}", ["before", "after"], [result.before, result.after], result.target_q)
     print(result.message)
     for wall in result.layers:
@@ -85,9 +92,31 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, wr
     if result.surface is not None:
         print(result.surface.sentence)
     print(written)
-    if advice is not None:
-        print(advice.state)
-        for suggestion in advice.suggestions:
-            print(f"Try next: {suggestion.text}")
-            if line := suggested_command(suggestion, args.mesh, args.output, mesh.node_rules.rules):
-                print(f"      {line}")
+
+
+def _print_advice(args: argparse.Namespace, result: Result, outside: np.ndarray | None, options: RunOptions) -> None:
+    """Print the state of a mesh with inverted hexes and what to try next, with the commands."""
+    advice = advise(result, outside)
+    print(advice.state)
+    for suggestion in advice.suggestions:
+        print(f"Try next: {suggestion.text}")
+        if line := suggested_command(suggestion, args.mesh, args.output, options):
+            print(f"      {line}")
+
+
+def _rings(args: argparse.Namespace) -> int:
+    """Return the number of rings around the hexes of --only; raises `ParameterError` without that option."""
+    if args.rings is None:
+        return DEFAULT_RINGS
+    if not args.only:
+        raise ParameterError(f"--rings {args.rings} is for a part of the mesh: name it with --only, or leave it out")
+    if args.rings < 0:
+        raise ParameterError(f"--rings {args.rings} is out of bounds: expected a number of at least 0")
+    return args.rings
+
+
+def _outside(mesh: Mesh, pinned: np.ndarray | None) -> np.ndarray | None:
+    """Mark the nodes of a mesh (n,) bool that are pinned for the run, and not by the file; None if there are none."""
+    if mesh.pinned is None or mesh.pinned is pinned:
+        return None
+    return mesh.pinned if pinned is None else mesh.pinned & ~pinned

@@ -4,14 +4,44 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 
 from hexmend.advice import Suggestion
+from hexmend.cli.arguments.options import DEFAULT_RINGS
 from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import Parametrised, declared
 from hexmend.smoothers import DEFAULT_METHOD
 
+#: Rings that a larger part has in addition to twice those of the last run.
+_MORE_RINGS = 2
 
-def suggested_command(suggestion: Suggestion, source: str, output: str, rules: MotionRules | None = None) -> str:
+
+@dataclass(frozen=True)
+class RunOptions:
+    """Options of the run that ended, which a suggested one keeps.
+
+    Parameters
+    ----------
+    rules : MotionRules
+        Rules of motion.
+    as_is : bool
+        Keep the orientation of the file.
+    surface : str, optional
+        File of the surface on which the boundary slides; for methods that let it slide.
+    only : str, optional
+        Set of hexes to which the run is limited.
+    rings : int
+        Rings of hexes around them.
+    """
+
+    rules: MotionRules = field(default_factory=MotionRules)
+    as_is: bool = False
+    surface: str | None = None
+    only: str | None = None
+    rings: int = DEFAULT_RINGS
+
+
+def suggested_command(suggestion: Suggestion, source: str, output: str, options: RunOptions | None = None) -> str:
     """Write a suggestion as a line for the shell; values at their defaults are left out.
 
     Parameters
@@ -20,8 +50,7 @@ def suggested_command(suggestion: Suggestion, source: str, output: str, rules: M
     source, output : str
         The file that the run began with, and the file that it wrote. The suggested run begins with `output`, or with
         `source` if the run is to be undone.
-    rules : MotionRules, optional
-        Rules of motion of the run, which the suggested one keeps.
+    options : RunOptions, optional
 
     Returns
     -------
@@ -30,22 +59,34 @@ def suggested_command(suggestion: Suggestion, source: str, output: str, rules: M
     """
     if suggestion.unpin.size:
         return ""
-    smoother = suggestion.smoother
+    options, smoother = options or RunOptions(), suggestion.smoother
     words = ["hexmend", "smooth", source if suggestion.undo else output, "-o", "OUT"]
+    words += ["--as-is"] * options.as_is
     if smoother.name != DEFAULT_METHOD:
-        words += ["--method", smoother.name]
+        words += _option("method", smoother.name)
     for key, value in _changed(smoother).items():
-        words += [f"--{key}", value] if key in ("boundary", "target", "layers") else ["--set", f"{key}={value}"]
+        words += _option(key, value) if key in ("boundary", "target", "layers") else ["--set", f"{key}={value}"]
     for key, value in _changed(suggestion.stop).items():
-        words += [f"--{key.replace('_', '-')}", *([] if value is True else [str(value)])]
-    return shlex.join([*words, *_options(rules or MotionRules())])
+        words += [f"--{key.replace('_', '-')}"] if value is True else _option(key, value)
+    if options.surface and smoother.slides:
+        words += _option("surface", options.surface)
+    if options.only:
+        rings = _MORE_RINGS + 2 * options.rings if suggestion.widen else options.rings
+        words += _option("only", options.only) + (_option("rings", rings) if rings != DEFAULT_RINGS else [])
+    return shlex.join([*words, *_rules(options.rules if suggestion.rules is None else suggestion.rules)])
 
 
-def _options(rules: MotionRules) -> Iterator[str]:
+def _option(key: str, value: object) -> list[str]:
+    """Return the words of an option; a value that begins with a hyphen is joined to its name."""
+    name, text = f"--{key.replace('_', '-')}", str(value)
+    return [f"{name}={text}"] if text.startswith("-") else [name, text]
+
+
+def _rules(rules: MotionRules) -> Iterator[str]:
     """Yield the words of the options of rules of motion."""
     for key, value in rules.values().items():
         for names in [value] if isinstance(value, str) else value:
-            yield from (f"--{key}", *([names] if isinstance(names, str) else names))
+            yield from _option(key, names) if isinstance(names, str) else (f"--{key}", *names)
 
 
 def _changed(values: Parametrised) -> dict[str, object]:

@@ -18,6 +18,7 @@ from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
 from hexmend.io.formats.abaqus.model import Instance, Part
 from hexmend.io.formats.abaqus.sets import MemberBudget, SetLookup, name_key
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import count_phrase
 
 #: Name of the cell data that hold the index of each element's type among the field data of the name `TYPES`.
 TYPE = "abaqus:type"
@@ -67,7 +68,8 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
         notes.append(unread_note(f"{n_other:,} entries of surfaces that are not faces S1 to S6 of hexes"))
     n_unknown = sum(lookup.n_unknown for lookup in (*of_nodes, *of_elements))
     if n_unknown:
-        notes.append(f"{n_unknown:,} members of sets that do not exist in the file are passed over.")
+        members = count_phrase(n_unknown, "member of a set does", "members of sets do")
+        notes.append(f"{members} not exist in the file: passed over.")
     blocks, node_data = tuple(elements.blocks(element_sets)), {ID: np.concatenate(node_ids)}
     fields = {TYPES: elements.types} if elements.types else {}
     unread = {f"type {quoted(type)}": count for type, count in unread.items()}

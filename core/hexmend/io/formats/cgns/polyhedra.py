@@ -10,6 +10,7 @@ from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.formats.cgns.elements import NFACE, NGON
 from hexmend.io.formats.cgns.section import CellGroup, CGNSSection
+from hexmend.terminal_text import count_phrase
 
 
 def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -> list[CellGroup]:
@@ -45,7 +46,7 @@ def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -
         found = cells_from_faces(faces, RaggedArray(cells.start, index), outward)
         n_other = len(section) - sum(len(which) for which, _ in found.values())
         if n_other:
-            notes.append(f"{n_other:,} polyhedra of section {section.name!r} are left out.")
+            notes.append(f"Left out: {count_phrase(n_other, 'polyhedron', 'polyhedra')} of section {section.name!r}.")
         n_cells += np.bincount(index, minlength=len(faces))
         for kind, (which, nodes) in found.items():
             groups.append(CellGroup(kind, nodes, section.first + which, section.name))

@@ -15,6 +15,7 @@ from hexmend.io.formats.cgns.unstructured import read_unstructured
 from hexmend.io.formats.cgns.zone import Zone
 from hexmend.mesh.materials import STRUCTURED_BLOCKS
 from hexmend.mesh.topology.components import components
+from hexmend.terminal_text import count_phrase
 
 #: Greatest distance between matching nodes of an interface, relative to the diagonal of the bounding box.
 _MATCH_TOLERANCE = 1e-5
@@ -39,7 +40,7 @@ def content(path: Path) -> Content:
     number, kept, n_pairs = _merge_nodes(zones, points, first)
     notes += [note for zone in zones for note in zone.notes]
     if len(zones) > 1:
-        joined = f", joined at {len(points) - len(kept):,} nodes."
+        joined = f", joined at {count_phrase(len(points) - len(kept), 'node')}."
         contact = joined if n_pairs else f"; the file does not say where they meet. {JOIN_HINT}"
         notes.append(f"{len(zones)} zones are read as one mesh{contact}")
     blocks, node_sets, side_sets, n_hexes = [], {}, {}, 0

@@ -18,6 +18,7 @@ from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.formats.ovm.writer import limitations, write
 from hexmend.io.formats.vtk.grid import TYPE_BY_KIND, WIDTH_BY_TYPE, Grid, to_mesh
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import count_phrase
 
 _DATA = {Capability.NODE_DATA, Capability.HEX_DATA, Capability.IDS}
 _SETS = {Capability.NODE_SETS, Capability.HEX_SETS, Capability.FIXED_NODES}
@@ -75,7 +76,9 @@ def read(path: Path) -> Mesh:
     if "hex" not in found and others:
         raise cursor.error(f"holds no hexahedra, but {others:,} other polyhedra", "Hexmend works on hexahedra only.")
     if others:
-        notes.append(f"{others:,} polyhedra of other kinds are left out.")
+        notes.append(
+            f"{count_phrase(others, 'polyhedron of another kind is', 'polyhedra of other kinds are')} left out."
+        )
     return to_mesh(path, _grid(points, found, node_data, cell_data, notes))
 
 

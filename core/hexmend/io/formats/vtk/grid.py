@@ -17,6 +17,7 @@ from hexmend.io.base.fixed_marks import with_marks
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import count_phrase
 
 HEXAHEDRON, VOXEL, QUAD, PIXEL = 12, 11, 9, 8
 
@@ -116,7 +117,9 @@ def to_content(path: Path, grid: Grid) -> Content:
             problem = f"cell {first} is a {name}; Hexmend reads hexahedra (types 11, 12, 25, 29)"
             raise FileError(path, problem, "Hexmend works on hexahedral meshes only.")
         names = sorted({NAMES.get(int(number), f"type {number}") for number in types[unknown]})
-        notes.append(f"{unknown.size:,} cells of other kinds ({', '.join(names)}) are left out.")
+        kinds = f"({', '.join(names)})"
+        some = count_phrase(unknown.size, f"cell of another kind {kinds} is", f"cells of other kinds {kinds} are")
+        notes.append(f"{some} left out.")
     blocks.sort(key=lambda block: [*HEX_KINDS, *CELL_KINDS].index(block.kind))
     node_data, node_sets = _split_sets(grid.node_data)
     if all(block.kind != "hex20" and block.kind != "hex27" for block in blocks):
@@ -185,8 +188,8 @@ def _correct_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
     tetra = given == TYPE_BY_KIND["tetra"]
     if tetra.any() and (widths[tetra] == 8).all():
         types[tetra] = HEXAHEDRON
-        count = f"{int(tetra.sum()):,} cells of eight nodes"
-        notes.append(f"{count} are labelled as tetrahedra in the file: read as hexes.")
+        some = count_phrase(int(tetra.sum()), "cell of eight nodes is", "cells of eight nodes are")
+        notes.append(f"{some} labelled as tetrahedra in the file: read as hexes.")
     return types, notes
 
 

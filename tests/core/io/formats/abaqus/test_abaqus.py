@@ -195,7 +195,7 @@ def test_elements_of_other_types_are_left_out_with_a_note(tmp_path):
     assert mesh.node_sets["some"].tolist() == [0]
     assert "mixed" not in mesh.side_sets
     assert any("2 elements of other types (COH3D8)" in note for note in mesh.notes)
-    assert any("1 members of sets that do not exist" in note for note in mesh.notes)
+    assert any("1 member of a set does not exist" in note for note in mesh.notes)
     assert any("4 entries of surfaces" in note for note in mesh.notes)
 
 

@@ -89,7 +89,7 @@ def test_polyhedra_of_other_kinds_are_left_out_with_a_note(tmp_path):
     back = io.read(written(tmp_path / "a.cgns", mesh.points, [("hex", mesh.hexes)], change=without_a_face))
     assert back.n_hexes == 7
     assert back.notes == (
-        "1 polyhedra of section 'Cells' are left out.",
+        "Left out: 1 polyhedron of section 'Cells'.",
         "Cell data are left out because some cells are.",
     )
 

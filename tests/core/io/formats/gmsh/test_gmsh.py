@@ -73,7 +73,7 @@ def test_both_versions_and_encodings_give_the_same_mesh():
 def test_real_files_are_read_and_survive(file, hexes, sets, real_mesh, tmp_path):
     mesh = io.read(real_mesh(file))
     assert (mesh.n_hexes, len(mesh.hex_sets), summarise(mesh).inverted) == (hexes, sets, 0)
-    assert any("wound the other way" in note for note in mesh.notes) == (file == "n10-id2_hex.msh")
+    assert any("numbered inside out" in note for note in mesh.notes) == (file == "n10-id2_hex.msh")
     io.write(tmp_path / "a.msh", mesh)
     assert_same(mesh, io.read(tmp_path / "a.msh"))
 

@@ -176,4 +176,4 @@ def test_other_labels_are_refused_or_said(suffix, types, words, tmp_path):
         with pytest.raises(FileError, match=words):
             io.read(path)
     else:
-        assert "1 cells of other kinds (type 255) are left out." in io.read(path).notes
+        assert "1 cell of another kind (type 255) is left out." in io.read(path).notes

@@ -1,0 +1,94 @@
+"""Averages along dual sheets against plain NumPy."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend.gallery import make
+from hexmend.kernels import structure
+from hexmend.target import recovered_lengths, sheets
+from hexmend.target.edge_lengths import edge_numbers
+
+
+def averages(values, known, groups):
+    """Mean of the means of the known values in the groups around each edge, and True for edges that have one."""
+    marks = known[groups]
+    number = marks.sum(axis=1)
+    some = number > 0
+    groups, number = groups[some], number[some]
+    means = (values[groups] * marks[some]).sum(axis=1) / number
+    total = np.bincount(groups.ravel(), np.repeat(means, 4), minlength=len(values))
+    count = np.bincount(groups.ravel(), minlength=len(values))
+    return total / np.maximum(count, 1), count
+
+
+def filled(values, known, groups):
+    """Values of unknown edges, front by front over all groups."""
+    values, known = values.copy(), known.copy()
+    while True:
+        average, count = averages(values, known, groups)
+        front = (count > 0) & ~known
+        front[-1] = False
+        if not front.any():
+            return values, known
+        values[front] = average[front]
+        known |= front
+
+
+def mesh_groups(size, seed):
+    """Groups of the parallel edges of a mesh, values of its edges, and some that are known."""
+    mesh = make("five-side", size=size)
+    rng = np.random.default_rng(seed)
+    groups, count = edge_numbers(mesh.topology).reshape(-1, 4).copy(), len(mesh.topology.edges)
+    groups[rng.random(groups.shape) < 0.02] = count
+    known = np.append(rng.random(count) < rng.choice([0.01, 0.3]), False)
+    return groups, np.append(rng.uniform(-1, 1, count), 7.0), known
+
+
+@given(st.integers(8, 200), st.integers(0, 10**6))
+def test_averages_are_those_of_numpy(size, seed):
+    groups, values, _ = mesh_groups(size, seed)
+    average, count = np.empty(len(values)), np.empty(len(values), dtype=np.int32)
+    structure.average_along_sheets(groups, values, average, count)
+    expected, number = averages(values, np.arange(len(values)) < len(values) - 1, groups)
+    np.testing.assert_allclose(average[:-1], expected[:-1], rtol=1e-14, atol=1e-15)
+    np.testing.assert_array_equal(count[:-1], number[:-1])
+    assert (average[-1], count[-1]) == (0, 0)
+
+
+@given(st.integers(8, 200), st.integers(0, 10**6))
+def test_fronts_are_those_of_numpy(size, seed):
+    groups, values, known = mesh_groups(size, seed)
+    expected, reached = filled(values, known, groups)
+    structure.fill_along_sheets(groups, values, known)
+    np.testing.assert_array_equal(known, reached)
+    np.testing.assert_allclose(values, expected, rtol=1e-12, atol=1e-14)
+
+
+def test_groups_that_name_no_edge_are_refused():
+    values, known = np.zeros(3), np.zeros(3, dtype=bool)
+    for wrong in (-1, 3):
+        groups = np.array([[0, 1, 1, wrong]], dtype=np.int32)
+        with pytest.raises(ValueError, match="numbers of edges"):
+            structure.fill_along_sheets(groups, values, known)
+        with pytest.raises(ValueError, match="numbers of edges"):
+            structure.average_along_sheets(groups, values, np.zeros(3), np.zeros(3, dtype=np.int32))
+
+
+def test_recovered_lengths_are_those_of_plain_numpy(monkeypatch):
+    mesh = make("layered", size=2000, scramble=1.0)
+    lengths = recovered_lengths(mesh)
+
+    class Plain:
+        @staticmethod
+        def average_along_sheets(groups, values, average, count):
+            everything = np.arange(len(values)) < len(values) - 1
+            average[:], count[:] = averages(values, everything, groups)
+
+        @staticmethod
+        def fill_along_sheets(groups, values, known):
+            values[:], known[:] = filled(values, known, groups)
+
+    monkeypatch.setattr(sheets, "structure", Plain)
+    np.testing.assert_allclose(recovered_lengths(mesh.with_points(mesh.points)), lengths, rtol=1e-12)

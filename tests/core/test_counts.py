@@ -1,0 +1,142 @@
+"""Sentences with a count: none, one and several things are each in the right number."""
+
+import dataclasses
+import re
+
+import numpy as np
+import pytest
+
+from hexmend.advice import advise
+from hexmend.boundary import SurfaceChange
+from hexmend.doctor import examine
+from hexmend.errors import MeshError
+from hexmend.gallery import make
+from hexmend.iteration import StoppingCriteria
+from hexmend.layers import find_layers, layer_report
+from hexmend.mesh.element_target import Target
+from hexmend.mesh.linear_motion import LinearMotion
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import was_turned, whole_parts_are, with_consistent_orientation
+from hexmend.mesh.rules.flat_sets import normal_of_set
+from hexmend.run import iterate, smooth
+from hexmend.run.interface_messages import describe_interfaces, interface_message
+from hexmend.smoothers.mend.messages import freed_message, omission_message
+from hexmend.target import given_lengths
+from tests.core.grids import grid, scrambled
+from tests.core.layers.stacks import stack
+
+#: A number 1 before a plural, or another one before a singular; "0 of 1 hexes" too.
+_THINGS = "node|hexe?|corner|face|edge|iteration|layer|part|material|cell|time"
+_WRONG = re.compile(
+    rf"\b1 (?:{_THINGS.replace('hexe?', 'hexe')})s\b|\b(?:0|[2-9]|\d\d+) (?:{_THINGS.replace('e?', '')})\b"
+)
+
+
+def checked(text):
+    """Return a text of which every count is in the right number."""
+    assert not _WRONG.search(text), text
+    assert not re.search(r"\b1 (?:of [^.;,]*)?(?:are|were|have)\b|\b[02] (?:is|was|has)\b", text), text
+    return text
+
+
+def test_the_check_finds_what_is_wrong():
+    for wrong in ("1 nodes", "0 of 1 hexes", "2 hex moved", "1 were inverted"):
+        with pytest.raises(AssertionError):
+            checked(wrong)
+    checked("1 node; 0 nodes; 2 hexes; 0 of 1 hex")
+
+
+@pytest.mark.parametrize("count", range(3))
+def test_changes_of_a_surface(count):
+    change = SurfaceChange(0.1, 0.1, 1.0, 1.0, 0.0, count, count, min(count, 1))
+    said = checked(change.sentence)
+    began = {
+        0: "The boundary could slide, but none of its nodes moved: it is at most",
+        1: "The boundary slid: 1 of its",
+    }
+    assert said.startswith(began.get(count, "The boundary slid: 2 of its nodes moved; it is at most"))
+
+
+@pytest.mark.parametrize("count", range(3))
+def test_corners_that_mend_omits_or_frees(count):
+    bits = np.zeros(5, dtype=np.uint8)
+    bits[:count] = 1
+    for locked, others in ((bits, bits * 0), (bits * 0, bits)):
+        checked(omission_message(locked | others, locked))
+    checked(freed_message(bits, bits))
+    checked(freed_message(bits, bits * 0))
+
+
+@pytest.mark.parametrize("count", [1, 2, 8])
+def test_orientation(count):
+    parts = [grid(1).points + [3 * at, 0, 0] for at in range(count)] + [grid(1).points + [0, 5, 0]] * (count < 8)
+    hexes = np.arange(8 * len(parts)).reshape(-1, 8)
+    hexes[:count] = hexes[:count, [4, 5, 6, 7, 0, 1, 2, 3]]
+    corners = grid(1).hexes[0]
+    mesh = Mesh(np.concatenate([part[corners] for part in parts]), hexes)
+    read = with_consistent_orientation(mesh)
+    (note,) = read.notes
+    assert was_turned(read)
+    assert checked(note).endswith("numbered inside out in the file (left-handed), and renumbered on reading.")
+    for finding in examine(mesh):
+        checked(finding.message)
+    assert whole_parts_are(1, 1) == "The only hex is"
+
+
+@pytest.mark.parametrize("n", [1, 2])
+def test_runs_on_small_meshes(n):
+    mesh = grid(n, 1, 1)
+    for given in (mesh, mesh.with_points(np.where(np.arange(mesh.n_nodes)[:, None] == 0, 0.7, mesh.points))):
+        for settings in ({}, {"boundary": "slide"}, {"boundary": "slide", "max_iterations": 1}):
+            result = smooth(given, **settings)
+            advice = advise(result)
+            for text in (
+                result.message,
+                advice.state,
+                advice.reason,
+                advice.surface,
+                *(s.text for s in advice.suggestions),
+            ):
+                checked(text)
+
+
+def test_limits_of_one_iteration():
+    mesh = scrambled(grid(3), 0.4)
+    checked(advise(smooth(mesh, "local-sd", StoppingCriteria(max_iterations=1, tolerance=0))).reason)
+    run = iterate(mesh, "laplacian", max_iterations=1)
+    list(run)
+    checked(run.message)
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_interfaces_of_few_nodes(n):
+    mesh = grid(2, n, 2)
+    mesh = mesh.replace(hex_data={"material": (mesh.points[mesh.hexes].mean(axis=1)[:, 0] > 1).astype(int)})
+    checked(describe_interfaces(mesh))
+    moved = mesh.points + 0.1 * (mesh.materials.interface_nodes & ~mesh.topology.boundary)[:, None]
+    for after in (mesh, mesh.with_points(moved)):
+        checked(interface_message(mesh, after, {}))
+
+
+def test_layers_on_one_face():
+    mesh = stack()
+    layers = find_layers(mesh)
+    (wall,) = layers.walls
+    for faces, depth in ((1, 1), (1, 3), (2, 1)):
+        few = dataclasses.replace(wall, hexes=wall.hexes[:faces, :depth], faces=wall.faces[:faces, :depth])
+        (report,) = layer_report(dataclasses.replace(layers, walls=(few,)), mesh, mesh, given_lengths(mesh))
+        checked(report.sentence)
+
+
+def test_errors_of_meshes():
+    mesh = make("cube", size=8)
+    for count in range(3):
+        with pytest.raises(MeshError) as error:
+            normal_of_set(mesh.replace(node_sets={"few": np.arange(count)}), "few")
+        checked(str(error.value))
+    with pytest.raises(MeshError) as error:
+        mesh.with_element_target(Target(np.ones((1, 3))))
+    checked(str(error.value))
+    with pytest.raises(MeshError) as error:
+        grid(1).with_linear_motion(LinearMotion.in_planes([99], [0, 0, 1]))
+    checked(str(error.value))
