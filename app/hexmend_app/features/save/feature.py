@@ -170,7 +170,9 @@ class FeatureSave(Feature):
         if work is None or session.document.now is session.document.start:
             return None
         stage = session.run_setup.active_stage
-        return work if isinstance(work, Recipe) else Recipe.of(stage if stage is not None else work)
+        if isinstance(work, Recipe):
+            return work
+        return Recipe.of(stage if stage is not None else work, rules=session.run.record.rules)
 
     def write_picture(self, path: Path, scene: Scene) -> bool:
         """Write a picture of a scene; return True if it was written."""

@@ -94,7 +94,7 @@ class Commands(QObject):
         if self._session.editable:
             self._session.node_sweep.leave()
             self._session.run_setup.active_stage = stage
-            self.smoothing.start(stage.smoother, stage.stop, iterations)
+            self.smoothing.start(stage.smoother, stage.stop, iterations, self._session.run_setup.rules)
 
     def run_recipe(self, recipe: Recipe) -> None:
         """Run the methods of a recipe one after another on the current mesh, unless another mesh is being read."""
