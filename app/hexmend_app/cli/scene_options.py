@@ -19,8 +19,9 @@ from hexmend.quality import METRICS
 from hexmend.toml_text import parse_toml
 from hexmend_app.cli import cut_options
 from hexmend_app.cli.numbers import direction, invalid_value, numbers, span
-from hexmend_app.codec.config_table import ConfigTable, Option, options_of
+from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.docstring_help import helps
+from hexmend_app.codec.option import Option, options_of
 from hexmend_app.picture import Camera, Cut, Range, Scene, Show
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.camera import DIRECTIONS

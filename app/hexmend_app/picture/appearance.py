@@ -8,7 +8,8 @@ from enum import StrEnum
 from typing import Any
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.codec.config_table import ConfigTable, Option, option
+from hexmend_app.codec.config_table import ConfigTable
+from hexmend_app.codec.option import Option, option
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.layer_switch import LAYERS, ON_BY_DEFAULT, OWN_KEYS

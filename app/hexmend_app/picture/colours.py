@@ -8,7 +8,8 @@ from enum import StrEnum
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.errors import ParameterError
 from hexmend.quality import METRICS
-from hexmend_app.codec.config_table import ConfigTable, option
+from hexmend_app.codec.config_table import ConfigTable
+from hexmend_app.codec.option import option
 from hexmend_app.picture.colour_map import COLOUR_MAPS, DEFAULT_MAP
 from hexmend_app.picture.visibility import known_metric
 
