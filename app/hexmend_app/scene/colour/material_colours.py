@@ -7,10 +7,10 @@ import numpy as np
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import printable
 
-#: Colours of the first materials: Paul Tol's "muted", without its grey.
+#: Colours of the first materials: Paul Tol's "muted", without its grey, those like magenta at the end.
 _COLOURS = (
-    *("88ccee", "cc6677", "ddcc77", "117733", "332288"),
-    *("aa4499", "44aa99", "999933", "882255", "6699cc"),
+    *("88ccee", "ddcc77", "117733", "332288", "44aa99"),
+    *("999933", "6699cc", "cc6677", "882255", "aa4499"),
 )
 #: Shares by which further materials have these colours mixed with white, or with black if negative.
 _TINTS = (0.0, 0.45, -0.35)
@@ -22,7 +22,7 @@ def material_table(count: int) -> np.ndarray:
     """Return the colours of materials, (count, 3) uint8; they repeat where there are more than thirty.
 
     >>> material_table(2).tolist()
-    [[136, 204, 238], [204, 102, 119]]
+    [[136, 204, 238], [221, 204, 119]]
     """
     plain = np.array([list(bytes.fromhex(colour)) for colour in _COLOURS], dtype=float)
     tints = [plain + share * (255 - plain) if share >= 0 else plain * (1 + share) for share in _TINTS]
