@@ -11,7 +11,7 @@ from hexmend.quality import METRICS, HexQuantity
 MATERIAL = HexQuantity(
     name="material",
     title="Material",
-    formula="element block, element set, physical volume, region or cell zone that holds the hex",
+    formula="block, set, physical volume or region that holds the hex",
     source="the file of the mesh",
     full_range=(-math.inf, math.inf),
     acceptable=(-math.inf, math.inf),

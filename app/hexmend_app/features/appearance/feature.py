@@ -79,9 +79,7 @@ class FeatureAppearance(Feature):
                 text=tr("Colour by &material"),
                 menu="View",
                 part=1,
-                help=tr(
-                    "Colour the hexes by material: element blocks, element sets, physical volumes, regions, cell zones."
-                ),
+                help=tr("Colour the hexes by material: blocks, sets, physical volumes or regions of the file."),
                 handle=self._colour_by_material,
                 enabled=lambda: self._has_materials or self._by_material,
                 checked=lambda: self._by_material,
