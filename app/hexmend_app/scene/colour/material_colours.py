@@ -24,8 +24,8 @@ def material_table(count: int) -> np.ndarray:
     >>> material_table(2).tolist()
     [[136, 204, 238], [221, 204, 119]]
     """
-    plain = np.array([list(bytes.fromhex(colour)) for colour in _COLOURS], dtype=float)
-    tints = [plain + share * (255 - plain) if share >= 0 else plain * (1 + share) for share in _TINTS]
+    base = np.array([list(bytes.fromhex(colour)) for colour in _COLOURS], dtype=float)
+    tints = [base + share * (255 - base) if share >= 0 else base * (1 + share) for share in _TINTS]
     table = np.rint(np.concatenate(tints)).astype(np.uint8)
     return table[np.arange(count) % len(table)]
 
