@@ -23,8 +23,8 @@ from hexmend.smoothers import METHODS
 from hexmend.solver_checks import QUOTED, SOLVERS
 from hexmend.study.batch.case import TaskLimits
 from hexmend.study.batch.table_columns import COLUMNS
-from hexmend_app.codec.config_table import Option, options_of
 from hexmend_app.codec.docstring_help import helps
+from hexmend_app.codec.option import Option, options_of
 from hexmend_app.picture import Scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.layer_switch import LAYERS, OWN_KEYS

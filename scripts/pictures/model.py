@@ -48,7 +48,7 @@ def materials(folder: Path, scratch: Path) -> None:
     render(
         folder / "interfaces-ball.png", [scrambled, kept, free],
         ["scrambled", "mended", "mended with --interfaces free"], "--clip", "y:0.5", "--cut-hexes", ranges(behind),
-        "--view", "[-0.05, -1, 0.08]", "--structure", "materials", "--size", "900x325", *_PLAIN,
+        "--view", "[-0.05, -1, 0.08]", "--metric", "material", "--size", "900x325", *_PLAIN,
     )  # fmt: skip
 
 
@@ -60,7 +60,7 @@ def grains(folder: Path, scratch: Path) -> None:
     render(
         folder / "interfaces-grains.png", [given, kept, free],
         ["as given", "mended with --boundary slide", "mended with --interfaces free"], "--clip", "x:0.6",
-        "--view", "[1, 0.25, 0.2]", "--structure", "materials", "--size", "900x325", *_PLAIN,
+        "--view", "[1, 0.25, 0.2]", "--metric", "material", "--size", "900x325", *_PLAIN,
     )  # fmt: skip
 
 

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
@@ -86,6 +87,7 @@ class Resetting:
                 session.run_setup.choose(Stage(method(), StoppingCriteria()))
         session.run_setup.choose(Stage(METHODS[DEFAULT_METHOD](), StoppingCriteria()))
         session.run_setup.active_stage = None
+        session.run_setup.set_rules(MotionRules())
         while session.recipe_draft.stages:
             session.recipe_draft.remove(0)
         session.recipe_draft.rename("")

@@ -1,4 +1,4 @@
-"""Colour bar, painted by Qt so that it is sharp at all scales."""
+"""Colour bar, or names of materials with their colours, painted by Qt so that it is sharp at all scales."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
+from hexmend_app.canvas.name_list import NameList
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.ticks import ticks_with_ends
@@ -48,12 +49,15 @@ class ColourBar(QFrame):
         self._title.setWordWrap(True)
         self._title.setTextFormat(Qt.TextFormat.PlainText)
         self._gradient = _Gradient()
+        self._names = NameList()
+        self._names.hide()
         self.swatches: list[SwatchButton] = []
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(8, 6, 6, 5)
         self._layout.setSpacing(3)
         self._layout.addWidget(self._title)
         self._layout.addWidget(self._gradient, 1)
+        self._layout.addWidget(self._names, 1)
         self.set_special([("inverted", 0, INVERTED)])
         sheet = "#colour_bar {{ background: {0}; border: 1px solid {1}; border-radius: 7px; }}"
         on_theme_change(self, lambda: self.setStyleSheet(sheet.format(PANEL, LINE)))
@@ -77,6 +81,14 @@ class ColourBar(QFrame):
         if (low, high) != self.range:
             self._gradient.low, self._gradient.high = float(low), float(high)
             self._gradient.update()
+            self._describe()
+
+    def set_names(self, names: tuple[str, ...]) -> None:
+        """Show names with the colours of the table in place of the gradient; none to show the gradient."""
+        self._names.show_names(names, self._gradient.table)
+        if bool(names) == self._names.isHidden():
+            self._names.setVisible(bool(names))
+            self._gradient.setVisible(not names)
             self._describe()
 
     @property
@@ -106,6 +118,9 @@ class ColourBar(QFrame):
         self._describe()
 
     def _describe(self) -> None:
+        if self._names.names:
+            self._describe_names()
+            return
         low, high = (self._gradient.text(end) for end in self.range)
         label, shown = self._title.text(), [swatch for swatch in self.swatches if not swatch.isHidden()]
         set_help(
@@ -126,13 +141,24 @@ class ColourBar(QFrame):
             tr("{texts}; {label} from {low} to {high}", texts=texts, label=label, low=low, high=high)
         )
 
+    def _describe_names(self) -> None:
+        names = ", ".join(self._names.names)
+        help = tr(
+            "Each material has a colour. Inverted hexes are magenta and outlined. Drag the legend to move it; "
+            "double-click it to reset its position."
+        )
+        set_help(self, tr("Legend of materials"), help)
+        self.setAccessibleDescription(tr("Materials: {names}", names=names))
+
     def sizeHint(self) -> QSize:
         """Return the width of the texts, and the default height."""
         title = min(self._title.fontMetrics().horizontalAdvance(self._title.text()) + 2, _MAX_TITLE)
-        widths = [title, self._gradient.sizeHint().width()]
+        legend = self._names if self._names.names else self._gradient
+        widths = [title, legend.sizeHint().width()]
         widths += [swatch.sizeHint().width() for swatch in self.swatches if not swatch.isHidden()]
         margins = self._layout.contentsMargins()
-        return QSize(max(widths) + margins.left() + margins.right(), _HEIGHT)
+        height = min(_HEIGHT, super().sizeHint().height()) if self._names.names else _HEIGHT
+        return QSize(max(widths) + margins.left() + margins.right(), height)
 
 
 class _Gradient(QWidget):

@@ -15,17 +15,18 @@ from types import NoneType, UnionType
 from typing import Any, NamedTuple, get_args, get_origin
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import METRICS
 from hexmend.toml_text import parse_toml
 from hexmend_app.cli import cut_options
 from hexmend_app.cli.numbers import direction, invalid_value, numbers, span
-from hexmend_app.codec.config_table import ConfigTable, Option, options_of
+from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.docstring_help import helps
+from hexmend_app.codec.option import Option, options_of
 from hexmend_app.picture import Camera, Cut, Range, Scene, Show
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.colour_map import value_maps
 from hexmend_app.picture.layer_switch import ordered_layers
+from hexmend_app.picture.quantities import colour_quantity
 
 #: Tables of a scene for the mesh, and for the page.
 MESH_TABLES, PAGE_TABLES = ("cut", "colours", "show"), ("camera", "lines", "bar", "axes", "page")
@@ -242,7 +243,7 @@ def _parse_structure(text: str) -> Structure:
 
 def _range_of(metric: str) -> Range | tuple[float, float]:
     """Return the default colour range of a metric; inverted hexes, which are negative, have a separate colour."""
-    low, high = METRICS[metric].full_range
+    low, high = colour_quantity(metric).full_range
     return (max(low, 0.0), high) if isfinite(low) and isfinite(high) else Range.FITTED
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.errors import ParameterError
-from hexmend.quality import METRICS
-from hexmend_app.codec.config_table import ConfigTable, option
+from hexmend_app.codec.config_table import ConfigTable
+from hexmend_app.codec.option import option
 from hexmend_app.picture.colour_map import COLOUR_MAPS, DEFAULT_MAP
+from hexmend_app.picture.quantities import colour_quantities
 from hexmend_app.picture.visibility import known_metric
 
 
@@ -31,7 +31,7 @@ class Colours(ConfigTable):
     Parameters
     ----------
     metric : str
-        Quality metric, as listed by `hexmend info --metrics`, or movement.
+        Quality metric, as listed by `hexmend info --metrics`, movement, or material.
     map : str
         Name of a colour map, such as viridis, cividis, plasma or inferno.
     range : Range or tuple of 2 floats
@@ -50,7 +50,7 @@ class Colours(ConfigTable):
 
     def check(self) -> None:
         """Raise `ParameterError` for an unknown metric or map, or an invalid range."""
-        known_metric(self.metric, {**METRICS, **DISPLACEMENT_QUANTITIES})
+        known_metric(self.metric, colour_quantities())
         if self.map not in COLOUR_MAPS:
             raise ParameterError(f"map = {self.map!r} is unknown: expected one of {', '.join(COLOUR_MAPS)}")
         if isinstance(self.range, tuple) and not self.range[0] < self.range[1]:

@@ -12,7 +12,8 @@ import numpy as np
 
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.codec.config_table import ConfigTable, option
+from hexmend_app.codec.config_table import ConfigTable
+from hexmend_app.codec.option import option
 from hexmend_app.picture.cut_planes import Box, Plane
 
 #: Maximum number of planes, and maximum length of the text that lists the remaining hexes.

@@ -7,7 +7,8 @@ from typing import Any
 
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.codec.config_table import ConfigTable, option
+from hexmend_app.codec.config_table import ConfigTable
+from hexmend_app.codec.option import option
 from hexmend_app.picture.appearance import Look, Structure, Traces
 from hexmend_app.picture.camera import MAX_PANELS, Camera, PicturePanel
 from hexmend_app.picture.camera_pose import CameraPose

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
-from hexmend.quality import METRICS
 from hexmend_app.picture import Camera, Colours, Cut, Plane
 from hexmend_app.picture.camera_pose import Vector
 from hexmend_app.picture.cut import CutStyle
+from hexmend_app.picture.quantities import colour_quantity
 from hexmend_app.scene.camera.directions import direction_of
 
 _AXES = "xyz"
@@ -72,8 +71,7 @@ def coloured_by(colours: Colours, inverted: bool) -> str:
     >>> coloured_by(Colours("scaled-jacobian"), inverted=True)
     'Coloured by Scaled Jacobian; inverted hexes are magenta.'
     """
-    known = {**METRICS, **DISPLACEMENT_QUANTITIES}
-    text = "Without colours" if colours.neutral else f"Coloured by {known[colours.metric].title}"
+    text = "Without colours" if colours.neutral else f"Coloured by {colour_quantity(colours.metric).title}"
     return f"{text}; inverted hexes are magenta." if inverted else f"{text}."
 
 

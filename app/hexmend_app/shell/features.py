@@ -108,3 +108,12 @@ def declared(
         except Exception:  # the others are shown nevertheless
             sys.excepthook(*sys.exc_info())
     return listed
+
+
+def call_each(features: Iterable[Feature], call: Callable[[Feature], object]) -> None:
+    """Call each feature, in the order in which they are refreshed; those that raise are reported."""
+    for feature in sorted(features, key=lambda feature: feature.refresh_order):
+        try:
+            call(feature)
+        except Exception:  # call the other features nevertheless
+            sys.excepthook(*sys.exc_info())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterable, Iterator
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -12,7 +11,16 @@ from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import QMainWindow, QWidget
 
 from hexmend_app.feature import Panel, PanelPlace
-from hexmend_app.shell.features import build_remaining, declared, feature_class, feature_name, first_names, in_order
+from hexmend_app.shell.features import (
+    build_remaining,
+    call_each,
+    declared,
+    feature_class,
+    feature_name,
+    first_names,
+    in_order,
+)
+from hexmend_app.shell.geometry import lay_out_status_bar, restore_geometry, save_geometry
 from hexmend_app.shell.palette.type_to_find import TypeToFind
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.shell.panels.hex_counts import HexCounts
@@ -71,7 +79,7 @@ class Window(QMainWindow):
         reserve_opengl(self)
         TypeToFind(self)
         self._counts = HexCounts()
-        self._build_status_bar()
+        lay_out_status_bar(self.statusBar(), self.docks.row, self.busy, self._counts)
         self.session: Session | None = None
         self.canvas: Canvas | None = None
         self.features: dict[str, Feature] = {}
@@ -80,18 +88,9 @@ class Window(QMainWindow):
         self._timer.all_changed.connect(self.refresh)
         self._timer.iteration_changed.connect(self.refresh_iteration)
         self._menus_shown = 0.0
-        self._set_initial_size()
+        restore_geometry(self)
 
     # Building
-
-    def _build_status_bar(self) -> None:
-        bar = self.statusBar()
-        bar.setSizeGripEnabled(False)
-        bar.setMaximumHeight(24)
-        bar.layout().setContentsMargins(0, 0, 6, 0)
-        bar.addWidget(self.docks.row, 1)
-        for part in (self.busy, self._counts):
-            bar.addPermanentWidget(part)
 
     def begin(self) -> None:
         """Build the session and the features that open and draw a mesh."""
@@ -121,7 +120,7 @@ class Window(QMainWindow):
         in_menu_order = sorted(self.features.values(), key=lambda feature: feature.menu_order)
         actions = declared(in_menu_order, lambda feature: feature.actions())
         self._menus = Menus(self, [*actions, *declare_actions(self, panels)])
-        self._call_features(lambda feature: feature.actions_ready())
+        call_each(self.features.values(), lambda feature: feature.actions_ready())
         if self.canvas is not None:
             for feature in added:
                 feature.canvas_ready(self.canvas)
@@ -240,7 +239,7 @@ class Window(QMainWindow):
         self._timer.stop()
         if self.session is None:
             return
-        self._call_features(lambda feature: feature.refresh())
+        call_each(self.features.values(), lambda feature: feature.refresh())
         self._refresh_menus()
         # Esc dismisses messages first, then cancels opening.
         self.busy.take_escape("open" if self.session.opener.busy and self.messages.isHidden() else "")
@@ -252,18 +251,10 @@ class Window(QMainWindow):
 
     def refresh_iteration(self) -> None:
         """Show the newest iteration of a run."""
-        self._call_features(lambda feature: feature.refresh_iteration())
+        call_each(self.features.values(), lambda feature: feature.refresh_iteration())
         if monotonic() - self._menus_shown > _MENUS_PERIOD:
             self._refresh_menus()
         self._counts.refresh(self.session)
-
-    def _call_features(self, call: Callable[[Feature], object]) -> None:
-        """Call each feature, in the order in which they are refreshed; those that raise are reported."""
-        for feature in sorted(self.features.values(), key=lambda feature: feature.refresh_order):
-            try:
-                call(feature)
-            except Exception:  # call the other features nevertheless
-                sys.excepthook(*sys.exc_info())
 
     def _refresh_menus(self) -> None:
         if self._menus is not None:
@@ -285,7 +276,7 @@ class Window(QMainWindow):
         if not self.may_leave():
             event.ignore()
             return
-        settings.GEOMETRY.set(self.saveGeometry())
+        save_geometry(self)
         if self._menus is not None:  # otherwise the panels have not been added yet
             settings.PANELS.set(self.docks.state())
         self.docks.set_hidden(True)  # floating panels are windows of their own
@@ -305,9 +296,3 @@ class Window(QMainWindow):
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange:
             self.refresh_soon()
-
-    def _set_initial_size(self) -> None:
-        """Restore the saved geometry, or fit the screen."""
-        screen = self.screen().availableGeometry()
-        self.resize(min(1600, round(screen.width() * 0.94)), min(1000, round(screen.height() * 0.92)))
-        self.restoreGeometry(settings.GEOMETRY.get())  # no effect without a saved geometry

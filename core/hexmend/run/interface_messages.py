@@ -14,8 +14,14 @@ from hexmend.terminal_text import count_phrase
 _ROUNDING = 1e-9
 
 
-def describe_interfaces(mesh: Mesh) -> str:
+def describe_interfaces(mesh: Mesh, interfaces: str = "") -> str:
     """Describe the interfaces of a mesh, and what its rules make of them; "" for one material.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    interfaces : str
+        Rule for the interfaces in place of that of the mesh; the sentence does not name options then.
 
     >>> from hexmend.gallery import make
     >>> cube = make("cube", size=64).replace(hex_sets={"low": np.arange(32), "high": np.arange(32, 64)})
@@ -26,12 +32,10 @@ def describe_interfaces(mesh: Mesh) -> str:
     if materials is None:
         return ""
     nodes = count_phrase(_inner_nodes(mesh).size, "node on their interfaces is", "nodes on their interfaces are")
-    fates = {
-        "keep": "kept (--interfaces slide or free lets them move)",
-        "slide": "to slide along them",
-        "free": "free to move",
-    }
-    return f"{len(materials)} materials; {nodes} {fates[mesh.node_rules.interfaces]}."
+    fates = {"keep": "kept", "slide": "to slide along them", "free": "free to move"}
+    rule = interfaces or mesh.node_rules.interfaces
+    options = " (--interfaces slide or free lets them move)" if rule == "keep" and not interfaces else ""
+    return f"{len(materials)} materials; {nodes} {fates[rule]}{options}."
 
 
 def interface_message(before: Mesh, after: Mesh, volumes: Mapping[str, MaterialVolume]) -> str:

@@ -12,7 +12,7 @@ from PIL import Image
 from hexmend.cli.main import main
 from hexmend.io import write
 from hexmend_app.cli import scene_options
-from hexmend_app.codec.config_table import option
+from hexmend_app.codec.option import option
 from hexmend_app.picture import (
     Camera,
     ColourBarStyle,

@@ -8,11 +8,12 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
 from hexmend_app.features.appearance.map_box import MapBox
 from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.quantities import MATERIAL, colour_quantity
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.style import WORSE, note, set_help
@@ -62,10 +63,11 @@ class ColourPanel(QWidget):
         self._metric = QComboBox()
         let_shrink(self._metric, 7)
         self._metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        for metric in (*metrics_offered(), *DISPLACEMENT_QUANTITIES.values()):
+        for metric in (*metrics_offered(), *DISPLACEMENT_QUANTITIES.values(), MATERIAL):
             self._metric.addItem(metric.title, metric.name)
             self._metric.setItemData(self._metric.count() - 1, _description(metric.name), Qt.ItemDataRole.ToolTipRole)
         self._metric.insertSeparator(len(METRICS))
+        self._metric.insertSeparator(self._metric.count() - 1)
         self._map = MapBox()
         self._reverse = QCheckBox("⇅")
         set_help(
@@ -222,14 +224,20 @@ class ColourPanel(QWidget):
             suffix = _range_text(ends) if ends else tr("unbounded for this metric")
             help = f"{tr(help)}: {suffix}."
             set_help(button, tr("Range: {text}", text=text), help)
+        has_values = colours.metric != MATERIAL.name
+        for widget in (self._map, self._reverse, self._range):
+            widget.setEnabled(has_values)
         for box in (self._low, self._high):
-            box.setEnabled(self._is_pinned)
+            box.setEnabled(self._is_pinned and has_values)
         self._show_problem()
 
 
 def _description(name: str) -> str:
     """Return the description of a metric as rich text."""
-    metric = hex_quantity(name)
+    metric = colour_quantity(name)
+    if metric is MATERIAL:
+        lines = (f"<b>{escape(metric.title)}</b>", escape(metric.formula), escape(metric.meaning))
+        return f"<qt>{'<br>'.join(lines)}</qt>"
     direction = {1: tr("Higher is better."), -1: tr("Lower is better."), 0: ""}[better(name)]
     full, acceptable = _range_text(metric.full_range), _range_text(metric.acceptable)
     lines = (

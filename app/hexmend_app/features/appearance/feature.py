@@ -11,6 +11,7 @@ from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, Pan
 from hexmend_app.features.appearance.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.picture.appearance import Arrows, Look
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
+from hexmend_app.picture.quantities import MATERIAL
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.run.run_controller import Phase
@@ -33,6 +34,7 @@ class FeatureAppearance(Feature):
         super().__init__(host)
         view = self._view = self.session.view
         self._seen = ChangeTracker()
+        self._metric_before = view.look.colours.metric  # before the colours showed materials
         self.panel = ColourPanel()
         self.panel.colours_changed.connect(lambda colours: view.change(colours=colours))
         self.panel.shading_changed.connect(self._shade)
@@ -71,6 +73,16 @@ class FeatureAppearance(Feature):
                 help=tr(NEUTRAL),
                 handle=lambda on: view.change(colours={"neutral": on}),
                 checked=lambda: view.look.colours.neutral,
+            ),
+            Action(
+                id="colour_by_material",
+                text=tr("Colour by &material"),
+                menu="View",
+                part=1,
+                help=tr("Colour the hexes by material: blocks, sets, physical volumes or regions of the file."),
+                handle=self._colour_by_material,
+                enabled=lambda: self._has_materials or self._by_material,
+                checked=lambda: self._by_material,
             ),
         )
 
@@ -125,6 +137,21 @@ class FeatureAppearance(Feature):
         if self.canvas.isHidden():
             self.canvas.show()
             self.canvas.interactor.setFocus()  # for the keys of the view
+
+    @property
+    def _by_material(self) -> bool:
+        return self._view.look.colours.metric == MATERIAL.name
+
+    @property
+    def _has_materials(self) -> bool:
+        document = self.session.document
+        return document.is_open and document.now.mesh.materials is not None
+
+    def _colour_by_material(self, on: bool) -> None:
+        """Colour by material, or by the metric before."""
+        if on:
+            self._metric_before = self._view.look.colours.metric
+        self.panel.choose_metric(MATERIAL.name if on else self._metric_before)
 
     def _shade(self, on: bool) -> None:
         self._view.change(page={"shading": on})

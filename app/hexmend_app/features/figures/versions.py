@@ -75,7 +75,7 @@ def _run_recipe(session: Session) -> Recipe | None:
         return work
     stage = session.run_setup.active_stage or Stage(work)
     stop = replace(stage.stop, max_iterations=moment.record.newest)  # the user may have stopped it
-    return Recipe.of(replace(stage, stop=stop), title=work.title)
+    return Recipe.of(replace(stage, stop=stop), title=work.title, rules=moment.record.rules)
 
 
 def _current(session: Session) -> tuple:

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
-from hexmend.quality import measure
+from hexmend.quality import METRICS, measure
 from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.histogram.head import HistogramSettings
@@ -80,9 +79,9 @@ class FeatureHistogram(Feature):
 
     @property
     def metric(self) -> str:
-        """Metric of the histogram; q if the colours show a displacement, which is not a metric of one mesh."""
+        """Metric of the histogram; q if the colours show a displacement or materials, which are no metrics."""
         coloured = self._view.look.colours.metric
-        return self._view.counted or ("q" if coloured in DISPLACEMENT_QUANTITIES else coloured)
+        return self._view.counted or (coloured if coloured in METRICS else "q")
 
     def refresh(self) -> None:
         """Show the present distribution, the snapshots and the range."""
@@ -91,7 +90,7 @@ class FeatureHistogram(Feature):
         range = look.show.by_quality
         if self._view.counted is None and range is not None and range.metric != look.colours.metric:
             self._view.counted = range.metric
-        self.session.run.request_metrics({look.colours.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
+        self.session.run.request_metrics(name for name in {look.colours.metric, self.metric} if name in METRICS)
         self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.colours.metric)
         if self._document.is_open and self.panel.isVisible():
             self._count()

@@ -7,7 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from hexmend.errors import HexmendError
+from hexmend.errors import FileError, HexmendError
+from hexmend.io import unsupported_data
 from hexmend.io.formats.session import SUFFIX
 from hexmend.run.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
@@ -17,9 +18,9 @@ from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.user_events import FileExported, displacement_since
-from hexmend_app.state.tasks.mesh_saver import SaveTask
+from hexmend_app.state.tasks.mesh_saver import SaveTask, original_for
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import Answer, ask_session, ask_target, ask_unsaved
+from hexmend_app.widgets.dialogs.questions import Answer, ask_rewrite, ask_session, ask_target, ask_unsaved
 
 
 class FeatureSave(Feature):
@@ -88,9 +89,20 @@ class FeatureSave(Feature):
 
     def ask_mesh(self) -> None:
         """Ask for a path and save the mesh in the background."""
-        path = ask_target(self.host.dialog_parent, self.host.stem)
-        if path:
-            self.session.commands.save_in_background(path)
+        source = self.session.document.path
+        path = ask_target(self.host.dialog_parent, self.host.stem, source.suffix if source is not None else ".vtu")
+        if path and (rewrite := self._ask_rewrite(Path(path))) is not None:
+            self.session.commands.save_in_background(path, rewrite)
+
+    def _ask_rewrite(self, path: Path) -> bool | None:
+        """Ask whether a file is written anew, if its coordinates could be replaced instead; None if cancelled."""
+        document = self.session.document
+        try:
+            original = original_for(path, document.originals)
+            lost = unsupported_data(path, document.now.mesh)
+        except FileError:  # for a folder there is no choice; saving reports an unknown suffix
+            return False
+        return original is not None and ask_rewrite(self.host.dialog_parent, path, original.path, lost)
 
     def _ask_before_leaving(self) -> bool:
         """Ask for a path and save the mesh, or the session if a session is open; return True if it was saved."""
@@ -170,7 +182,9 @@ class FeatureSave(Feature):
         if work is None or session.document.now is session.document.start:
             return None
         stage = session.run_setup.active_stage
-        return work if isinstance(work, Recipe) else Recipe.of(stage if stage is not None else work)
+        if isinstance(work, Recipe):
+            return work
+        return Recipe.of(stage if stage is not None else work, rules=session.run.record.rules)
 
     def write_picture(self, path: Path, scene: Scene) -> bool:
         """Write a picture of a scene; return True if it was written."""

@@ -10,10 +10,18 @@ from typing import Any
 
 import hexmend
 from hexmend import __version__
+from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import Parametrised
 from hexmend.report.charts import ChartStyle
 from hexmend.run.recipe import Recipe, Stage
-from hexmend_app.features.script.source_code import WIDTH, comment_text, integers_source, multiline_source, source_of
+from hexmend_app.features.script.source_code import (
+    WIDTH,
+    comment_text,
+    integers_source,
+    multiline_source,
+    settings_source,
+    source_of,
+)
 from hexmend_app.picture import Scene, from_toml, to_toml
 
 #: Appended to the comment of an entry that reads an overwritten file.
@@ -89,6 +97,10 @@ class ScriptLines:
             values = [(field.name, getattr(value, field.name)) for field in fields(value)]
             arguments = [f"{name}={it!r}" for name, it in values if it != getattr(default, name)]
             return f"{self.use(ChartStyle)}({', '.join(arguments)})"
+        if isinstance(value, MotionRules):
+            return f"{self.use(MotionRules)}({settings_source(value)})"
+        if isinstance(value, Recipe) and value.rules:
+            self.use(MotionRules)
         if isinstance(value, Recipe | Stage | Parametrised):
             return source_of(value)
         return integers_source(value) if getattr(value, "ndim", 0) else repr(value)

@@ -221,7 +221,7 @@ class Names:
         """Return the data of a finished or current run; None for a run from a session."""
         if record in self._run_lines or record.work is None:
             return self._run_lines.get(record)
-        return RunLines(record.work, record.stop, tuple(record.changes))
+        return RunLines.of_active(record)
 
     def run(self, record: RunRecord, keep: Collection[int] = ()) -> str:
         """Return the name of a run in the script, with its history and some iterations."""
@@ -250,6 +250,8 @@ class Names:
         arguments += [f"changes=[{changes}]"] if changes else []
         arguments += [f"keep={sorted(keep)}"] if keep else []
         arguments += [f"slot={record.slot}"] if record.slot else []
+        if run_lines.rules:
+            arguments.append(f"rules={self._lines.source(run_lines.rules)}")
         if record.parent is not None and self.repeats(record.parent.record):
             arguments.append(f"parent=({self.run(record.parent.record)}, {record.parent.number})")
         if not record.plotted:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from hexmend.iteration import Outcome, Result, StageResult
+from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.features.script.source_code import arguments_source, source_of
+from hexmend_app.features.script.source_code import arguments_source, settings_source, source_of
+from hexmend_app.state.mesh.run_record import RunRecord
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,8 @@ class RunLines:
         Results of the stages; empty during the run.
     stopped : int or None
         The iteration after which the user stopped the run; None if it ended by itself.
+    rules : MotionRules
+        Rules of motion, of a method or a recipe.
     """
 
     work: Smoother | Recipe
@@ -34,14 +38,24 @@ class RunLines:
     changes: Sequence[tuple[int, Stage]] = ()
     stages: Sequence[StageResult] = ()
     stopped: int | None = None
+    rules: MotionRules = field(default_factory=MotionRules)
 
     @classmethod
-    def of(
-        cls, work: Smoother | Recipe, stop: StoppingCriteria | None, changes: Sequence[tuple[int, Stage]], end: Result
-    ) -> RunLines:
+    def of(cls, record: RunRecord, end: Result) -> RunLines:
         """Return the data of a run that has ended."""
         stopped = end.iterations if end.outcome is Outcome.STOPPED else None
-        return cls(work, stop, tuple(changes), end.stages, stopped)._counted()
+        return cls._begun(record, end.stages, stopped)._counted()
+
+    @classmethod
+    def of_active(cls, record: RunRecord) -> RunLines:
+        """Return the data of a run that has not ended."""
+        return cls._begun(record)
+
+    @classmethod
+    def _begun(cls, record: RunRecord, stages: Sequence[StageResult] = (), stopped: int | None = None) -> RunLines:
+        """Return the data of a run; the rules of a recipe become those of the run."""
+        work = replace(record.work, rules=MotionRules()) if isinstance(record.work, Recipe) else record.work
+        return cls(work, record.stop, tuple(record.changes), stages, stopped, record.rules)
 
     @property
     def arguments(self) -> str:
@@ -49,13 +63,23 @@ class RunLines:
         return arguments_source(self.work, self.stop)
 
     def smoothed(self, mesh: str, name: str) -> str:
-        """Return the source that runs the method on `mesh` and assigns the result to `name`."""
+        """Return the source that runs the method on `mesh` and assigns the result, without rules, to `name`."""
         if self.changes:
-            return f"{self._loop(mesh, self.stopped, 'run.close()')}\n{name} = run.result().mesh"
-        arguments = f"{mesh}, {self.arguments}"
+            loop = self._loop(mesh, self.stopped, "run.close()")
+            return f"{loop}\n{name} = {self._without_rules(mesh, 'run.result().mesh')}"
+        arguments = f"{mesh}, {self._run_arguments}"
         if self.stopped is not None:
             arguments += f", watch=lambda it: it.number < {self.stopped}"
-        return f"{name} = hx.smooth({arguments}).mesh"
+        return f"{name} = {self._without_rules(mesh, f'hx.smooth({arguments}).mesh')}"
+
+    def _without_rules(self, mesh: str, result: str) -> str:
+        """Return the source of the result of a run; the next run does not take over its rules."""
+        return f"{mesh}.with_points({result}.points)" if self.rules else result
+
+    @property
+    def _run_arguments(self) -> str:
+        """Source of the method, its limits and the rules, as arguments of `smooth` or `iterate`."""
+        return ", ".join(filter(None, (self.arguments, settings_source(self.rules))))
 
     def until(self, mesh: str, number: int) -> str:
         """Return the source after which `it` is iteration `number` (1 or more) of the run."""
@@ -63,7 +87,7 @@ class RunLines:
 
     def _loop(self, mesh: str, end: int | None, last_statement: str) -> str:
         changes = [(number, stage) for number, stage in self.changes if end is None or number < end]
-        lines = [f"run = hx.iterate({mesh}, {self.arguments})"]
+        lines = [f"run = hx.iterate({mesh}, {self._run_arguments})"]
         lines += [f"run.switch_method({_stage_arguments(stage)})" for number, stage in changes if not number]
         lines.append("for it in run:")
         for number, stage in changes:

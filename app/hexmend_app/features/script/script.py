@@ -191,7 +191,7 @@ class Script(QObject):
         record = self._session.run.record
         if record is None or record.work is None:
             return
-        run_lines = RunLines.of(record.work, record.stop, record.changes, result)
+        run_lines = RunLines.of(record, result)
         self._names.register_run(record, run_lines)
         if record.end is not None and record.end not in self._names:
             base, name = self._names.mesh(record.start), self._names.new_name(record.end)

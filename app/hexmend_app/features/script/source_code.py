@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.doctor import repair
+from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import Parametrised, declared
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
@@ -29,7 +30,8 @@ def source_of(value: Parametrised | Recipe | Stage) -> str:
         stages = ",\n    ".join(map(source_of, value.stages))
         default = Recipe.of(*value.stages).title
         title = f"    title={value.title!r},\n" if value.title != default else ""
-        return f"hx.Recipe.of(\n    {stages},\n{title})"
+        rules = f"    rules={rules_source(value.rules)},\n" if value.rules else ""
+        return f"hx.Recipe.of(\n    {stages},\n{title}{rules})"
     if isinstance(value, Stage):
         return f"hx.Stage({arguments_source(value.smoother, value.stop)})"
     values = ", ".join(
@@ -38,6 +40,20 @@ def source_of(value: Parametrised | Recipe | Stage) -> str:
         if getattr(value, parameter.name) != parameter.default
     )
     return f"hx.{type(value).__name__}({values})"
+
+
+def rules_source(rules: MotionRules) -> str:
+    """Return the source of rules of motion, which needs the class `MotionRules`.
+
+    >>> rules_source(MotionRules(interfaces="slide", fix=("inlet",)))
+    "MotionRules(interfaces='slide', fix=['inlet'])"
+    """
+    return f"MotionRules({settings_source(rules)})"
+
+
+def settings_source(rules: MotionRules) -> str:
+    """Return the source of rules of motion as named arguments; "" without rules."""
+    return ", ".join(f"{name}={value!r}" for name, value in rules.values().items())
 
 
 def arguments_source(work: Smoother | Recipe, stop: StoppingCriteria | None) -> str:

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from PySide6.QtGui import QGuiApplication
+
+from hexmend.cli.commands.smooth.suggested_command import RunOptions, smooth_command
 from hexmend.run.memory import Shortage
-from hexmend.run.recipe import Recipe
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_count
 from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
@@ -90,6 +93,15 @@ class FeatureSmooth(Feature):
                 handle=self.session.commands.reset,
                 enabled=lambda: self._ready() and self._state().reset,
             ),
+            Action(
+                id="copy_command",
+                text=tr("&Copy as command"),
+                menu="Smooth",
+                part=3,
+                help=tr("Copy the command hexmend smooth with this method, its values, limits and rules of motion."),
+                handle=lambda: self.session.run_setup.use(self._copy_command),
+                enabled=lambda: self._ready() and self.session.document.path is not None,
+            ),
         )
 
     def states(self) -> Sequence[StatePart]:
@@ -132,6 +144,8 @@ class FeatureSmooth(Feature):
             breakpoints = self._smoothing.breakpoints
             form.set_mesh(session.document.now.mesh.n_hexes, session.document.now.mesh.n_nodes)
             form.set_breakpoints(breakpoints)  # the controller has already removed those of the old mesh
+        if session.document.is_open:
+            self.panel.show_rules(session.document.now.mesh)
         if phase is not Phase.PAUSED:
             self._hit = None
         self.panel.set_state(self._state_name())
@@ -210,6 +224,14 @@ class FeatureSmooth(Feature):
         else:
             self.host.busy.done("run")  # a busy animation would slow down a run that is visible anyway
 
+    def _copy_command(self, stage: Stage) -> None:
+        """Copy the command that runs a stage on the file of the mesh."""
+        path = self.session.document.path
+        output = path.with_name(f"{self.host.stem}-smoothed{path.suffix or '.vtu'}")
+        command = smooth_command(stage, str(path), str(output), RunOptions(self.session.run_setup.rules))
+        QGuiApplication.clipboard().setText(command)
+        self.host.messages.show_info(tr("Copied: {command}", command=command))
+
     def _ask_for_memory(self, shortage: Shortage, start: Callable[[], object]) -> None:
         """Ask whether to start a run for which memory will probably not suffice."""
         smaller_region = tr("isolate a region and pin the rest (Hex menu)")
@@ -227,7 +249,9 @@ class FeatureSmooth(Feature):
             )
         else:
             text = tr("{error}. The mesh is unchanged.", error=text)
-        self.host.messages.show_error(tr("The method failed"), text, report_of(error))
+        begun = record is not None and bool(record.rows)  # rules of motion are applied before that
+        title = tr("The method failed") if begun else tr("The run did not start")
+        self.host.messages.show_error(title, text, report_of(error))
 
     def _on_hit(self, frame: IterationFrame) -> None:
         self._hit, hit = frame, frame.hit

@@ -6,8 +6,10 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QScrollArea, QSpinBox, QVBoxLayout, QWidget
 
+from hexmend.mesh.mesh import Mesh
 from hexmend.run.recipe import Stage
 from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
+from hexmend_app.features.smooth.rule_form import RuleForm
 from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
 from hexmend_app.features.smooth.stage_form import StageForm
 from hexmend_app.state.run.run_setup import RunSetup
@@ -64,9 +66,13 @@ class SmoothingPanel(QWidget):
         method_row.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         method_row.addRow(tr("Method"), stage.method)
 
-        self.breakpoint_form = BreakpointForm()
+        self.breakpoint_form, self.rule_form = BreakpointForm(), RuleForm()
+        rules = tr("Rules of motion of the nodes on interfaces and in named sets, for methods and recipes.")
+        self._rules = Section(self.rule_form.title, self.rule_form, rules)
+        self._rules.hide()
         self._sections = (
             Section(tr("Parameters"), stage.parameters, tr("Parameters of the method; the defaults suit most meshes.")),
+            self._rules,
             Section(tr("Stop when"), stage.stop, tr("Stopping criteria of a run.")),
             Section(tr("Pause when"), self.breakpoint_form, tr("Breakpoints: events at which a run pauses.")),
         )
@@ -105,8 +111,15 @@ class SmoothingPanel(QWidget):
         self.set_state("idle")
         self.set_status()
         self.stage.edited.connect(self._on_edited)
+        self.rule_form.changed.connect(setup.set_rules)
         setup.chosen.connect(self._on_setup_changed)
         setup.refused.connect(self._show_problem)
+
+    def show_rules(self, mesh: Mesh) -> None:
+        """Show the rules of motion of the set-up for the sets of a mesh; hide the form if there is nothing to rule."""
+        self.rule_form.show_rules(mesh, self._setup.rules)
+        self._rules.setText(self.rule_form.title)
+        self._rules.setVisible(self.rule_form.offered)
 
     def _on_setup_changed(self) -> None:
         self.stage.show_setup()
@@ -119,6 +132,7 @@ class SmoothingPanel(QWidget):
         """Enable the controls of a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
         self._state = state
         self.stage.set_enabled(STATES[state].edit)
+        self.rule_form.setEnabled(STATES[state].edit and state != "paused")  # a run keeps its rules
 
     def set_status(self, iteration: int | None = None, seconds: float | None = None, sentence: str = "") -> None:
         """Show the progress of a run (seconds spent in the method) and a sentence about its state or outcome."""
@@ -178,7 +192,7 @@ class SmoothingPanel(QWidget):
         """Show the first invalid value and a message until it is corrected."""
         form = self.stage.invalid_form
         if form is not None:
-            self._sections[(self.stage.parameters, self.stage.stop).index(form)].expand()
+            self._sections[0 if form is self.stage.parameters else 2].expand()
             form.show_problem()
             self._refused = True
             self._show_sentence(tr("Correct the marked value first."), WORSE)
@@ -194,7 +208,8 @@ class SmoothingPanel(QWidget):
             area = area.parentWidget()
         height, content = (self.height(), self) if area is None else (area.viewport().height(), area.widget())
         height -= content.minimumSizeHint().height()  # includes other panels in the same scroll area
-        for section, form in zip(self._sections, (self.stage.parameters, self.stage.stop), strict=False):
+        shown = (self._sections[0], self.stage.parameters), (self._sections[2], self.stage.stop)
+        for section, form in shown:
             needed = form.sizeHint().height() + _AROUND_FORM
             if needed > height:
                 break

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, ROUNDING, hex_quantity
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, ROUNDING
 from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS
 from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.quantities import MATERIAL, colour_quantity
+from hexmend_app.scene.colour.material_colours import material_table
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.palette import INVERTED as MAGENTA
 
@@ -54,6 +56,8 @@ class Colouring:
     table : (256, 3) uint8
         Colours from the lowest to the highest value.
     special_colours : tuple of SpecialColour
+    names : tuple of str
+        Names of the values 0, 1, ... of materials, whose colours are then the rows of the table, (k, 3).
     """
 
     title: str
@@ -61,6 +65,7 @@ class Colouring:
     high: float
     table: np.ndarray
     special_colours: tuple[SpecialColour, ...] = _INVERTED
+    names: tuple[str, ...] = ()
 
     def colours(self, values: np.ndarray, kinds: np.ndarray) -> np.ndarray:
         """Return the colour of each hex, (k, 3) uint8.
@@ -72,6 +77,8 @@ class Colouring:
         kinds : (k,) bool or uint8
             k for hexes with special colour number k, counted from 1; 0 for the others.
         """
+        if self.names:
+            return self._with_special(self.table[np.asarray(values, dtype=np.intp)], kinds)
         with np.errstate(over="ignore", invalid="ignore"):  # overflow is clipped
             row = (np.asarray(values) - self.low) * (255.999 / (self.high - self.low))
         np.clip(row, 0, 255, out=row)
@@ -96,7 +103,9 @@ class Colouring:
         return colours
 
     def label(self, value: float) -> str:
-        """Format a value for the colour bar, to three digits of the range."""
+        """Format a value for the colour bar, to three digits of the range; name a material."""
+        if self.names:
+            return self.names[round(value)]
         return range_label(value, self.low, self.high)
 
 
@@ -106,6 +115,7 @@ def resolve(
     inverted: np.ndarray,
     ends_of_views: tuple[float, float] | None = None,
     title: str = "",
+    names: tuple[str, ...] = (),
 ) -> Colouring:
     """Resolve the range of colours; views, pictures and colour bars all use this function.
 
@@ -120,7 +130,11 @@ def resolve(
         Range of the values of other views, which a fitted range includes to make colours comparable.
     title : str
         Title of the colours; by default that of the metric.
+    names : tuple of str
+        Names of the materials, if the colours show these.
     """
+    if colours.metric == MATERIAL.name:
+        return Colouring(title or MATERIAL.title, 0.0, len(names) - 1.0, material_table(len(names)), names=names)
     ends, change = declared_ends(colours), colours.metric == "q-change"
     if ends is None:
         low, high = fitted(values, inverted)
@@ -132,11 +146,13 @@ def resolve(
     table = COLOUR_MAPS[CHANGE_MAP if change else colours.map].table
     if colours.reverse != (better(colours.metric) < 0):
         table = table[::-1]
-    return Colouring(title or hex_quantity(colours.metric).title, *ends, table, _CHANGED if change else _INVERTED)
+    return Colouring(title or colour_quantity(colours.metric).title, *ends, table, _CHANGED if change else _INVERTED)
 
 
 def declared_ends(colours: Colours) -> tuple[float, float] | None:
-    """Return the range of colours; None if it is fitted to the values."""
+    """Return the range of colours; None if it is fitted to the values. Materials have a range without a meaning."""
+    if colours.metric == MATERIAL.name:
+        return 0.0, 1.0
     if isinstance(colours.range, tuple):
         return colours.range
     return None if colours.range is Range.FITTED else declared_range(colours.metric, colours.range)

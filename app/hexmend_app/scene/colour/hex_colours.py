@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
+from hexmend_app.picture.quantities import MATERIAL
 from hexmend_app.scene.colour.colouring import Colouring, fitted, resolve
+from hexmend_app.scene.colour.material_colours import material_names, material_values
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.mesh.metric_cache import metric_values
 
@@ -32,8 +34,10 @@ class HexColours:
         """Compute the values and the colouring of a frame."""
         self._frame = frame
         mesh, figures, colours, movement = frame.mesh, frame.figures, frame.look.colours, frame.movement
-        self.kinds, title = figures.inverted, ""
-        if colours.metric not in DISPLACEMENT_QUANTITIES:
+        self.kinds, title, names = figures.inverted, "", ()
+        if colours.metric == MATERIAL.name:
+            self.values, names = material_values(mesh), material_names(mesh)
+        elif colours.metric not in DISPLACEMENT_QUANTITIES:
             self.values = metric_values(colours.metric, mesh, figures)
         elif movement is None:
             self.values = np.zeros(mesh.n_hexes)
@@ -41,7 +45,7 @@ class HexColours:
             self.values = movement.values(colours.metric)
             self.kinds = movement.inversion_changes if colours.metric == "q-change" else figures.inverted
             title = movement.title(colours.metric)
-        self.colouring = resolve(colours, self.values, figures.inverted, self._ends_of_views, title)
+        self.colouring = resolve(colours, self.values, figures.inverted, self._ends_of_views, title, names)
 
     def extend_range(self, ends: tuple[float, float] | None) -> bool:
         """Extend a fitted range to that of all views; return True if it changes."""

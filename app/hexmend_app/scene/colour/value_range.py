@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.displacement import hex_quantity
 from hexmend.quality import METRICS
 from hexmend_app.picture.colours import Range
+from hexmend_app.picture.quantities import colour_quantity
 from hexmend_app.picture.visibility import Show
 
 
@@ -36,10 +36,10 @@ def within(values: np.ndarray, inverted: np.ndarray, show: Show) -> np.ndarray:
 
 def better(metric: str) -> int:
     """Return 1 if greater values of a metric are better, -1 if smaller ones are, else 0."""
-    return hex_quantity(metric).better
+    return colour_quantity(metric).better
 
 
 def declared_range(metric: str, range: Range) -> tuple[float, float] | None:
     """Return the FULL or ACCEPTABLE range of a metric; None if it is infinite."""
-    declared = hex_quantity(metric).full_range if range is Range.FULL else hex_quantity(metric).acceptable
+    declared = colour_quantity(metric).full_range if range is Range.FULL else colour_quantity(metric).acceptable
     return tuple(map(float, declared)) if np.isfinite(declared).all() else None

@@ -53,17 +53,19 @@ def histogram(
     special = len(colouring.special_colours)
     bar_width = (right - left) / (BINS + 2 * special)
     regular = np.asarray(kinds) == 0
-    positions = (values[regular] - colouring.low) * (BINS / (colouring.high - colouring.low))
+    low, high = (-0.5, len(colouring.names) - 0.5) if colouring.names else (colouring.low, colouring.high)
+    positions = (values[regular] - low) * (BINS / (high - low))
     bins = np.clip(np.nan_to_num(positions, nan=0.0), 0, BINS - 1).astype(int)
     bars = [(2 * i, int(np.count_nonzero(kinds == i + 1)), s.colour) for i, s in enumerate(colouring.special_colours)]
+    rows = (2 * np.arange(BINS) + 1) * len(colouring.table) // (2 * BINS)
     for i, count in enumerate(np.bincount(bins, minlength=BINS)):
-        bars.append((2 * special + i, int(count), tuple(map(int, colouring.table[(2 * i + 1) * 128 // BINS]))))
+        bars.append((2 * special + i, int(count), tuple(map(int, colouring.table[rows[i]]))))
     for i, count, colour in bars:
         if count:
             x = left + i * bar_width
             draw.rectangle((x, y_of(count), x + bar_width - max(1.0, unit), bottom), colour)
     draw.line((left, bottom, right, bottom), INK, max(1, round(unit)))
-    for share in (0.0, 0.5, 1.0):
+    for share in () if colouring.names else (0.0, 0.5, 1.0):
         x = left + (2 * special + share * BINS) * bar_width
         value = colouring.label(colouring.low + share * (colouring.high - colouring.low))
         draw.text((x, bottom + 5 * unit), value, INK, font, anchor=("lt", "mt", "rt")[round(2 * share)])

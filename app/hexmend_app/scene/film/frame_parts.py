@@ -60,16 +60,14 @@ def colour_bar(
     draw = ImageDraw.Draw(image)
     unit = height / 30
     font = letters(11 * unit)
-    low, high, title = colouring.low, colouring.high, colouring.title
+    title = colouring.title
     left, right = round(20 * unit + font.getlength(title)), width - round(150 * unit)
     top, bottom = round(3 * unit), round(14 * unit)
-    gradient = Image.fromarray(np.ascontiguousarray(colouring.table[None])).resize((max(1, right - left), bottom - top))
-    image.paste(gradient, (left, top))
     draw.text((round(8 * unit), (top + bottom) / 2), title, INK, font, anchor="lm")
-    for k in range(6):
-        x, value = left + (right - left) * k / 5, low + (high - low) * k / 5
-        draw.line((x, bottom, x, bottom + 2 * unit), INK, max(1, round(unit)))
-        draw.text((x, bottom + 3 * unit), colouring.label(value), INK, font, anchor="mt")
+    if colouring.names:
+        _draw_names(draw, colouring, (left, right), (top, bottom), font)
+    else:
+        _draw_gradient(image, colouring, (left, top, right, bottom), font)
     swatch, side = right + round(24 * unit), (11 if len(special) == 1 else 7) * unit
     small = font if len(special) == 1 else letters(8 * unit)
     for row, (name, count, colour) in enumerate(special):
@@ -78,6 +76,41 @@ def colour_bar(
         text = name if count is None else f"{name} ({count:,})"
         draw.text((swatch + round(17 * unit), above + side / 2), text, INK, small, anchor="lm")
     return image
+
+
+def _draw_gradient(
+    image: Image.Image, colouring: Colouring, box: tuple[int, int, int, int], font: ImageFont.FreeTypeFont
+) -> None:
+    """Draw the gradient in a box (left, top, right, bottom) with values below it."""
+    left, top, right, bottom = box
+    draw, unit = ImageDraw.Draw(image), image.height / 30
+    gradient = Image.fromarray(np.ascontiguousarray(colouring.table[None])).resize((max(1, right - left), bottom - top))
+    image.paste(gradient, (left, top))
+    for k in range(6):
+        x, value = left + (right - left) * k / 5, colouring.low + (colouring.high - colouring.low) * k / 5
+        draw.line((x, bottom, x, bottom + 2 * unit), INK, max(1, round(unit)))
+        draw.text((x, bottom + 3 * unit), colouring.label(value), INK, font, anchor="mt")
+
+
+def _draw_names(
+    draw: ImageDraw.ImageDraw,
+    colouring: Colouring,
+    across: tuple[int, int],
+    along: tuple[int, int],
+    font: ImageFont.FreeTypeFont,
+) -> None:
+    """Draw swatches with names from left to right, as many as fit."""
+    (x, right), (top, bottom) = across, along
+    side, names = bottom - top, colouring.names
+    for at, (name, colour) in enumerate(zip(names, colouring.table, strict=True)):
+        more = f"and {len(names) - at:,} more"
+        last = at == len(names) - 1
+        if x + 2 * side + font.getlength(name) + (0 if last else 2 * side + font.getlength(more)) > right:
+            draw.text((x, (top + bottom) / 2), more, INK, font, anchor="lm")
+            return
+        draw.rectangle((x, top, x + side, bottom), tuple(map(int, colour)))
+        draw.text((x + 1.4 * side, (top + bottom) / 2), name, INK, font, anchor="lm")
+        x += round(2.2 * side + font.getlength(name))
 
 
 def letters(size: float) -> ImageFont.FreeTypeFont:

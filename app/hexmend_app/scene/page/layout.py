@@ -8,10 +8,13 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.errors import ParameterError
 from hexmend_app.picture import Captions, PicturePanel, Scene, TextPlace
+from hexmend_app.picture.quantities import MATERIAL, colour_quantity
+from hexmend_app.scene.colour.material_colours import material_names, material_table
 from hexmend_app.scene.page.lettering import Lettering
+from hexmend_app.scene.page.name_legend import MOST_BELOW, Entry, name_entries, rows_of
 from hexmend_app.scene.page.page_mesh import PageMesh
 
 #: Sizes in font heights: height of captions, gap between panels, height of the strip of a colour bar below, height of a
@@ -93,7 +96,9 @@ class Layout:
         """Return the layout with smaller panels; it stays wide enough for the colour bar."""
         extra = self.around
         width = panel[0] * self.columns + extra[0]
-        if self.bar is TextPlace.BELOW:
+        if self.bar is TextPlace.BELOW and self.names:
+            width = self.size[0]  # the rows of the legend need it
+        elif self.bar is TextPlace.BELOW:
             width = max(width, min(self.size[0], round(_MIN_SIZE[0] * self.letters.height)))
         return replace(self, panel=panel, size=(width, panel[1] * self.rows + extra[1]))
 
@@ -127,7 +132,21 @@ class Layout:
             return self.scene.bar.title
         if metric in DISPLACEMENT_QUANTITIES and movement is not None:
             return movement.title(metric)
-        return hex_quantity(metric).title
+        return colour_quantity(metric).title
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the materials if the colours show these, else none: a legend takes the place of the colour bar."""
+        return material_names(self.meshes[0].mesh) if self.scene.colours.metric == MATERIAL.name else ()
+
+    def legend(self, most: int, more: Sequence[Entry] = ()) -> list[Entry]:
+        """Return the entries of the legend: the title, at most so many names, and more."""
+        return [(self.title, None), *name_entries(self.names, material_table(len(self.names)), most), *more]
+
+    @property
+    def legend_width(self) -> float:
+        """Width of a row of the legend below the panels, in pixels."""
+        return self.size[0] - 2 * self.scene.page.pixels_of(self.scene.page.margin) - self.letters.height
 
     @property
     def long_title(self) -> bool:
@@ -154,9 +173,13 @@ class Layout:
     @cached_property
     def strip(self) -> int:
         """Height of the strip of the colour bar below the panels, or its width at the right, in pixels."""
+        if self.names and self.bar is TextPlace.BELOW:
+            rows = rows_of(self.letters, self.legend(MOST_BELOW, [("inverted (00,000)", (0, 0, 0))]), self.legend_width)
+            return round((_ROW * len(rows) + 0.8) * self.letters.height)
         swatches = 3 if self.scene.colours.metric == "q-change" else 1
         if self.bar is TextPlace.RIGHT:
             width = max(_SIDE + self.letters.em("0.0000"), 2 + self.letters.em("inverted (00,000)"))
+            width = max([width, *(3 + self.letters.em(name) for name in self.names)])
             return round(width * self.letters.height)
         return round(max(_STRIP + 1.4 * self.long_title, _ROW * swatches + 0.8) * self.letters.height)
 

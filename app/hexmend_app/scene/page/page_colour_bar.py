@@ -1,4 +1,4 @@
-"""Colour bar of a page: gradient, ticks, title, and swatches of special colours."""
+"""Colour bar of a page: gradient, ticks, title, and swatches of special colours; or the names of materials."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from hexmend_app.picture import TextPlace
 from hexmend_app.scene.colour.ticks import ticks_with_ends
 from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Layout, Rectangle
+from hexmend_app.scene.page.name_legend import MOST_BELOW, entry_width, rows_of
 from hexmend_app.scene.render.rasters import Rasters
 
 #: Sizes in font heights: gradient, tick, padding at the sides, gap between texts, swatch.
@@ -17,7 +18,9 @@ _DIGIT, _ROW = 0.73, 1.25
 
 def draw_bar(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     """Draw the colour bar at its position in the layout."""
-    if layout.bar is TextPlace.BELOW:
+    if layout.names and layout.bar is not TextPlace.NONE:
+        _draw_names(drawing, layout, drawn)
+    elif layout.bar is TextPlace.BELOW:
         _draw_below(drawing, layout, drawn)
     elif layout.bar is TextPlace.RIGHT:
         _draw_right(drawing, layout, drawn)
@@ -80,15 +83,40 @@ def _draw_right(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     _swatches(drawing, drawn, left, low + 1.2 * letter, swatches)
 
 
+def _draw_names(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
+    """Draw the legend of materials and special colours: in rows below the panels, or in a column at the right."""
+    letter, box = drawing.letters.height, layout.bar_place
+    special = [(_text(name, count), colour) for name, count, colour in drawn.special_colours]
+    if layout.bar is TextPlace.BELOW:
+        rows = rows_of(drawing.letters, layout.legend(MOST_BELOW, special), layout.legend_width)
+    else:
+        most = int(box.height / (_ROW * letter)) - len(special) - 2
+        rows = [[entry] for entry in layout.legend(most, special)]
+    for row, entries in enumerate(rows):
+        x, middle = box.left + 0.5 * letter, box.top + (0.9 + _ROW * row) * letter
+        for entry in entries:
+            text, colour = entry
+            if colour is None:
+                drawing.text(x, middle, text)
+            else:
+                _swatch(drawing, x, middle, colour, text)
+            x += entry_width(drawing.letters, entry)
+
+
 def _swatches(drawing: Drawing, drawn: Rasters, left: float, first: float, texts: list[str]) -> None:
     """Draw one row for each special colour; `first` is the middle of the first row."""
-    letter = drawing.letters.height
     for row, ((_, _, colour), text) in enumerate(zip(drawn.special_colours, texts, strict=True)):
-        middle, half = first + row * _ROW * letter, _SWATCH * letter / 2
-        right, top, bottom = left + 2 * half, middle - half, middle + half
-        rgb = [part / 255 for part in colour]
-        drawing.fill([(left, top), (right, top), (right, bottom), (left, bottom)], rgb)
-        drawing.text(right + 0.4 * letter, middle, text)
+        _swatch(drawing, left, first + row * _ROW * drawing.letters.height, colour, text)
+
+
+def _swatch(drawing: Drawing, left: float, middle: float, colour: tuple[int, int, int], text: str) -> None:
+    """Draw a swatch with a text on its right, at a height in pixels."""
+    letter = drawing.letters.height
+    half = _SWATCH * letter / 2
+    right, top, bottom = left + 2 * half, middle - half, middle + half
+    rgb = [part / 255 for part in colour]
+    drawing.fill([(left, top), (right, top), (right, bottom), (left, bottom)], rgb)
+    drawing.text(right + 0.4 * letter, middle, text)
 
 
 def _text(name: str, count: int | None) -> str:

@@ -10,12 +10,11 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QLineEdit, QSlider, QWidget
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
-from hexmend.quality import METRICS
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Panel
+from hexmend_app.picture.quantities import colour_quantities
 from hexmend_app.shell.mnemonics import without_mnemonic
 from hexmend_app.shell.palette.ranking import PaletteEntry
 from hexmend_app.shell.panels.docks import Docks
@@ -78,7 +77,7 @@ def choice_entries(session: Session) -> Iterator[PaletteEntry]:
             choose = partial(run_setup.choose, stage, tr("{title} chosen. Press Run to start it.", title=method.title))
             yield PaletteEntry(name=method.title, run=choose, help=method.help, kind=tr("Method"))
     if session.document.is_open:
-        for metric in (*METRICS.values(), *DISPLACEMENT_QUANTITIES.values()):
+        for metric in colour_quantities().values():
             colour = partial(session.view.colour_by, metric.name)
             yield PaletteEntry(name=metric.title, run=colour, help=metric.meaning, kind=tr("Colour by"))
 

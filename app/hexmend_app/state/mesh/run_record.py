@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.advice import Advice
+from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
@@ -72,6 +73,8 @@ class RunRecord:
         The method or recipe; None for a run from a session file.
     stop : StoppingCriteria or None
         None for a recipe, whose stages have their own.
+    rules : MotionRules
+        Rules of motion of the run.
     changes : list of (int, Stage)
         Iterations after which the method was switched, and the new stages.
     case : Path or None
@@ -93,6 +96,7 @@ class RunRecord:
         self.advice: Advice | None = None
         self.work: Smoother | Recipe | None = None
         self.stop: StoppingCriteria | None = None
+        self.rules = MotionRules()
         self.changes: list[tuple[int, Stage]] = []
         self.case: Path | None = None
         self._moved = start.mesh.free  # grows if boundary nodes slide

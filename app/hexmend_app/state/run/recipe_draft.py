@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.mesh.rules import MotionRules
 from hexmend.run.recipe import Recipe, Stage
+from hexmend_app.state.run.run_setup import RunSetup
 
 
 @dataclass(frozen=True)
@@ -21,13 +21,16 @@ class RecipeDraftData:
 class RecipeDraft(QObject):
     """Stages in order, with a title; unlike a `Recipe` it may be empty.
 
+    Parameters
+    ----------
+    setup : RunSetup
+        Has the rules of motion of the recipe, which are those of all runs.
+
     Attributes
     ----------
     title : str
         "" to use the titles of the methods.
     stages : tuple of Stage
-    rules : MotionRules
-        Those of the recipe that was loaded; sessions do not keep them.
 
     Signals
     -------
@@ -36,16 +39,16 @@ class RecipeDraft(QObject):
 
     changed = Signal()
 
-    def __init__(self, parent: QObject | None = None):
+    def __init__(self, setup: RunSetup, parent: QObject | None = None):
         super().__init__(parent)
+        self._setup = setup
         self.title = ""
         self.stages: tuple[Stage, ...] = ()
-        self.rules = MotionRules()
 
     @property
     def recipe(self) -> Recipe | None:
         """Recipe to run or save; None if there is no stage."""
-        return Recipe.of(*self.stages, title=self.title, rules=self.rules) if self.stages else None
+        return Recipe.of(*self.stages, title=self.title, rules=self._setup.rules) if self.stages else None
 
     def to_data(self) -> RecipeDraftData:
         """Return the data for a session file."""
@@ -53,12 +56,13 @@ class RecipeDraft(QObject):
 
     def restore(self, data: RecipeDraftData) -> None:
         """Restore the recipe of a session file."""
-        self.rules = MotionRules()
         self._set(data.stages, data.title)
 
     def load(self, recipe: Recipe) -> None:
-        """Replace the stages and the title by those of a recipe."""
-        default, self.rules = Recipe.of(*recipe.stages).title, recipe.rules
+        """Replace the stages and the title by those of a recipe, and the rules of motion if it has any."""
+        if recipe.rules:
+            self._setup.set_rules(recipe.rules)
+        default = Recipe.of(*recipe.stages).title
         self._set(recipe.stages, "" if recipe.title == default else recipe.title)
 
     def rename(self, title: str) -> None:

@@ -6,6 +6,8 @@ import math
 from collections.abc import Collection, Iterable
 
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
+from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.run import Run, StoppingCriteria, iterate
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
@@ -26,6 +28,7 @@ def rerun(
     parent: tuple[RunRecord, int] | None = None,
     slot: int = 0,
     plotted: bool = True,
+    rules: MotionRules | None = None,
 ) -> RunRecord:
     """Run a method or a recipe, and record it as the window does.
 
@@ -47,12 +50,15 @@ def rerun(
         Number of its colour.
     plotted : bool
         True to show the run in charts.
+    rules : MotionRules, optional
+        Rules of motion of the run of a method; a recipe has its own.
 
     Returns
     -------
     RunRecord
     """
-    history, run, pending = History(math.inf), iterate(mesh, work, stop), list(changes)
+    ruled = with_more_rules(mesh, rules) if rules else mesh
+    history, run, pending = History(math.inf), iterate(ruled, work, stop), list(changes)
     record = history.begin(work.title, State.of(mesh))
     record.name, record.slot, record.plotted = name, slot, plotted
     record.parent = None if parent is None else RecordedIteration(*parent)
@@ -66,7 +72,8 @@ def rerun(
         if it.number == until:
             run.close()
     result = run.result()
-    history.finish(record, RecordedIteration(record, result.kept), State.of(result.mesh), result.message)
+    end = State.of(mesh.with_points(result.mesh.points))
+    history.finish(record, RecordedIteration(record, result.kept), end, result.message)
     return record
 
 

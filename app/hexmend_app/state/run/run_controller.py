@@ -11,6 +11,7 @@ from functools import partial
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.advice import Advice
+from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Recipe, Stage
@@ -98,7 +99,13 @@ class RunController(QObject):
 
     blocks_editing = busy
 
-    def start(self, smoother: Smoother | Recipe, stop: StoppingCriteria | None, iterations: float = math.inf) -> None:
+    def start(
+        self,
+        smoother: Smoother | Recipe,
+        stop: StoppingCriteria | None,
+        iterations: float = math.inf,
+        rules: MotionRules | None = None,
+    ) -> None:
         """Start a run on the current mesh, and pause it after some iterations.
 
         Parameters
@@ -108,6 +115,8 @@ class RunController(QObject):
             None for a recipe, whose stages have their own.
         iterations : float
             Iterations after which the run pauses; by default it does not.
+        rules : MotionRules, optional
+            Rules of motion of this run; a recipe has its own.
         """
         if self.busy or not self._document.is_open:
             return
@@ -115,8 +124,11 @@ class RunController(QObject):
         self.work, self._title = smoother, smoother.title
         self.record = self._history.begin(smoother.title, self._before)
         self.following = True
-        self._worker = Worker(self._before.mesh, smoother, stop, partial(self._history.add, self.record))
+        rules = smoother.rules if isinstance(smoother, Recipe) else rules or MotionRules()
+        record = partial(self._history.add, self.record)
+        self._worker = Worker(self._before.mesh, smoother, stop, record, rules)
         self.record.work, self.record.stop, self.record.changes = smoother, stop, self._worker.changes
+        self.record.rules = rules
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
         self._worker.grant(iterations)
         self._set_phase(Phase.PREPARING)
@@ -172,7 +184,7 @@ class RunController(QObject):
             if isinstance(self.work, Recipe):
                 at = self.record.rows[-1]["stage"] - 1
                 stages = (*self.work.stages[:at], stage, *self.work.stages[at + 1 :])
-                self.work = Recipe.of(*stages, title=self.work.title)
+                self.work = replace(self.work, stages=stages)
 
     def stop(self) -> None:
         """End the run after the current iteration, or when it is prepared, and keep its result."""

@@ -1,26 +1,31 @@
-"""Set-up of the next run: the method, its values and limits, as the user has set them."""
+"""Set-up of the next run: the method, its values and limits, and rules of motion, as the user has set them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
+from hexmend.mesh.rules.named_sets import set_names
 from hexmend.parameters import current_name, from_values
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
+from hexmend_app.codec.codec import since
 
 
 @dataclass(frozen=True)
 class RunSetupData:
-    """Data of the set-up in a session file: stage, reason of its choice, and the last values of each method."""
+    """Data of the set-up in a session file: stage, reason of its choice, last values of each method, and rules."""
 
     stage: Stage
     reason: str
     values: dict[str, dict[str, Any]]
+    rules: MotionRules = field(default=MotionRules(), metadata=since(7))
 
     def __post_init__(self) -> None:
         for method, values in self.values.items():
@@ -33,12 +38,12 @@ class RunSetupData:
 
 
 class RunSetup(QObject):
-    """The selected method, and the last values of all methods.
+    """The selected method, the last values of all methods, and the rules of motion.
 
     Signals
     -------
     changed
-        The method, a value or a limit has changed.
+        The method, a value, a limit or a rule has changed.
     chosen
         The program, not the user, has set `stage`.
     refused
@@ -54,6 +59,8 @@ class RunSetup(QObject):
         The stage that the active run executes; only a different stage changes that run.
     reason : str
         Why the program has chosen the stage; "" after the user has changed it.
+    rules : MotionRules
+        Rules for interfaces and named sets in the next run, of a method or of a recipe.
     """
 
     changed = Signal()
@@ -66,6 +73,7 @@ class RunSetup(QObject):
         self.stage: Stage | None = Stage(METHODS[DEFAULT_METHOD](), StoppingCriteria())
         self.active_stage: Stage | None = None
         self.reason = ""
+        self.rules = MotionRules()
         self._values: dict[str, dict[str, Any]] = {}
 
     @property
@@ -79,6 +87,16 @@ class RunSetup(QObject):
         if (method, stage) != (self.method, self.stage):
             self.method, self.stage, self.reason = method, stage, ""
             self.changed.emit()
+
+    def set_rules(self, rules: MotionRules) -> None:
+        """Set the rules of motion."""
+        if rules != self.rules:
+            self.rules = rules
+            self.changed.emit()
+
+    def keep_rules_of(self, mesh: Mesh) -> None:
+        """Drop the rules of sets that a mesh does not have."""
+        self.set_rules(self.rules.limited_to(set_names(mesh)))
 
     def choose(self, stage: Stage, reason: str = "") -> None:
         """Choose the stage for the user, for a reason; forms show it."""
@@ -96,12 +114,14 @@ class RunSetup(QObject):
     def to_data(self) -> RunSetupData:
         """Return the data for a session file; if a value is invalid, the last valid stage with default limits."""
         stage = self.stage or Stage(self.smoother_of(self.method), StoppingCriteria())
-        return RunSetupData(stage, self.reason, {method: dict(values) for method, values in self._values.items()})
+        values = {method: dict(values) for method, values in self._values.items()}
+        return RunSetupData(stage, self.reason, values, self.rules)
 
     def restore(self, data: RunSetupData) -> None:
         """Restore the set-up of a session file."""
         self._values = {method: dict(values) for method, values in data.values.items()}
         self.active_stage = None
+        self.rules = data.rules
         self.choose(data.stage, data.reason)
 
     def values_of(self, method: str) -> dict[str, Any]:

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from hexmend.advice import Advice, advise
 from hexmend.iteration import Iteration, Result
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
+from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.quality import summarise
 from hexmend.run import Run, StoppingCriteria, iterate
 from hexmend.run.breakpoints import Breakpoints, Hit
@@ -58,6 +60,8 @@ class Worker:
         None for those of a recipe.
     record : callable
         Called in the thread with every iteration, from number 0.
+    rules : MotionRules, optional
+        Rules of motion of the run; the meshes of its frames have none.
 
     Attributes
     ----------
@@ -83,6 +87,7 @@ class Worker:
         smoother: Smoother | Recipe,
         stop: StoppingCriteria | None,
         record: Callable[[Iteration], object],
+        rules: MotionRules | None = None,
     ):
         self.task = Task(f"smoother {smoother.name}", self._run, yields=True)
         self.mailbox = Mailbox()
@@ -93,6 +98,7 @@ class Worker:
         self.metrics: frozenset[str] = frozenset()
         self.breakpoints = Breakpoints()
         self._inputs = (mesh, smoother, stop)
+        self._rules = rules
         self._record = record
         self._gate = threading.Condition()
         self._granted: float = 0  # remaining iterations; infinite while running
@@ -130,6 +136,8 @@ class Worker:
     def _run(self, _: Task) -> Result:
         try:
             mesh, smoother, stop = self._inputs
+            if self._rules and not isinstance(smoother, Recipe):
+                mesh = with_more_rules(mesh, self._rules)
             run = iterate(mesh, smoother, stop)
             self._record(run.start)
             self.prepared.set()

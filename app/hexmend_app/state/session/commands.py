@@ -52,12 +52,13 @@ class Commands(QObject):
         """Open a mesh; an active run ends first. If the file cannot be read, the open mesh stays."""
         self.smoothing.end(lambda: self._session.opener.open(path))
 
-    def save_in_background(self, path: str | Path) -> SaveTask:
+    def save_in_background(self, path: str | Path, rewrite: bool = False) -> SaveTask:
         """Save the mesh in a thread, or the session if the path has the suffix of sessions.
 
+        In the format of its file, only coordinates are replaced in a copy of that file unless `rewrite`.
         `Session.saver` reports the outcome; if saving fails, an existing file is left unchanged.
         """
-        return self._saver.save(path)
+        return self._saver.save(path, rewrite)
 
     def export(self, event: FileExported) -> None:
         """Write the file of an event, then emit the event; raises `HexmendError` if it cannot be written."""
@@ -94,7 +95,7 @@ class Commands(QObject):
         if self._session.editable:
             self._session.node_sweep.leave()
             self._session.run_setup.active_stage = stage
-            self.smoothing.start(stage.smoother, stage.stop, iterations)
+            self.smoothing.start(stage.smoother, stage.stop, iterations, self._session.run_setup.rules)
 
     def run_recipe(self, recipe: Recipe) -> None:
         """Run the methods of a recipe one after another on the current mesh, unless another mesh is being read."""

@@ -9,6 +9,7 @@ from hexmend.aliases import former_attributes
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import migrate_surface_tolerance
 from hexmend_app.codec.codec import DecodeError
+from hexmend_app.picture.appearance import with_material_colours
 from hexmend_app.state.mesh.run_record import NodeOffsets
 from hexmend_app.state.run.run_setup import RunSetupData
 
@@ -26,6 +27,8 @@ _ZERO_FOR_NO_LIMIT = 3
 _WITHOUT_FEATURES = 4
 #: The last version in which the look of the view differed from the tables of scenes.
 _WITHOUT_TABLES = 5
+#: The last version in which a layer coloured by material.
+_WITH_MATERIAL_LAYER = 6
 
 
 def migrate(window: Any, version: int) -> Any:
@@ -45,7 +48,17 @@ def migrate(window: Any, version: int) -> Any:
             window = _with_tables(window)
         except (KeyError, TypeError, ValueError, AttributeError) as error:
             raise DecodeError(f"the window's view or cut is not of its type: {error!r}"[:200]) from None
+    if version <= _WITH_MATERIAL_LAYER:
+        window = _with_material_colours(window)
     return window
+
+
+def _with_material_colours(window: dict[str, Any]) -> dict[str, Any]:
+    """Convert the layer that coloured by material to a metric of the colours."""
+    view = window.get("view") if isinstance(window, dict) else None
+    if not isinstance(view, dict) or not isinstance(view.get("look"), dict):  # which is reported where it is decoded
+        return window
+    return {**window, "view": {**view, "look": with_material_colours(view["look"])}}
 
 
 def _with_features(window: dict[str, Any]) -> dict[str, Any]:

@@ -95,7 +95,8 @@ class SessionParts(QObject):
         self.side_views = self._add_part("side_views", SideViews(document, self.snapshots, self), "changed")
         self.comparison = self._add_part("comparison", Comparison(document, self), "changed")
         self.run_setup = self._add_part("run_setup", RunSetup(self), "changed")
-        self.recipe_draft = self._add_part("recipe_draft", RecipeDraft(self), "changed")
+        self.recipe_draft = self._add_part("recipe_draft", RecipeDraft(self.run_setup, self), "changed")
+        document.mesh_replaced.connect(self._drop_unknown_rules)
         self._parts.append(
             StatePart(name="breakpoints", to_data=lambda: self.run.breakpoints, restore=self.run.break_at)
         )
@@ -170,6 +171,10 @@ class SessionParts(QObject):
         for part in self.children():
             if hasattr(part, "close"):
                 part.close()
+
+    def _drop_unknown_rules(self) -> None:
+        if self.document.is_open:
+            self.run_setup.keep_rules_of(self.document.now.mesh)
 
     def _history_data(self) -> object:
         """Return the data of the runs, with the iterations that the states of the document show."""

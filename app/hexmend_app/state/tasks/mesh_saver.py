@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,6 +33,8 @@ class SaveTask:
         The state that counts as saved afterwards.
     data : SessionData or None
         The content of a session file; None for a mesh file.
+    rewrite : bool
+        Write a mesh file anew even if coordinates could be replaced in a copy of the file of the mesh.
 
     Attributes
     ----------
@@ -49,8 +52,8 @@ class SaveTask:
         Error of writing, if it failed.
     """
 
-    def __init__(self, path: Path, state: State, recorded: State, data: SessionData | None):
-        self.path, self.state, self.recorded, self.data = path, state, recorded, data
+    def __init__(self, path: Path, state: State, recorded: State, data: SessionData | None, rewrite: bool = False):
+        self.path, self.state, self.recorded, self.data, self.rewrite = path, state, recorded, data, rewrite
         self.omitted: list[str] = []
         self.originals: tuple[Original, ...] = ()
         self.original: Original | None = None
@@ -63,13 +66,17 @@ class SaveTask:
         if self.data is not None:
             session_data.write(self.path, self.data)
         else:
-            fitting = (one for one in self.originals if replaces_coordinates(self.path, one))
-            self.original = next(fitting, None)
+            self.original = None if self.rewrite else original_for(self.path, self.originals)
             self.written = write_as_given(self.path, self.state.mesh, self.original)
             self.omitted = unsupported_data(self.path, self.state.mesh)
             if self.written.replaced:  # what the mesh had when it was read is still in the file
                 given = unsupported_data(self.path, self.original.mesh)
                 self.omitted = [data for data in self.omitted if data not in given]
+
+
+def original_for(path: Path, originals: Iterable[Original]) -> Original | None:
+    """Return the first original file in whose copy coordinates are replaced if the mesh is written to a path."""
+    return next((one for one in originals if replaces_coordinates(path, one)), None)
 
 
 class MeshSaver(QObject):
@@ -110,9 +117,9 @@ class MeshSaver(QObject):
         """Path of the file that is being written; None if there is none."""
         return self._saving and self._saving.path
 
-    def save(self, path: str | Path) -> SaveTask:
-        """Save the mesh, or the session if the path has the suffix of sessions."""
-        saving = self._make_save(Path(path))
+    def save(self, path: str | Path, rewrite: bool = False) -> SaveTask:
+        """Save the mesh, with `rewrite` anew in any case, or the session if the path has the suffix of sessions."""
+        saving = self._make_save(Path(path), rewrite)
         self._waiting.append(saving)
         self._begin()
         return saving
@@ -123,7 +130,7 @@ class MeshSaver(QObject):
         drop(self._task)
         self._saving = self._task = None
 
-    def _make_save(self, path: Path) -> SaveTask:
+    def _make_save(self, path: Path, rewrite: bool) -> SaveTask:
         """Return the task of saving the current state, after ending a sweep in progress."""
         session, document = self._session, self._session.document
         session.node_sweep.leave()
@@ -132,7 +139,7 @@ class MeshSaver(QObject):
         moment = session.timeline.shown_iteration
         if document.previews and session.editable:
             document.commit("go back" if moment is None else f"go to {moment.name}", document.now)
-        return SaveTask(path, document.now, document.now, None)
+        return SaveTask(path, document.now, document.now, None, rewrite)
 
     def _begin(self) -> None:
         if self._saving is None and self._waiting:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from enum import Enum
 from pathlib import Path
 
@@ -35,10 +35,11 @@ def ask_mesh(parent: QWidget) -> str:
     return _ask_to_open(parent, tr("Open mesh or session"), filters)
 
 
-def ask_target(parent: QWidget, stem: str) -> str:
-    """Ask for the file to save the mesh to; "" if cancelled."""
+def ask_target(parent: QWidget, stem: str, suffix: str = ".vtu") -> str:
+    """Ask for the file to save the mesh to; "" if cancelled. The suffix is proposed if it can be written."""
+    suffix = suffix.lower() if suffix.lower() in writable_suffixes() else ".vtu"
     kinds = ";;".join(map(_mesh_kind, writable_suffixes()))
-    return _ask_to_save(parent, tr("Save mesh as"), f"{stem}-smoothed.vtu", kinds, _mesh_kind(".vtu"))
+    return _ask_to_save(parent, tr("Save mesh as"), f"{stem}-smoothed{suffix}", kinds, _mesh_kind(suffix))
 
 
 def ask_session(parent: QWidget, stem: str) -> str:
@@ -151,6 +152,36 @@ def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True) -> Answer:
     box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
     box.setDefaultButton(buttons.Save)
     return {buttons.Save: Answer.SAVE, buttons.Discard: Answer.DISCARD}.get(box.exec(), Answer.CANCEL)
+
+
+def ask_rewrite(parent: QWidget, path: Path, original: Path, lost: Sequence[str]) -> bool | None:
+    """Ask whether to write a file anew instead of replacing coordinates in a copy of the original; None if cancelled.
+
+    Parameters
+    ----------
+    parent : QWidget
+    path, original : Path
+    lost : sequence of str
+        Data of the mesh that a new file cannot hold.
+    """
+    box = QMessageBox(parent)
+    box.setTextFormat(Qt.TextFormat.PlainText)
+    box.setIcon(QMessageBox.Icon.Question)
+    box.setWindowTitle(tr("Save mesh as"))
+    box.setText(tr("Replace the coordinates only, or write {name} anew?", name=path.name))
+    parts = [
+        tr("Replacing keeps all else that {original} holds, byte for byte where possible.", original=original.name),
+        tr("A new file holds the mesh with its sets and data; comments, properties and the like are lost."),
+    ]
+    if lost:
+        parts.append(tr("Lost too: {count}.", count=", ".join(lost)))
+    box.setInformativeText(" ".join(parts))
+    replace = box.addButton(tr("Replace coordinates"), QMessageBox.ButtonRole.AcceptRole)
+    anew = box.addButton(tr("Write anew"), QMessageBox.ButtonRole.DestructiveRole)
+    cancel = box.addButton(QMessageBox.StandardButton.Cancel)
+    box.setDefaultButton(replace)
+    box.exec()
+    return None if box.clickedButton() is cancel else box.clickedButton() is anew
 
 
 def ask_short_of_memory(parent: QWidget, problem: str, remedy: str) -> bool:

@@ -13,8 +13,9 @@ from PySide6.QtWidgets import QComboBox, QFormLayout, QLabel, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
-from hexmend_app.codec.config_table import ConfigTable, Option, options_of
+from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.docstring_help import helps
+from hexmend_app.codec.option import Option, options_of
 from hexmend_app.theme.style import WORSE, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, Text, editor_for

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
@@ -12,6 +12,8 @@ from hexmend.errors import ParameterError
 
 #: Choices for the interfaces between materials: kept like the boundary, sliding on themselves, or free.
 INTERFACES = ("keep", "slide", "free")
+#: Rules of single sets.
+_SETS = ("fix", "slide", "free", "plane")
 
 
 @dataclass(frozen=True)
@@ -45,7 +47,7 @@ class MotionRules:
     def __post_init__(self) -> None:
         if self.interfaces not in INTERFACES:
             raise ParameterError(f"interfaces = {self.interfaces!r}: expected one of {', '.join(INTERFACES)}")
-        for name in ("fix", "slide", "free", "plane"):
+        for name in _SETS:
             object.__setattr__(self, name, _names(name, getattr(self, name)))
         pairs = self.periodic
         if not isinstance(pairs, tuple | list) or any(len(_names("periodic", pair)) != 2 for pair in pairs):
@@ -71,6 +73,18 @@ class MotionRules:
         sets = {name: tuple(dict.fromkeys(getattr(self, name) + getattr(other, name))) for name in names}
         chosen = self.interfaces if other.interfaces == "keep" else other.interfaces
         return replace(self, interfaces=chosen, **sets)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all sets that have a rule, each once."""
+        several = (*self.fix, *self.slide, *self.free, *self.plane, *(name for pair in self.periodic for name in pair))
+        return tuple(dict.fromkeys(several))
+
+    def limited_to(self, names: Collection[str]) -> MotionRules:
+        """Return the rules of the sets of these names alone, and the choice for interfaces."""
+        sets = {key: tuple(name for name in getattr(self, key) if name in names) for key in _SETS}
+        pairs = tuple(pair for pair in self.periodic if set(pair) <= set(names))
+        return replace(self, periodic=pairs, **sets)
 
     @classmethod
     def from_values(cls, data: Mapping[str, Any]) -> MotionRules:

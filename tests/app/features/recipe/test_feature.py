@@ -14,6 +14,7 @@ from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
 from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.widgets.section import Section
 from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
 from tests.patience import PATIENCE
@@ -70,7 +71,7 @@ def type_value(window, name, text):
 
 
 def test_a_draft_is_a_sequence_of_stages():
-    chain, (a, b, c) = RecipeDraft(), (Stage(METHODS[name]()) for name in ("getme", "mend", "local-sd"))
+    chain, (a, b, c) = RecipeDraft(RunSetup()), (Stage(METHODS[name]()) for name in ("getme", "mend", "local-sd"))
     assert chain.recipe is None
     for stage in (a, b, c):
         chain.add(stage)

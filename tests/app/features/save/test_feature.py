@@ -10,14 +10,17 @@ import numpy as np
 import pytest
 from PIL import Image
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from hexmend import io
+from hexmend.gallery import make
 from hexmend_app.bench.windows import save_and_wait
+from hexmend_app.features.save.feature import FeatureSave
 from hexmend_app.picture import LineStyle, Page, write_scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase
+from tests.app.hosting import PlainHost
 from tests.patience import PATIENCE
 
 
@@ -46,6 +49,50 @@ def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot,
         window.action("save").trigger()
     assert all(f"(*{suffix})" in offered[0] for suffix in io.writable_suffixes())
     np.testing.assert_array_equal(io.read(out).points, window.session.document.now.mesh.points)
+
+
+@pytest.fixture
+def deck(qtbot, tmp_path):
+    """Feature of a host with an open Abaqus deck that has a comment, and its file."""
+    path = tmp_path / "deck.inp"
+    io.write(path, make("cube", size=27, scramble=0.2))
+    path.write_text(f"{path.read_text()}** a comment\n")
+    host = PlainHost(make("cube", size=8))
+    feature = FeatureSave(host)
+    with qtbot.waitSignal(host.session.opener.ended, timeout=PATIENCE):
+        host.session.commands.open(path)
+    yield feature, path
+    host.session.close()
+
+
+@pytest.mark.parametrize(("button", "kept"), [("Replace coordinates", True), ("Write anew", False), ("Cancel", None)])
+def test_saving_in_the_format_of_the_file_asks_whether_to_write_it_anew(deck, qtbot, monkeypatch, button, kept):
+    feature, path = deck
+    out, said, proposed = path.with_name("out.inp"), [], []
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: proposed.append(given[2]) or (str(out), ""))
+
+    def answer(box):
+        said.append(box.informativeText())
+        next(one for one in box.buttons() if one.text().replace("&", "") == button).click()
+
+    monkeypatch.setattr(QMessageBox, "exec", answer)
+    feature.ask_mesh()
+    qtbot.waitUntil(lambda: not feature.session.saver.busy, timeout=PATIENCE)
+    assert proposed[0].endswith("mesh-smoothed.inp")
+    assert "are lost" in said[0]
+    assert out.exists() is (kept is not None)
+    if kept is not None:
+        assert ("a comment" in out.read_text()) is kept
+
+
+def test_saving_in_another_format_asks_nothing(deck, qtbot, monkeypatch):
+    feature, path = deck
+    out = path.with_name("out.vtu")
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: (str(out), ""))
+    monkeypatch.setattr(QMessageBox, "exec", lambda box: pytest.fail(box.text()))
+    feature.ask_mesh()
+    qtbot.waitUntil(lambda: not feature.session.saver.busy, timeout=PATIENCE)
+    assert out.exists()
 
 
 @pytest.mark.slow

@@ -33,6 +33,7 @@ UNTOLD = {
     "quit": "ends the window",
     "script": "writes the script",
     "copy_camera": "copies",
+    "copy_command": "copies",
     "cameras": "shows a dialog, from which a camera is looked through",
     "console": "shows a panel",
     "doctor": "shows a panel",
@@ -44,11 +45,11 @@ UNTOLD = {
 
 #: Actions in the order in which each can be done after those before it, by what has to be prepared.
 TOLD = {
-    "look": ("edges", "shading", "neutral", "cut", "face", "roll_left", "roll_right", "view_x", "view_y", "view_z",
+    "look": ("edges", "shading", "neutral", "colour_by_material", "cut", "face", "roll_left", "roll_right", "view_x", "view_y", "view_z",
              "view_minus_x", "view_minus_y", "view_minus_z", "view_iso", "view_back", "view_forward", "parallel", "up_x",
              "up_y", "up_z", "paste_camera", "fit", "keep_camera"),
     "structure": ("show_irregular", "show_boundary", "show_sharp", "show_fixed", "show_free", "show_locked",
-                  "show_kinds", "show_others", "show_original", "show_interfaces", "show_materials"),
+                  "show_kinds", "show_others", "show_original", "show_interfaces"),
     "hexes": ("next_worst", "previous_worst", "free_isolated", "back", "isolate", "dig", "undig", "visit", "tag", "pin",
               "undo", "redo"),
     "views": ("beside", "wipe", "wipe_left", "wipe_right", "close_views", "compare", "cancel_comparison"),

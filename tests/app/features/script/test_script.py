@@ -7,6 +7,7 @@ from hexmend import io
 from hexmend.doctor import examine
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
@@ -154,3 +155,15 @@ def test_a_deck_is_saved_with_all_that_it_holds_and_so_by_the_script(session, qt
     run(qtbot, session, stage("local-sd"))
     save_and_wait(session, deck)
     assert deck.read_text().startswith("** our deck")
+
+
+def test_runs_with_rules_are_repeated_and_the_next_run_has_none(session, qtbot, tmp_path):
+    setup = session.run_setup
+    setup.set_rules(MotionRules(fix=("bad",)))
+    session.commands.tag("bad", [7, 8])
+    run(qtbot, session, stage("local-sd"))
+    setup.set_rules(MotionRules())
+    run(qtbot, session, Recipe.of(stage("getme"), rules=MotionRules(fix=("bad",))))
+    run(qtbot, session, stage("local-sd"))
+    text = same_again(session, tmp_path)
+    assert text.count("fix=['bad']") == 2

@@ -1,11 +1,11 @@
-"""Layers of materials: their interfaces, and hexes coloured by material."""
+"""Layer of the interfaces between materials."""
 
 import numpy as np
 import pytest
 
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.scene.layers.optional.interfaces import MATERIAL_COLOURS, ColourByMaterial, InterfaceLayer
+from hexmend_app.scene.layers.optional.interfaces import InterfaceLayer
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
@@ -50,20 +50,6 @@ def test_an_unchanged_interface_is_not_built_again_and_moves_with_its_nodes(pane
     assert (layer.places[:, 0] == 3).all()
 
 
-def test_visible_faces_have_the_colour_of_their_material(pane):
-    layer = ColourByMaterial(pane)
-    for keep, count in ((None, 96), (LOW, 2 * 16 + 4 * 8)):
-        layer.draw(frame(TWO), keep)
-        assert layer.poly.n_cells == count
-        low = layer.poly.cell_centers().points[:, 0] < 2 + 1e-9
-        for marks, colour in ((low, MATERIAL_COLOURS[0]), (~low, MATERIAL_COLOURS[1])):
-            shown = np.asarray(layer.poly.cell_data["colour"])[marks]
-            assert (shown == np.frombuffer(bytes.fromhex(colour[1:]), np.uint8)).all()
-
-
-def test_legends_name_the_materials_and_are_empty_for_one():
-    assert InterfaceLayer.legend(ONE) == ColourByMaterial.legend(ONE) == []
+def test_the_legend_counts_the_nodes_and_is_empty_for_one_material():
+    assert InterfaceLayer.legend(ONE) == []
     assert InterfaceLayer.legend(TWO) == [(INTERFACE, True, "9 inside")]
-    assert [text for _, _, text in ColourByMaterial.legend(TWO)] == ["low", "high"]
-    many = ONE.replace(hex_data={"material": np.arange(64) // 4})
-    assert ColourByMaterial.legend(many)[-1] == (None, False, "and 6 more")

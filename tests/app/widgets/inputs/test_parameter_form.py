@@ -6,15 +6,13 @@ import weakref
 from dataclasses import dataclass
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QToolButton, QWidget
 
 from hexmend.errors import ParameterError
-from hexmend.parameters import Parameter, Parametrised, declared, parameter
+from hexmend.parameters import Parametrised, declared, parameter
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 from tests.app.driving import named
@@ -234,41 +232,6 @@ def test_replaced_rows_are_deleted_at_once(form):
         assert widgets() == first
     gc.collect()
     assert old() is None
-
-
-@settings(max_examples=40)
-@given(start=st.floats(0, 10), steps=st.lists(st.integers(-12, 12), max_size=6))
-def test_stepping_stays_in_bounds_and_has_the_right_sign(qapp, start, steps):
-    box = NumberBox(declared(AllKinds)[0])
-    box.set_value(start)
-    for step in steps:
-        before = box.value()
-        box.stepBy(step)
-        assert 0 <= box.value() <= 10
-        assert (box.value() - before) * step >= 0
-
-
-def test_stepping_down_from_one_passes_through_tenths(qapp):
-    box = NumberBox(declared(AllKinds)[0])
-    box.set_value(1.0)
-    box.stepBy(-1)
-    assert box.value() == 0.9
-    box.stepBy(1)
-    assert box.value() == 1.0
-
-
-def test_the_step_after_the_upper_bound_is_no_limit(qapp):
-    box = NumberBox(Parameter("room", float, 0.3, 0.0, 10.0, None, "", "", "unlimited"))
-    box.set_value(9.0)
-    box.stepBy(3)
-    assert box.value() == box.text() == "unlimited"
-    assert not box.stepEnabled() & QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
-    box.stepBy(-1)
-    assert box.value() == 10
-    type_into(box, "unlimited")
-    assert (box.value(), box.problem) == ("unlimited", "")
-    type_into(box, "none")
-    assert "or unlimited" in box.problem
 
 
 def test_a_narrow_form_shows_every_word_of_a_name(form):

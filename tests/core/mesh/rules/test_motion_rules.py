@@ -199,3 +199,10 @@ def test_periodic_pairs_of_a_file_leave_nodes_outside_a_region():
     outside = np.setdiff1d(np.arange(mesh.n_nodes), mesh.hexes[TWO["low"]])
     after = smooth(part, boundary="slide").mesh
     np.testing.assert_array_equal(after.points[outside], mesh.points[outside])
+
+
+def test_rules_are_limited_to_sets_that_exist():
+    rules = MotionRules(interfaces="slide", fix=("a", "b"), plane=("c",), periodic=(("a", "d"), ("a", "b")))
+    assert rules.names == ("a", "b", "c", "d")
+    limited = MotionRules(interfaces="slide", fix=("a", "b"), periodic=(("a", "b"),))
+    assert rules.limited_to(["a", "b"]) == limited

@@ -1,15 +1,16 @@
-"""The shell command of a suggestion."""
+"""Shell commands of runs: of a suggestion, and of a method with its values, limits and rules of motion."""
 
 from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from hexmend.advice import Suggestion
 from hexmend.cli.arguments.options import DEFAULT_RINGS
 from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import Parametrised, declared
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD
 
 #: Rings that a larger part has in addition to twice those of the last run.
@@ -59,21 +60,45 @@ def suggested_command(suggestion: Suggestion, source: str, output: str, options:
     """
     if suggestion.unpin.size:
         return ""
-    options, smoother = options or RunOptions(), suggestion.smoother
-    words = ["hexmend", "smooth", source if suggestion.undo else output, "-o", "OUT"]
+    options = options or RunOptions()
+    rings = _MORE_RINGS + 2 * options.rings if suggestion.widen else options.rings
+    rules = options.rules if suggestion.rules is None else suggestion.rules
+    begin, stage = source if suggestion.undo else output, Stage(suggestion.smoother, suggestion.stop)
+    return smooth_command(stage, begin, "OUT", replace(options, rings=rings, rules=rules))
+
+
+def smooth_command(stage: Stage, source: str, output: str, options: RunOptions | None = None) -> str:
+    """Write a run as a line for the shell; values at their defaults are left out.
+
+    Parameters
+    ----------
+    stage : Stage
+    source, output : str
+        Files to read and to write.
+    options : RunOptions, optional
+
+    Examples
+    --------
+    >>> from hexmend.smoothers import METHODS
+    >>> rules = MotionRules(interfaces="slide", periodic=(("left", "right"),))
+    >>> smooth_command(Stage(METHODS["getme"]()), "in.msh", "out.msh", RunOptions(rules))
+    'hexmend smooth in.msh -o out.msh --method getme --interfaces slide --periodic left right'
+    """
+    options, smoother = options or RunOptions(), stage.smoother
+    words = ["hexmend", "smooth", source, "-o", output]
     words += ["--as-is"] * options.as_is
     if smoother.name != DEFAULT_METHOD:
         words += _option("method", smoother.name)
     for key, value in _changed(smoother).items():
         words += _option(key, value) if key in ("boundary", "target", "layers") else ["--set", f"{key}={value}"]
-    for key, value in _changed(suggestion.stop).items():
+    for key, value in _changed(stage.stop).items():
         words += [f"--{key.replace('_', '-')}"] if value is True else _option(key, value)
     if options.surface and smoother.slides:
         words += _option("surface", options.surface)
     if options.only:
-        rings = _MORE_RINGS + 2 * options.rings if suggestion.widen else options.rings
-        words += _option("only", options.only) + (_option("rings", rings) if rings != DEFAULT_RINGS else [])
-    return shlex.join([*words, *_rules(options.rules if suggestion.rules is None else suggestion.rules)])
+        words += _option("only", options.only)
+        words += _option("rings", options.rings) if options.rings != DEFAULT_RINGS else []
+    return shlex.join([*words, *_rules(options.rules)])
 
 
 def _option(key: str, value: object) -> list[str]:

@@ -1,0 +1,245 @@
+"""Form for the rules of motion: a choice for the interfaces between materials, and one for each named set."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from html import escape
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QFocusEvent, QStandardItemModel, QWheelEvent
+from PySide6.QtWidgets import QComboBox, QGridLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
+
+from hexmend.errors import MeshError
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
+from hexmend.mesh.rules.named_sets import set_names
+from hexmend.mesh.rules.periodic_sets import match_periodic
+from hexmend.run.interface_messages import describe_interfaces
+from hexmend.terminal_text import printable
+from hexmend_app.features.smooth.set_rules import (
+    Choice,
+    choice_of,
+    choices_of,
+    describe_set,
+    rules_of_set,
+    with_set_rules,
+)
+from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.translation import tr
+from hexmend_app.widgets.eliding_label import ElidingLabel
+from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.segmented import Segmented
+from hexmend_app.widgets.wording import counted
+
+_INTERFACES = {
+    "keep": ("Keep", "Interfaces are like the boundary: fixed where it is fixed; their nodes slide where it slides."),
+    "slide": ("Slide", "Nodes slide on the interfaces, even if the boundary is fixed."),
+    "free": ("Free", "Nodes move as if the mesh had one material; interfaces lose their shape."),
+}
+#: Maximum number of rows; if there are more sets, a line filters them.
+_MOST = 12
+
+
+class RuleForm(QWidget):
+    """Form for the rules of motion of the next run.
+
+    Signals
+    -------
+    changed(MotionRules)
+        The user has changed a rule.
+    """
+
+    changed = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._mesh: Mesh | None = None
+        self._rules = MotionRules()
+        self._names: tuple[str, ...] = ()
+        self._rows: dict[str, tuple[QLabel, _RuleBox]] = {}
+        self.interfaces = Segmented(
+            tr("Interfaces"), [(key, tr(text), tr(help)) for key, (text, help) in _INTERFACES.items()]
+        )
+        self._found = note()
+        self._found.setAccessibleName(tr("Interfaces found"))
+        self._filter = QLineEdit()
+        self._filter.setClearButtonEnabled(True)
+        self._filter.setPlaceholderText(tr("Filter sets"))
+        set_help(self._filter, tr("Filter sets"), tr("Show only sets whose names contain this text."))
+        self._list = QWidget()
+        self._grid = QGridLayout(self._list)
+        self._problem = note("", WORSE)
+        self._problem.setAccessibleName(tr("Problem of the rules"))
+        self._more = note()
+        self._lay_out()
+        self.interfaces.chosen.connect(self._on_interfaces)
+        self._filter.textChanged.connect(lambda _: self._fill())
+
+    def _lay_out(self) -> None:
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setHorizontalSpacing(8)
+        self._grid.setVerticalSpacing(3)
+        self._grid.setColumnStretch(0, 1)
+        self._grid.setColumnStretch(1, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(5)
+        for widget in (self._found, self.interfaces, self._filter, self._list, self._more, self._problem):
+            layout.addWidget(widget)
+
+    @property
+    def offered(self) -> bool:
+        """True if the mesh has interfaces or sets, or there are rules."""
+        return bool(self._names or self._rules or (self._mesh is not None and self._mesh.materials is not None))
+
+    @property
+    def title(self) -> str:
+        """Title of the form, with the number of rules."""
+        count = len(self._rules.names) + (self._rules.interfaces != "keep")
+        title = tr("Interfaces and sets")
+        return f"{title} ({counted(count, 'rule')})" if count else title
+
+    def show_rules(self, mesh: Mesh, rules: MotionRules) -> None:
+        """Show rules of the sets of a mesh, without sending a signal."""
+        names = tuple(dict.fromkeys([*set_names(mesh), *rules.names]))
+        had_materials = self._mesh is not None and self._mesh.materials is mesh.materials
+        same = names == self._names and had_materials
+        if same and rules == self._rules:
+            self._mesh = mesh
+            return
+        self._mesh, self._rules = mesh, rules
+        if names != self._names:
+            self._names = names
+            self._filter.clear()
+            self._fill()
+        self._refresh()
+
+    def _fill(self) -> None:
+        """Make a row for each set whose name contains the text of the filter."""
+        while (item := self._grid.takeAt(0)) is not None:
+            item.widget().hide()
+            item.widget().deleteLater()
+        self._rows.clear()
+        part = self._filter.text().casefold()
+        matching = [name for name in self._names if part in name.casefold()]
+        matching.sort(key=lambda name: name not in self._rules.names)  # those with rules first
+        for row, name in enumerate(matching[:_MOST]):
+            self._rows[name] = self._add_row(row, name)
+        self._filter.setVisible(len(self._names) > _MOST)
+        self._list.setVisible(bool(self._rows))
+        more = len(matching) - len(self._rows)
+        self._more.setText(tr("{count:,} more sets: filter them by name.", count=more) if more else "")
+        self._more.setVisible(bool(more))
+        self._show_choices()
+
+    def _add_row(self, row: int, name: str) -> tuple[QLabel, _RuleBox]:
+        label, box = ElidingLabel(), _RuleBox(lambda: self._choices(name))
+        label.setText(printable(name))
+        label.setBuddy(box)
+        label.setToolTip(f"<qt><b>{escape(name)}</b>: {escape(describe_set(self._mesh, name))}</qt>")
+        set_help(box, tr("Rule of {name}", name=name), tr("Motion of the nodes of this set in a run."))
+        box.chosen.connect(lambda choice: self._choose(name, choice))
+        self._grid.addWidget(label, row, 0)
+        self._grid.addWidget(box, row, 1)
+        return label, box
+
+    def _refresh(self) -> None:
+        materials = self._mesh.materials
+        for widget in (self.interfaces, self._found):
+            widget.setVisible(materials is not None)
+        self.interfaces.set_value(self._rules.interfaces)
+        self._found.setText(describe_interfaces(self._mesh, self._rules.interfaces))
+        self._show_problem("")
+        self._show_choices()
+
+    def _show_choices(self) -> None:
+        for name, (_, box) in self._rows.items():
+            box.show_choice(choice_of(rules_of_set(self._rules, name)))
+
+    def _choices(self, name: str) -> list[Choice]:
+        return choices_of(self._mesh, name, rules_of_set(self._rules, name))
+
+    def _on_interfaces(self, key: str) -> None:
+        self._change(MotionRules.from_values({**self._rules.values(), "interfaces": key}))
+
+    def _choose(self, name: str, choice: Choice) -> None:
+        for key, other in choice.rules:
+            if key == "periodic" and choice.rules != rules_of_set(self._rules, name):
+                try:
+                    match_periodic(self._mesh, name, other)
+                except MeshError as error:
+                    self._show_choices()
+                    self._show_problem(tr("{error}.", error=str(error).rstrip(".")))
+                    return
+        self._change(with_set_rules(self._rules, name, choice.rules))
+
+    def _change(self, rules: MotionRules) -> None:
+        if rules != self._rules:
+            self._rules = rules
+            self.changed.emit(rules)
+        self._refresh()
+
+    def _show_problem(self, text: str) -> None:
+        self._problem.setText(text)
+        self._problem.setVisible(bool(text))
+
+
+class _RuleBox(QComboBox):
+    """Combo box that finds its choices when it is opened or focused, as finding them takes time.
+
+    Parameters
+    ----------
+    choices : callable
+        Returns the choices.
+    """
+
+    chosen = Signal(object)
+
+    def __init__(self, choices: Callable[[], list[Choice]], parent: QWidget | None = None):
+        super().__init__(parent)
+        self._find, self._choices = choices, [choice_of(())]
+        let_shrink(self, 8)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.activated.connect(lambda at: self.chosen.emit(self._choices[at]))
+        self._fill(self._choices, self._choices[0])
+
+    def show_choice(self, choice: Choice) -> None:
+        """Show a choice, without sending a signal."""
+        if choice.rules not in [one.rules for one in self._choices]:
+            self._choices = [choice]
+        self._fill(self._choices, choice)
+
+    def _fill(self, choices: list[Choice], current: Choice) -> None:
+        self._choices = choices
+        font = self.font()
+        font.setBold(bool(current.rules))
+        self.setFont(font)
+        with QSignalBlocker(self):
+            self.clear()
+            model: QStandardItemModel = self.model()
+            for at, choice in enumerate(choices):
+                self.addItem(choice.text)
+                self.setItemData(at, choice.problem or choice.help, Qt.ItemDataRole.ToolTipRole)
+                model.item(at).setEnabled(not choice.problem)
+            self.setCurrentIndex(next(at for at, one in enumerate(choices) if one.rules == current.rules))
+
+    def _find_choices(self) -> None:
+        self._fill(self._find(), self._choices[self.currentIndex()])
+
+    def showPopup(self) -> None:
+        """Find the choices and show them."""
+        self._find_choices()
+        super().showPopup()
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Find the choices, which the arrow keys step through."""
+        if event.reason() is not Qt.FocusReason.PopupFocusReason:
+            self._find_choices()
+        super().focusInEvent(event)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
+        if self.hasFocus():
+            super().wheelEvent(event)
+        else:
+            event.ignore()

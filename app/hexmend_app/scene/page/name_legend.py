@@ -1,0 +1,48 @@
+"""Legend of a page in place of a colour bar, for colours that stand for names: swatches with the names of materials."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from hexmend_app.scene.page.lettering import Lettering
+
+#: Most names of a legend below the panels, which may take several rows.
+MOST_BELOW = 24
+#: Sizes in font heights: swatch with its gap, and gap between entries.
+_SWATCH, _GAP = 1.3, 1.2
+
+#: Entry of a legend: a text and its colour, red, green and blue from 0 to 255; None for a text alone.
+Entry = tuple[str, tuple[int, int, int] | None]
+
+
+def name_entries(names: Sequence[str], table: Iterable[Iterable[int]], most: int) -> list[Entry]:
+    """Return the entries of the first names with their colours, and one that counts the rest.
+
+    >>> name_entries(("a", "b", "c"), [(1, 1, 1), (2, 2, 2), (3, 3, 3)], 2)
+    [('a', (1, 1, 1)), ('and 2 more', None)]
+    """
+    entries: list[Entry] = [(name, tuple(map(int, rgb))) for name, rgb in zip(names, table, strict=True)]
+    if len(entries) <= most:
+        return entries
+    first = entries[: max(most - 1, 0)]
+    return [*first, (f"and {len(entries) - len(first):,} more", None)]
+
+
+def entry_width(letters: Lettering, entry: Entry) -> float:
+    """Return the width of an entry with the gap after it, in pixels."""
+    text, colour = entry
+    return letters.width(text) + ((_SWATCH if colour is not None else 0) + _GAP) * letters.height
+
+
+def rows_of(letters: Lettering, entries: Iterable[Entry], width: float) -> list[list[Entry]]:
+    """Distribute entries over rows of a width in pixels."""
+    rows: list[list[Entry]] = [[]]
+    used = 0.0
+    for entry in entries:
+        needed = entry_width(letters, entry)
+        if rows[-1] and used + needed > width:
+            rows.append([])
+            used = 0.0
+        rows[-1].append(entry)
+        used += needed
+    return rows

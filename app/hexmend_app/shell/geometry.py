@@ -1,0 +1,29 @@
+"""Size and place of the main window, and the layout of its status bar."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QMainWindow, QStatusBar, QWidget
+
+from hexmend_app.state.settings import settings
+
+
+def restore_geometry(window: QMainWindow) -> None:
+    """Restore the saved geometry of a window, or fit it to the screen."""
+    screen = window.screen().availableGeometry()
+    window.resize(min(1600, round(screen.width() * 0.94)), min(1000, round(screen.height() * 0.92)))
+    window.restoreGeometry(settings.GEOMETRY.get())  # no effect without a saved geometry
+
+
+def save_geometry(window: QMainWindow) -> None:
+    """Save the geometry of a window for the next start."""
+    settings.GEOMETRY.set(window.saveGeometry())
+
+
+def lay_out_status_bar(bar: QStatusBar, row: QWidget, *parts: QWidget) -> None:
+    """Add a row of buttons on the left of a status bar, and parts on its right."""
+    bar.setSizeGripEnabled(False)
+    bar.setMaximumHeight(24)
+    bar.layout().setContentsMargins(0, 0, 6, 0)
+    bar.addWidget(row, 1)
+    for part in parts:
+        bar.addPermanentWidget(part)

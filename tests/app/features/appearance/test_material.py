@@ -1,0 +1,70 @@
+"""Colours by material in the panel and the menu, and in files of earlier versions."""
+
+import numpy as np
+import pytest
+from PySide6.QtWidgets import QComboBox
+
+from hexmend.gallery import make
+from hexmend.io.archive.archive import read_archive, write_archive
+from hexmend.io.formats.session import session_file
+from hexmend_app.features.appearance.feature import FeatureAppearance
+from hexmend_app.picture import Range, from_toml
+from hexmend_app.picture.appearance import Structure
+from hexmend_app.state.session import session_data
+from hexmend_app.widgets.inputs.segmented import Segmented
+from tests.app.driving import named
+from tests.app.hosting import PlainHost, action
+
+
+@pytest.fixture
+def host(qapp):
+    hexes = {"low": np.arange(32), "high": np.arange(32, 64)}
+    host = PlainHost(make("cube", size=64).replace(hex_sets=hexes))
+    host.feature = FeatureAppearance(host)
+    yield host
+    host.session.close()
+
+
+def test_the_menu_switches_between_the_material_and_the_metric_before(host):
+    view, switch = host.session.view, action(host.feature, "colour_by_material")
+    view.colour_by("scaled-jacobian")
+    host.feature.refresh()
+    assert switch.enabled()
+    switch.handle(True)
+    assert (view.look.colours.metric, view.look.colours.range) == ("material", Range.FITTED)
+    assert switch.checked()
+    switch.handle(False)
+    assert view.look.colours.metric == "scaled-jacobian"
+
+
+def test_controls_of_values_are_disabled_for_materials(host):
+    panel = host.feature.panel
+    controls = [named(panel, QComboBox, "Colour map"), named(panel, Segmented, "Range")]
+    panel.choose_metric("material")
+    assert not any(control.isEnabled() for control in controls)
+    panel.choose_metric("q")
+    assert all(control.isEnabled() for control in controls)
+
+
+def test_a_mesh_of_one_material_does_not_offer_the_switch(qapp):
+    host = PlainHost(make("cube", size=8))
+    assert not action(FeatureAppearance(host), "colour_by_material").enabled()
+    host.session.close()
+
+
+def test_a_scene_with_the_former_layer_colours_by_material():
+    scene = from_toml('format = 1\n[structure]\nextra = ["interfaces", "materials"]\n')
+    assert scene.colours.metric == "material"
+    assert scene.structure == Structure.of("interfaces")
+
+
+def test_a_session_with_the_former_layer_colours_by_material(host, tmp_path):
+    path = tmp_path / "a.hexmend"
+    session_data.write(path, host.session.to_data())
+    _, content = read_archive(path, "Hexmend session", session_file.VERSION)
+    content["window"]["view"]["look"]["structure"]["extra"] = ["materials"]
+    del content["window"]["run_setup"]["rules"]
+    write_archive(path, "Hexmend session", 6, content)
+    data = session_data.read(path)
+    assert data.view.look.colours.metric == "material"
+    assert not data.view.look.structure.is_on("interfaces")

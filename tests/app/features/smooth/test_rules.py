@@ -1,0 +1,232 @@
+"""Rules of motion in the window: shown for sets and interfaces, chosen, used by runs, and stored."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QComboBox, QLabel, QLineEdit
+
+from hexmend.gallery import make
+from hexmend.mesh.rules import MotionRules
+from hexmend.run import StoppingCriteria, smooth
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.run.recipe_files import read_recipe, write_recipe
+from hexmend.smoothers import METHODS
+from hexmend_app.features.smooth.feature import FeatureSmooth
+from hexmend_app.features.smooth.rule_form import RuleForm
+from hexmend_app.features.smooth.set_rules import choices_of, rules_of_set, with_set_rules
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.session import session_data
+from tests.app.driving import named
+from tests.app.hosting import PlainHost, action
+from tests.patience import PATIENCE
+
+SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
+SLIDING = MotionRules(interfaces="slide", fix=("inlet",))
+
+
+def two_materials():
+    """Scrambled cube of two materials, with sets of its opposite sides and of a node inside."""
+    mesh = make("cube", size=64, scramble=0.3)
+    x = make("cube", size=64).points
+    sides = {name: np.flatnonzero(x[:, 0] == end) for name, end in (("inlet", x.min()), ("outlet", x.max()))}
+    inside = np.flatnonzero(mesh.free)[:1]
+    hexes = {"low": np.arange(32), "high": np.arange(32, 64)}
+    return mesh.replace(node_sets={**sides, "inside": inside}, hex_sets=hexes)
+
+
+@pytest.fixture
+def mesh():
+    return two_materials()
+
+
+@pytest.fixture
+def form(shown, mesh):
+    form = shown(RuleForm(), 300, 400)
+    form.show_rules(mesh, MotionRules())
+    return form
+
+
+@pytest.fixture
+def host(qtbot, mesh):
+    host = PlainHost(mesh)
+    host.feature = FeatureSmooth(host)
+    yield host
+    host.session.close()
+
+
+def boxes(form):
+    """Return the boxes of the rules of sets by accessible name, without those that are being deleted."""
+    QApplication.processEvents()  # rows are shown in the next turn of the event loop
+    return {one.accessibleName(): one for one in form.findChildren(QComboBox) if not one.isHidden()}
+
+
+def box(form, name):
+    return boxes(form)[f"Rule of {name}"]
+
+
+def pick(form, name, text):
+    """Choose the rule of a set by keys."""
+    combo = box(form, name)
+    combo.setFocus(Qt.FocusReason.TabFocusReason)
+    at = combo.findText(text)
+    assert combo.model().item(at).isEnabled(), text
+    combo.setCurrentIndex(at)
+    combo.activated.emit(at)
+
+
+def run(qtbot, session, method="local-sd", **values):
+    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+        session.commands.run(Stage(METHODS[method](**values), SHORT))
+    return session.document.now.mesh
+
+
+def test_the_form_tells_the_interfaces_and_lists_the_sets(form):
+    found = named(form, QLabel, "Interfaces found")
+    assert found.text() == "2 materials; 9 nodes on their interfaces are kept."
+    form.interfaces.button("slide").click()
+    assert found.text() == "2 materials; 9 nodes on their interfaces are to slide along them."
+    assert list(boxes(form)) == [f"Rule of {name}" for name in ("inlet", "outlet", "inside", "low", "high")]
+
+
+def test_a_choice_is_sent_as_rules(form):
+    heard = []
+    form.changed.connect(heard.append)
+    pick(form, "inlet", "Fixed")
+    assert heard[-1] == MotionRules(fix=("inlet",))
+    assert form.title == "Interfaces and sets (1 rule)"
+    pick(form, "inlet", "Slides")
+    assert heard[-1] == MotionRules(slide=("inlet",))
+    pick(form, "inlet", "No rule")
+    assert heard[-1] == MotionRules()
+    assert form.title == "Interfaces and sets"
+
+
+def test_choices_that_a_set_cannot_have_are_not_available(mesh):
+    def available(name):
+        return [choice.text for choice in choices_of(mesh, name, ()) if not choice.problem]
+
+    assert available("inlet") == ["No rule", "Fixed", "Slides", "In its plane", "Periodic: outlet"]
+    assert available("inside") == ["No rule", "Fixed", "Free"]
+    assert available("low") == ["No rule", "Fixed", "Slides", "Free"]
+
+
+def test_a_pair_that_does_not_match_is_refused_with_the_reason(form, mesh):
+    x = make("cube", size=64).points
+    apart = np.flatnonzero(x[:, 1] == x[:, 1].min())
+    apart = np.concatenate([apart[:-1], np.flatnonzero(mesh.free)[-1:]])
+    form.show_rules(mesh.replace(node_sets={**mesh.node_sets, "apart": apart}), MotionRules())
+    pick(form, "inlet", "Periodic: apart")
+    assert "not periodic" in named(form, QLabel, "Problem of the rules").text()
+    assert box(form, "inlet").currentText() == "No rule"
+
+
+def test_several_rules_of_a_set_are_shown_and_replaced_together():
+    rules = MotionRules(fix=("a",), periodic=(("b", "a"),))
+    assert rules_of_set(rules, "a") == (("fix", ""), ("periodic", "b"))
+    assert with_set_rules(rules, "a", (("plane", ""),)) == MotionRules(plane=("a",))
+    assert with_set_rules(rules, "b", (("periodic", "c"),)) == MotionRules(fix=("a",), periodic=(("b", "c"),))
+
+
+def test_a_set_that_the_mesh_lacks_is_shown_as_long_as_it_has_a_rule(form, mesh):
+    form.show_rules(mesh, MotionRules(fix=("other",)))
+    assert box(form, "other").currentText() == "Fixed"
+    pick(form, "other", "No rule")
+    form.show_rules(mesh, MotionRules())
+    assert "Rule of other" not in boxes(form)
+
+
+def test_many_sets_are_filtered_by_name(shown):
+    mesh = make("cube", size=27)
+    mesh = mesh.replace(node_sets={f"set {k}": np.array([k]) for k in range(20)})
+    form = shown(RuleForm(), 300, 400)
+    form.show_rules(mesh, MotionRules())
+    assert len(boxes(form)) == 12
+    QTest.keyClicks(named(form, QLineEdit, "Filter sets"), "t 19")
+    assert list(boxes(form)) == ["Rule of set 19"]
+
+
+def test_the_form_is_hidden_for_a_mesh_without_sets_and_while_a_run_is_paused(host):
+    feature, panel = host.feature, host.feature.panel
+    feature.refresh()
+    section = panel.rule_form.parentWidget().parentWidget()
+    assert not section.isHidden()
+    panel.set_state("paused")
+    assert not panel.rule_form.isEnabled()
+    host.session.document.replace(State.of(make("cube", size=27)), None)
+    feature.refresh()
+    assert section.isHidden()
+
+
+def test_a_run_has_the_rules_and_its_result_has_none(host, mesh, qtbot):
+    host.session.run_setup.set_rules(SLIDING)
+    after = run(qtbot, host.session, boundary="slide")
+    expected = smooth(mesh, METHODS["local-sd"](boundary="slide"), SHORT, interfaces="slide", fix=("inlet",)).mesh
+    np.testing.assert_array_equal(after.points, expected.points)
+    assert (after.points[mesh.node_sets["inlet"]] == mesh.points[mesh.node_sets["inlet"]]).all()
+    assert (after.points != run_without_rules(mesh).points).any()
+    assert not after.node_rules.rules
+    assert host.session.run.record.rules == SLIDING
+
+
+def run_without_rules(mesh):
+    return smooth(mesh, METHODS["local-sd"](boundary="slide"), SHORT).mesh
+
+
+def test_a_run_of_a_recipe_has_the_rules(host, mesh, qtbot):
+    session = host.session
+    session.run_setup.set_rules(MotionRules(interfaces="free"))
+    session.recipe_draft.add(Stage(METHODS["local-sd"](), SHORT))
+    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+        session.commands.run_recipe(session.recipe_draft.recipe)
+    expected = smooth(mesh, METHODS["local-sd"](), SHORT, interfaces="free").mesh
+    np.testing.assert_array_equal(session.document.now.mesh.points, expected.points)
+
+
+def test_recipes_have_the_rules_in_files(host, tmp_path):
+    session = host.session
+    session.run_setup.set_rules(SLIDING)
+    session.recipe_draft.add(Stage(METHODS["getme"]()))
+    write_recipe(tmp_path / "r.toml", session.recipe_draft.recipe)
+    session.run_setup.set_rules(MotionRules())
+    session.recipe_draft.load(read_recipe(tmp_path / "r.toml"))
+    assert session.run_setup.rules == SLIDING
+    session.recipe_draft.load(Recipe.of("mend"))  # a recipe without rules
+    assert session.run_setup.rules == SLIDING
+
+
+def test_sessions_have_the_rules(host, tmp_path):
+    session = host.session
+    session.run_setup.set_rules(SLIDING)
+    session_data.write(tmp_path / "a.hexmend", session.to_data())
+    session.run_setup.set_rules(MotionRules())
+    session.restore(session_data.read(tmp_path / "a.hexmend"))
+    assert session.run_setup.rules == SLIDING
+
+
+def test_another_mesh_keeps_the_rules_of_the_sets_that_it_has(host, mesh):
+    session = host.session
+    session.run_setup.set_rules(MotionRules(interfaces="slide", fix=("inlet", "low"), periodic=(("inlet", "outlet"),)))
+    sets = {name: nodes for name, nodes in mesh.node_sets.items() if name != "outlet"}
+    session.document.replace(State.of(make("cube", size=64).replace(node_sets=sets)), None)
+    assert session.run_setup.rules == MotionRules(interfaces="slide", fix=("inlet",))
+
+
+def test_rules_that_do_not_fit_the_mesh_are_an_error_before_the_run(host, qtbot):
+    session = host.session
+    session.run_setup.set_rules(MotionRules(fix=("nowhere",)))
+    before = session.document.now
+    with qtbot.waitSignal(session.run.failed, timeout=PATIENCE):
+        session.commands.run(Stage(METHODS["local-sd"](), SHORT))
+    assert session.document.now is before
+    labels = [label.text() for label in host.messages.findChildren(QLabel)]
+    assert any("The run did not start" in text for text in labels)
+    assert any("there is no set 'nowhere'" in text for text in labels)
+
+
+def test_the_command_has_the_rules(host, qapp, tmp_path, mesh):
+    host.session.document.replace(State.of(mesh), tmp_path / "in.vtu")
+    host.session.run_setup.set_rules(SLIDING)
+    action(host.feature, "copy_command").handle()
+    expected = f"hexmend smooth {tmp_path}/in.vtu -o {tmp_path}/mesh-smoothed.vtu --interfaces slide --fix inlet"
+    assert qapp.clipboard().text() == expected

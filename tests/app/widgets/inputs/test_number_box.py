@@ -1,0 +1,48 @@
+"""Stepping of boxes for numbers."""
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractSpinBox
+
+from hexmend.parameters import Parameter
+from hexmend_app.widgets.inputs.number_box import NumberBox
+
+_BOUNDED = Parameter("delta", float, 0.01, 0.0, 10.0, None, "", "")
+
+
+@settings(max_examples=40)
+@given(start=st.floats(0, 10), steps=st.lists(st.integers(-12, 12), max_size=6))
+def test_stepping_stays_in_bounds_and_has_the_right_sign(qapp, start, steps):
+    box = NumberBox(_BOUNDED)
+    box.set_value(start)
+    for step in steps:
+        before = box.value()
+        box.stepBy(step)
+        assert 0 <= box.value() <= 10
+        assert (box.value() - before) * step >= 0
+
+
+def test_stepping_down_from_one_passes_through_tenths(qapp):
+    box = NumberBox(_BOUNDED)
+    box.set_value(1.0)
+    box.stepBy(-1)
+    assert box.value() == 0.9
+    box.stepBy(1)
+    assert box.value() == 1.0
+
+
+def test_the_step_after_the_upper_bound_is_no_limit(qapp):
+    box = NumberBox(Parameter("room", float, 0.3, 0.0, 10.0, None, "", "", "unlimited"))
+    box.set_value(9.0)
+    box.stepBy(3)
+    assert box.value() == box.text() == "unlimited"
+    assert not box.stepEnabled() & QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
+    box.stepBy(-1)
+    assert box.value() == 10
+    box.lineEdit().selectAll()
+    QTest.keyClicks(box.lineEdit(), "unlimited")
+    assert (box.value(), box.problem) == ("unlimited", "")
+    box.lineEdit().selectAll()
+    QTest.keyClicks(box.lineEdit(), "none")
+    assert "or unlimited" in box.problem
