@@ -7,6 +7,7 @@ import numpy as np
 from hexmend.arrays import dot, mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian
+from hexmend.energy.floor_barrier import FloorBarrier
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.reduction import Reduction
@@ -61,6 +62,11 @@ class LinearMotionEnergy(MeshEnergy):
     def with_objective(self, norm: ObjectiveNorm, omitted: np.ndarray) -> LinearMotionEnergy:
         other = super().with_objective(norm, omitted)
         other.energy = self.energy.with_objective(norm, omitted)
+        return other
+
+    def with_barrier(self, barrier: FloorBarrier | None) -> LinearMotionEnergy:
+        other = super().with_barrier(barrier)
+        other.energy = self.energy.with_barrier(barrier)
         return other
 
     def to_mesh_units(self, x: np.ndarray) -> np.ndarray:
