@@ -33,6 +33,8 @@ class CentralPathConfig:
         First width of the bands above the floors in which the barrier acts.
     band_factor, min_band_share : float
         Factor of the bands from one floor to the next, and share of the first at which they stay.
+    max_hexes, few_hexes : float, int
+        Share of the hexes that are in a band at most, and number of them that always may be.
     share : float
         Share of the distance between the floor and the least by which a floor rises.
     weight : float
@@ -41,8 +43,8 @@ class CentralPathConfig:
         Most Newton steps at one floor.
     centred : float
         Slope, as a share of the weight, at which nodes are centred.
-    min_gain : float
-        The path ends where two successive floors raise the least by less than this, as a share of the least or of 0.1.
+    min_gain, window : float, int
+        The path ends where so many successive floors raise the least by less than this, as a share of it or of 0.1.
     max_floors : int
         Most floors.
     rings : int
@@ -61,11 +63,14 @@ class CentralPathConfig:
     quality_band: float = 0.1
     band_factor: float = 0.8
     min_band_share: float = 0.1
+    max_hexes: float = 0.1
+    few_hexes: int = 1000
     share: float = 0.9
     weight: float = 10.0
     newton_steps: int = 8
     centred: float = 1e-2
     min_gain: float = 5e-3
+    window: int = 2
     max_floors: int = 25
     rings: int = 2
     whole: float = 0.5
@@ -123,20 +128,27 @@ class CentralPath:
         """The present least values; inf where nothing can be moved."""
         return Least(float(self._jacobians.min(initial=np.inf)), float(self._qualities.min(initial=np.inf)))
 
-    def rise(self, target: Least) -> Iterator[Least]:
+    def move_to(self, x: np.ndarray) -> None:
+        """Go to other positions, (n, 3) in mean edge lengths, such as earlier ones."""
+        self._region = None
+        self._take(self._hexes, x)
+
+    def rise(self, target: Least, config: CentralPathConfig | None = None) -> Iterator[Least]:
         """Raise the least values together until both reach their targets or rise no more.
 
         Parameters
         ----------
         target : Least
             -inf: not raised, and without a floor.
+        config : CentralPathConfig, optional
+            Settings of this rise.
 
         Yields
         ------
         Least
             After each floor.
         """
-        config, least = self.config, self.least
+        config, least = config or self.config, self.least
         floors = Least(
             min(least.jacobian - config.jacobian_gap, target.jacobian),
             min(least.quality - config.quality_gap, target.quality),
@@ -144,13 +156,13 @@ class CentralPath:
         history = [least]
         for number in range(config.max_floors):
             scale = max(config.band_factor**number, config.min_band_share)
-            self._centre(floors, scale, config.weight)
+            self._centre(floors, scale, config.weight, config)
             least = self.least
             yield least
             history.append(least)
             if least.jacobian >= target.jacobian and least.quality >= target.quality:
                 break
-            if len(history) > 2 and not _gains(history[-3], least, target, config.min_gain):
+            if number >= config.window and not _gains(history[-1 - config.window], least, target, config.min_gain):
                 break
             floors = Least(
                 _next(floors.jacobian, least.jacobian, target.jacobian, config.share),
@@ -172,13 +184,15 @@ class CentralPath:
             After the minimum with each weight.
         """
         for weight in weights:
-            self._centre(floors, 1.0, weight)
+            self._centre(floors, 1.0, weight, self.config)
             yield self.least
 
-    def _centre(self, floors: Least, scale: float, weight: float) -> None:
+    def _centre(self, floors: Least, scale: float, weight: float, config: CentralPathConfig) -> None:
         """Minimise the energy with the barrier of floors, in the part of the mesh where it acts."""
-        config = self.config
-        bands = scale * config.jacobian_band, scale * config.quality_band
+        bands = (
+            _band(self._jacobians - floors.jacobian, scale * config.jacobian_band, config),
+            _band(self._qualities - floors.quality, scale * config.quality_band, config),
+        )
         energy, hexes, x = self._around(floors, bands)
         energy = energy.with_barrier(hexes.barrier(floors.jacobian, floors.quality, *bands, weight))
         direction = TruncatedNewton(TruncatedNewtonConfig(config.solver_iterations, loosest=0.1))
@@ -212,6 +226,14 @@ class CentralPath:
             return
         self.x, at = self._region.merged(self.x, x), self._region.hexes
         self._jacobians[at], self._qualities[at] = hexes.jacobians(x), hexes.qualities(x)
+
+
+def _band(distances: np.ndarray, band: float, config: CentralPathConfig) -> float:
+    """Narrow a band until not too many of these distances from a floor, (m,), are in it."""
+    limit = max(config.few_hexes, int(config.max_hexes * distances.size))
+    if limit >= distances.size or np.count_nonzero(distances < band) <= limit:
+        return band
+    return max(float(np.partition(distances, limit)[limit]), config.min_band_share * band)
 
 
 def _next(floor: float, least: float, target: float, share: float) -> float:

@@ -17,6 +17,7 @@ from hexmend.quality import ElementQuality, measure
 from hexmend.quality.corner_heights import least_heights
 from hexmend.smoothers.base import Steps, method, objective_of_sound
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother
+from hexmend.smoothers.mend.balance import balance, raise_jacobian
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.maxmin import MAXMIN, active_set, maximise_minimum
 from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
@@ -37,16 +38,17 @@ class Mend(ObjectiveSmoother):
 
     name = "mend"
     title = "Mend"
-    help = "Untangles as far as the fixed nodes allow, then finds the optimum of shape or of the worst corner."
+    help = "Untangles as far as the fixed nodes allow, then finds the best shape in which no figure is lower than before."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     bytes_per_hex = 2200
     keeps_linear_motion = True
 
     goal: str = parameter(
-        "shape",
-        choices=("shape", "scaled-jacobian", "time-step"),
-        help="shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian; time-step: or the "
-        "smallest explicit time step, the least height of a hex.",
+        "balanced",
+        choices=("balanced", "shape", "scaled-jacobian", "time-step"),
+        help="balanced: the best mean shape above floors of the least scaled Jacobian and q(H), which rise first; shape: "
+        "minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian; time-step: or the smallest "
+        "explicit time step, the least height of a hex.",
     )
     max_p: float = parameter(
         1.0, low=1, high=32, help="If higher than p, p is doubled at the optimum up to this value, for the worst hexes."
@@ -70,9 +72,14 @@ class Mend(ObjectiveSmoother):
         """The highest p and the offset: the objective at whose optimum a run ends.
 
         Steps with a lower p record the objective with that p instead. Steps that raise the least scaled Jacobian do not
-        minimise an energy: they record this one, for comparison, and it may rise.
+        minimise an energy: they record this one, for comparison, and it may rise. With the goal balanced p is 1.
         """
-        return ObjectiveNorm(max(self.p, self.max_p), self.offset)
+        return ObjectiveNorm(1.0 if self.balances else max(self.p, self.max_p), self.offset)
+
+    @property
+    def balances(self) -> bool:
+        """The best shape above floors is the goal."""
+        return self.goal == "balanced"
 
     @property
     def maximises_jacobian(self) -> bool:
@@ -82,15 +89,15 @@ class Mend(ObjectiveSmoother):
     @property
     def maximises_minimum(self) -> bool:
         """The least value of a measure of corners is the goal."""
-        return self.goal != "shape"
+        return self.goal in ("scaled-jacobian", "time-step")
 
     def steps(self, mesh: Mesh) -> Steps:
         if mesh.linear_motion is not None:
             mesh = mesh.with_points(mesh.constrained(mesh.points))
         yield Step(mesh.points)
-        slides, norm = self.slides_on(mesh), ObjectiveNorm(self.p, self.offset)
-        intermediate = slides or self.maximises_minimum
-        quality = measure(mesh.points, mesh.hexes)
+        slides, norm = self.slides_on(mesh), ObjectiveNorm(1.0 if self.balances else self.p, self.offset)
+        intermediate = slides or self.goal != "shape"
+        given, quality = mesh.points, measure(mesh.points, mesh.hexes)
         locked_at_start = locked_corners(mesh, quality)
         if slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
@@ -116,6 +123,9 @@ class Mend(ObjectiveSmoother):
             result = yield from maximise_time_step(mesh, candidates, sliding, result)
         points = shape.points if result is None else result.optimiser.points
         outcome = shape.outcome if result is None else Outcome.NO_IMPROVEMENT
+        if self.balances:
+            energy = self._sound_energy(mesh, points, sliding)
+            points = yield from balance(energy, points, given)
         active, sentences, quality = None, [], None
         if self.maximises_minimum:
             active = active_set(result.optimiser, result.active)
@@ -142,7 +152,14 @@ class Mend(ObjectiveSmoother):
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)
         config = ShapeOptimumConfig(newton=newton)
-        return (yield from optimise_shape(energy, points, self.max_p, intermediate, config))
+        max_p = 1.0 if self.balances else self.max_p
+        return (yield from optimise_shape(energy, points, max_p, intermediate, config))
+
+    def _sound_energy(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None) -> MeshEnergy:
+        """The energy with p = 1, without the corners that are inverted at these points."""
+        inverted = inverted_corners(points, mesh.hexes, measure(points, mesh.hexes))
+        energy = energy_of(mesh, ObjectiveNorm(1.0, self.offset), sliding)
+        return energy.with_objective(energy.norm, inverted)
 
     def _maxmin_stage(
         self,
@@ -163,6 +180,10 @@ class Mend(ObjectiveSmoother):
             return None
         target = np.inf if self.maximises_jacobian else MAXMIN.barrier_safe
         wanted = min(target, MAXMIN.acceptable)
+        if self.maximises_jacobian and best.corners.active_minimum > 0:
+            points = yield from raise_jacobian(self._sound_energy(mesh, best.points, sliding), best.points)
+            raised = MaxMinOptimiser(mesh, points, sliding)
+            best = max(best, raised, key=lambda optimiser: optimiser.corners.active_minimum)
         result = MaxMinResult(best, (yield from maximise_minimum(best, target, groups=MAXMIN.max_groups)))
         if 0 < max_deviation < np.inf and best.corners.movable_minimum < wanted:
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
@@ -181,11 +202,13 @@ class Mend(ObjectiveSmoother):
             now.q.min() < share * start.q.min(),
             now.scaled_jacobian.min() < share * start.scaled_jacobian.min(),
         )
-        harmed = any(fallen) if self.guard else all(fallen)
+        harmed = any(fallen) if self.guard or self.balances else all(fallen)
         if self.maximises_jacobian:
             return now.n_inverted, harmed, -now.scaled_jacobian.min()
         if self.goal == "time-step":  # the time step itself comes last, see `rank_by_points`
             return now.n_inverted, harmed if self.guard else False
+        if self.balances:  # floors hold while the rest is raised: of equals the last is the best
+            return now.n_inverted, harmed or (start.n_inverted == 0 and now.q.mean() < start.q.mean())
         before, after = (objective_of_sound(of, self.norm) for of in (start, now))
         return now.n_inverted, harmed, after > before
 
@@ -193,7 +216,7 @@ class Mend(ObjectiveSmoother):
         return (-least_heights(points, hexes).min(),) if self.goal == "time-step" else ()
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
-        if self.maximises_minimum or "inverted" in worse:
+        if self.balances or self.maximises_minimum or "inverted" in worse:
             return ""
         if "scaled_jacobian" in worse:
             return "With goal=scaled-jacobian the least scaled Jacobian rises instead; with guard=true neither falls."
