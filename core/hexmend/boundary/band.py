@@ -127,14 +127,13 @@ class Band:
         -------
         Deviations
         """
-        limit = np.broadcast_to(limit, indices.shape)
-        moved = (points - self._start)[self.samples[indices]].mean(axis=1)
-        # A sample cannot be further away than it was at first plus its own move: no search for the others.
-        near = self._initial_boundary_deviation[indices] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
-        indices, limit = indices[near], limit[near]
-        nodes = self.samples[indices]
+        limit, nodes = np.broadcast_to(limit, indices.shape), self.samples[indices]
         x = points[nodes].mean(axis=1)
+        # No sample is further from the surface than from the point that was found before: no search for the others.
+        far = np.linalg.norm(x - self._feet[indices], axis=1) > np.maximum(limit, 0.0)
+        indices, limit, nodes, x = indices[far], limit[far], nodes[far], x[far]
         closest = self.target.closest(x, max(float(limit.min(initial=np.inf)), 0.0))
+        self._feet[indices] = closest
         return _deviations_above(limit, indices, x, closest, nodes, np.full(nodes.shape, 0.25))
 
     def surface_deviation(
@@ -155,17 +154,18 @@ class Band:
         -------
         Deviations
         """
-        initial, nodes, weights = self.initial_surface_deviation
-        indices = np.arange(len(initial)) if indices is None else indices
-        limit = np.broadcast_to(limit, indices.shape)
-        moved = np.einsum("sk,ski->si", weights[indices], (points - self._start)[nodes[indices]])
-        near = initial[indices] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
-        indices, limit = indices[near], limit[near]
+        nodes, weights = self._surface_feet
+        indices = np.arange(len(nodes)) if indices is None else indices
+        limit, x = np.broadcast_to(limit, indices.shape), self._target_samples[indices]
+        feet = np.einsum("sk,ski->si", weights[indices], points[nodes[indices]])
+        far = np.linalg.norm(x - feet, axis=1) > np.maximum(limit, 0.0)
+        indices, limit, x = indices[far], limit[far], x[far]
         if not indices.size:
             return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
-        x = self._target_samples[indices]
         enough = max(float(limit.min(initial=np.inf)), 0.0)
-        closest, nodes, weights = self.skin.with_points(points).closest_on(x, enough)
+        closest, own_nodes, own_weights = self.skin.with_points(points).closest_on(x, enough)
+        nodes[indices], weights[indices] = own_nodes, own_weights
+        nodes, weights = own_nodes, own_weights
         return _deviations_above(limit, indices, x, closest, nodes, weights)
 
     def nodes_outside_band(self, points: np.ndarray) -> np.ndarray:
@@ -198,6 +198,18 @@ class Band:
     @cached_property
     def _target_samples(self) -> np.ndarray:
         return self._start[self.samples].mean(axis=1) if self._given is None else self._given.samples()
+
+    @cached_property
+    def _feet(self) -> np.ndarray:
+        """A point of the surface near each of `samples`, (s, 3); that which was found last."""
+        x = self._start[self.samples].mean(axis=1)
+        return x if self._given is None else self.target.closest(x)
+
+    @cached_property
+    def _surface_feet(self) -> tuple[np.ndarray, np.ndarray]:
+        """Nodes (s, 4) and weights of a point of the boundary near each sample of the surface, found last."""
+        _, nodes, weights = self.initial_surface_deviation
+        return nodes.copy(), weights.copy()
 
     @cached_property
     def _initial_boundary_deviation(self) -> np.ndarray:

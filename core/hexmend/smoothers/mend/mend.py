@@ -184,7 +184,8 @@ class Mend(ObjectiveSmoother):
             points = yield from raise_jacobian(self._sound_energy(mesh, best.points, sliding), best.points)
             raised = MaxMinOptimiser(mesh, points, sliding)
             best = max(best, raised, key=lambda optimiser: optimiser.corners.active_minimum)
-        result = MaxMinResult(best, (yield from maximise_minimum(best, target, groups=MAXMIN.max_groups)))
+        groups = MAXMIN.max_groups if best.corners.active_minimum < MAXMIN.barrier_safe else 1
+        result = MaxMinResult(best, (yield from maximise_minimum(best, target, groups=groups)))
         if 0 < max_deviation < np.inf and best.corners.movable_minimum < wanted:
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
             result = yield from improve_off_surface(optimiser, max_deviation, result)
