@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hexmend.energy import MeshEnergy
 from hexmend.iteration import Step
-from hexmend.optimise.floors.central_path import CentralPath, CentralPathConfig, Least
+from hexmend.optimise.floors.central_path import PATH, CentralPath, CentralPathConfig, Least
 from hexmend.quality import measure
 
 
@@ -43,12 +43,12 @@ class BalanceConfig:
     margin: float = 1e-4
     weights: tuple[float, ...] = (1.0, 0.1, 0.01)
     sound: float = 0.99
-    path: CentralPathConfig = CentralPathConfig()
-    patient: CentralPathConfig = CentralPathConfig(
-        jacobian_gap=0.01, quality_gap=0.01, max_hexes=1.0, min_gain=1e-3, window=4, max_floors=50
+    path: CentralPathConfig = PATH
+    patient: CentralPathConfig = replace(
+        PATH, jacobian_gap=0.01, quality_gap=0.01, max_hexes=1.0, min_gain=1e-3, window=4, max_floors=50
     )
-    careful: CentralPathConfig = CentralPathConfig(
-        jacobian_gap=5e-3, quality_gap=5e-3, max_hexes=1.0, min_gain=2e-4, window=4, max_floors=20
+    careful: CentralPathConfig = replace(
+        PATH, jacobian_gap=5e-3, quality_gap=5e-3, max_hexes=1.0, min_gain=2e-4, window=4, max_floors=20
     )
 
 
@@ -72,6 +72,14 @@ class Floors:
     mean: float
 
 
+@dataclass(frozen=True, eq=False)
+class Balanced:
+    """Result of the stage: points (n, 3), and a sentence about the floors, "" where nothing was to be gained."""
+
+    points: np.ndarray
+    message: str
+
+
 def floors_of(energy: MeshEnergy, points: np.ndarray) -> Floors:
     """Compute the floors that a mesh with these points (n, 3) sets; none if what can be moved is inverted."""
     least, quality = CentralPath(energy, points).least, measure(points, energy.mesh.hexes)
@@ -82,7 +90,7 @@ def floors_of(energy: MeshEnergy, points: np.ndarray) -> Floors:
 
 def balance(
     energy: MeshEnergy, points: np.ndarray, given: np.ndarray, config: BalanceConfig = BALANCE
-) -> Generator[Step, None, np.ndarray]:
+) -> Generator[Step, None, Balanced]:
     """Raise the least scaled Jacobian and the least q(H), then improve the shape above floors just below them.
 
     Parameters
@@ -102,12 +110,12 @@ def balance(
 
     Returns
     -------
-    (n, 3) float64
+    Balanced
     """
     path, start = CentralPath(energy, points, config.path), floors_of(energy, given)
     shape = path.least
     if not shape.jacobian < config.sound:
-        return points
+        return Balanced(points, "")
     floor = Least(max(start.jacobian, shape.jacobian), max(start.quality, shape.quality))
     target = Least(np.inf, floor.quality * (1 + config.quality_margin))
     yield from _steps(path, path.rise(target))
@@ -129,12 +137,11 @@ def balance(
         yield from _steps(path, path.settle(floors, config.weights))
         if not measure(path.points, energy.mesh.hexes).q.mean() < start.mean:
             break
-    decision = (
+    message = (
         f"The least scaled Jacobian of the corners that can be moved can be {top.jacobian:.4f}; it is kept at "
         f"{path.least.jacobian:.4f} at least, and the least q(H) at {path.least.quality:.4f}."
     )
-    yield Step(path.points, decision=decision, intermediate=True)
-    return path.points
+    return Balanced(path.points, message)
 
 
 def _is_above(least: Least, floor: Least, margin: float) -> bool:
