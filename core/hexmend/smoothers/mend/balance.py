@@ -13,6 +13,10 @@ from hexmend.optimise.floors.central_path import PATH, CentralPath, CentralPathC
 from hexmend.quality import measure
 
 
+_PATIENT = replace(PATH, jacobian_gap=0.01, quality_gap=0.01, max_hexes=1.0, min_gain=1e-3, window=4, max_floors=50)
+_CAREFUL = replace(_PATIENT, jacobian_gap=5e-3, quality_gap=5e-3, min_gain=2e-4, max_floors=20)
+
+
 @dataclass(frozen=True)
 class BalanceConfig:
     """Settings of the stage.
@@ -44,12 +48,8 @@ class BalanceConfig:
     weights: tuple[float, ...] = (1.0, 0.1, 0.01)
     sound: float = 0.99
     path: CentralPathConfig = PATH
-    patient: CentralPathConfig = replace(
-        PATH, jacobian_gap=0.01, quality_gap=0.01, max_hexes=1.0, min_gain=1e-3, window=4, max_floors=50
-    )
-    careful: CentralPathConfig = replace(
-        PATH, jacobian_gap=5e-3, quality_gap=5e-3, max_hexes=1.0, min_gain=2e-4, window=4, max_floors=20
-    )
+    patient: CentralPathConfig = _PATIENT
+    careful: CentralPathConfig = _CAREFUL
 
 
 BALANCE = BalanceConfig()

@@ -38,8 +38,8 @@ class Mend(ObjectiveSmoother):
         "balanced",
         choices=("balanced", "shape", "scaled-jacobian", "time-step"),
         help="balanced: the best mean shape above floors of the least scaled Jacobian and q(H), which rise first; "
-        "shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian; time-step: or the smallest "
-        "explicit time step, the least height of a hex.",
+        "shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian; time-step: or the "
+        "smallest explicit time step, the least height of a hex.",
     )
     p: float = parameter(
         AUTO,
