@@ -168,7 +168,7 @@ class Band:
         nodes, weights = own_nodes, own_weights
         return _deviations_above(limit, indices, x, closest, nodes, weights)
 
-    def nodes_outside_band(self, points: np.ndarray) -> np.ndarray:
+    def nodes_outside_band(self, points: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
         """Find nodes at which the boundary is outside the band and further from the surface than at first.
 
         Where a sample of the surface is too far from the boundary, these are the nodes of the face closest to it now
@@ -178,6 +178,8 @@ class Band:
         ----------
         points : (n, 3) float64
             Node positions.
+        changed : (n,) bool, optional
+            Nodes at which the boundary is examined; all by default.
 
         Returns
         -------
@@ -187,9 +189,12 @@ class Band:
         if not np.isfinite(self.max_deviation):
             return NO_NODES
         initial, nodes, _ = self.initial_surface_deviation
-        boundary_limit = self._allowed(self._initial_boundary_deviation)
-        boundary = self.boundary_deviation(points, np.arange(len(self.samples)), boundary_limit)
-        surface = self.surface_deviation(points, limit=self._allowed(initial))
+        own, of_surface = np.arange(len(self.samples)), np.arange(len(initial))
+        if changed is not None:
+            own = np.flatnonzero(changed[self.samples].any(axis=1))
+            of_surface = np.flatnonzero(changed[self._surface_feet[0]].any(axis=1))
+        boundary = self.boundary_deviation(points, own, self._allowed(self._initial_boundary_deviation[own]))
+        surface = self.surface_deviation(points, of_surface, self._allowed(initial[of_surface]))
         return np.unique(np.concatenate([x.ravel() for x in (boundary.nodes, surface.nodes, nodes[surface.indices])]))
 
     def _allowed(self, initial: np.ndarray) -> np.ndarray:

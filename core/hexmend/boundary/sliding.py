@@ -272,16 +272,18 @@ class SlidingBoundary(Band):
         kernels.flipped_quads(before, after, self.boundary.faces, self.outward, found)
         return np.flatnonzero(found)
 
-    def rejected_nodes(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    def rejected_nodes(self, before: np.ndarray, after: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
         """Find nodes whose moves flip a quad or take the boundary out of its band, (k,) int.
 
         Parameters
         ----------
         before, after : (n, 3) float64
             Node positions.
+        changed : (n,) bool, optional
+            Nodes at which the band is examined; all by default.
         """
         flipped = self.boundary.faces[self.flipped_quads(before, after)].ravel()
-        return np.union1d(flipped, self.nodes_outside_band(after))
+        return np.union1d(flipped, self.nodes_outside_band(after, changed))
 
     def reject_flips(self, before: np.ndarray, after: np.ndarray, exempt: np.ndarray | None = None) -> np.ndarray:
         """Undo the moves of nodes whose quads a step flips, until none is flipped.

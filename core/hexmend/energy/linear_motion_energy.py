@@ -92,8 +92,10 @@ class LinearMotionEnergy(MeshEnergy):
         step[mask(stopped, len(x))[self.nodes]] = 0.0
         return slope
 
-    def infeasible_nodes(self, x: np.ndarray, moved: np.ndarray) -> np.ndarray | None:
-        marks = self.energy.infeasible_nodes(x, moved)
+    def infeasible_nodes(
+        self, x: np.ndarray, moved: np.ndarray, changed: np.ndarray | None = None
+    ) -> np.ndarray | None:
+        marks = self.energy.infeasible_nodes(x, moved, changed)
         return None if marks is None else self.with_masters(marks)
 
     def with_masters(self, marks: np.ndarray) -> np.ndarray:

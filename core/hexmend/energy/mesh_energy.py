@@ -231,8 +231,13 @@ class MeshEnergy:
         """Compute the slope of `value` at x along a step (k, 3) of the free nodes from the gradient (k, 3) there."""
         return dot(step, gradient)
 
-    def infeasible_nodes(self, x: np.ndarray, moved: np.ndarray) -> np.ndarray | None:
-        """Return True for nodes that may not move from x (n, 3) to `moved` (n, 3), (n,) bool; None if all may."""
+    def infeasible_nodes(
+        self, x: np.ndarray, moved: np.ndarray, changed: np.ndarray | None = None
+    ) -> np.ndarray | None:
+        """Return True for nodes that may not move from x (n, 3) to `moved` (n, 3), (n,) bool; None if all may.
+
+        With `changed`, (n,) bool, other nodes are known to be where they may.
+        """
         return None
 
     def with_masters(self, marks: np.ndarray) -> np.ndarray:
