@@ -125,3 +125,6 @@ KEPT = (
     Role("#000000", "#ffffff"),
     Role("#cc79a7", "#cc79a7"),
 )
+
+#: Colours of runs in charts, by slot modulo their number.
+RUN_COLOURS = (BLUE, *KEPT)

@@ -145,7 +145,7 @@ class History:
             parent = None if saved.parent is None else RecordedIteration(self.records[saved.parent[0]], saved.parent[1])
             slot = self._free_slot() if saved.slot is None else saved.slot
             record = RunRecord(printable(saved.name), saved.title, saved.start, parent, slot)
-            record.plotted = saved.plotted
+            record.plotted, record.settings = saved.plotted, printable(saved.settings)
             record.rows, record.result, record.end = [dict(row) for row in saved.rows], saved.result, saved.end
             record.message, record.pauses, record.advice = saved.message, dict(saved.pauses), saved.advice
             self.records.append(record)
