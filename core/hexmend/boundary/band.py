@@ -120,7 +120,7 @@ class Band:
         points : (n, 3) float64
             Node positions.
         indices : (k,) int64
-            Samples of `samples` to be examined.
+            Samples of `samples` to be examined, ascending.
         limit : float or (k,) float64
             In the mesh's unit; one for all samples, or one for each.
 
@@ -131,7 +131,8 @@ class Band:
         limit = np.broadcast_to(limit, indices.shape)
         if limit.size and limit.min() > 0:
             x = points[self.samples[indices]].mean(axis=1)
-            far = self.target.beyond(x, self._near_target, indices, limit)
+            every = len(indices) == len(self.samples)  # ascending
+            far = self.target.beyond(x, self._near_target, None if every else indices, limit)
         else:
             # A sample cannot be further away than it was at first plus its own move: no search for the others.
             moved = np.linalg.norm((points - self._start)[self.samples[indices]].mean(axis=1), axis=1)
