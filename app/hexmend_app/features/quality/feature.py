@@ -63,10 +63,14 @@ class FeatureQuality(Feature):
     def refresh(self) -> None:
         """Update the statistics."""
         document = self.session.document
-        if document.is_open and self._seen.changed("figures", document.start, document.now):
+        if not document.is_open:
+            return
+        if self._seen.changed("figures", document.start, document.now):
             summaries = document.start.summary, document.now.summary
             self.panel.set_summaries(*summaries)
             self.bar.set_summaries(*summaries)
+        if self.canvas is not None and self._seen.changed("mesh", document.start):
+            self.bar.setVisible(settings.KEY_FIGURES.get())
 
     def _show_bar(self, on: bool) -> None:
         settings.KEY_FIGURES.set(on)

@@ -35,7 +35,7 @@ class FeatureRuns(Feature):
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=15,
-                help=tr("Results of all runs beside the mesh at the start, and which of them dominate."),
+                help=tr("Results of all runs, with the mesh at the start, and which of them dominate."),
             ),
         )
 

@@ -170,14 +170,14 @@ class Commands(QObject):
         if self._session.editable:
             self._session.node_sweep.leave()
             now = self.document.now
-            self.document.commit("slide on a surface", replace(now, mesh=now.mesh.sliding_on(surface, check=False)))
+            self.document.commit("set target surface", replace(now, mesh=now.mesh.sliding_on(surface, check=False)))
             values = (str(path.absolute()),)
-            event = MeshEdited("slide on a surface", now, self.document.now, sliding_on_file, values)
+            event = MeshEdited("set target surface", now, self.document.now, sliding_on_file, values)
             self._session.user_event.emit(event)
 
     def slide_on_boundary(self) -> None:
         """Let the boundary slide on itself, if the mesh is editable."""
-        self._amend("slide on the boundary", sliding_on_boundary)
+        self._amend("remove target surface", sliding_on_boundary)
 
     def mark_curve(self, nodes: Sequence[int]) -> None:
         """Mark the edges of a chain of nodes as a curve, if the mesh is editable."""

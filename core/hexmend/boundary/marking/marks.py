@@ -162,15 +162,15 @@ def _only_marks(cells: Cells) -> bool:
 def _unmarked(cells: Iterable[Cells], keys: np.ndarray | None, n: int) -> Iterable[Cells]:
     """Yield cells without the marks of the edges with these keys, or of all; lines that are marks alone disappear."""
     for one in cells:
-        off = _marks_of(one) if one.kind == "line" else np.zeros(0, dtype=bool)
-        if keys is not None and off.any():
-            off &= np.isin(edge_keys(one.nodes, n), keys)
-        if not off.any():
+        removed = _marks_of(one) if one.kind == "line" else np.zeros(0, dtype=bool)
+        if keys is not None and removed.any():
+            removed &= np.isin(edge_keys(one.nodes, n), keys)
+        if not removed.any():
             yield one
         elif _only_marks(one):
-            if not off.all():
-                yield Cells("line", one.nodes[~off], {RIDGE: np.asarray(one.data[RIDGE])[~off]})
+            if not removed.all():
+                yield Cells("line", one.nodes[~removed], {RIDGE: np.asarray(one.data[RIDGE])[~removed]})
         else:
             names = one.data.keys() & {RIDGE, REQUIRED}
-            changed = {name: np.where(off, 0, np.asarray(one.data[name])) for name in names}
+            changed = {name: np.where(removed, 0, np.asarray(one.data[name])) for name in names}
             yield Cells(one.kind, one.nodes, {**one.data, **changed}, one.sets)
