@@ -16,7 +16,8 @@ _AXIS, _NUMBER, _RADIUS = 70, 62, 4.0
 class DotDelegate(QStyledItemDelegate):
     """Draws numbers at the right, and dots at the left: filled ones for runs that no other dominates.
 
-    The axis of a column extends from its smallest to its largest value; a line marks the mesh at the start.
+    The axis of a column extends from the smallest to the largest value of runs that no other dominates, and of the mesh
+    at the start, which a line marks; values beyond it are at its ends.
     """
 
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
@@ -56,7 +57,8 @@ def axis_of(cell: QRectF) -> QRectF:
 
 
 def place(model: RunTable, row: int, column: int, axis: QRectF) -> float:
-    """Return the horizontal position of a value on the axis of its column."""
+    """Return the horizontal position of a value on the axis of its column; at its end for one beyond it."""
     key = QUANTITIES[column - FIRST].key
     low, high = model.range_of(key)
-    return axis.left() + axis.width() * (model.rows[row].figures[key] - low) / (high - low)
+    share = (model.rows[row].figures[key] - low) / (high - low)
+    return axis.left() + axis.width() * min(max(share, 0.0), 1.0)

@@ -80,8 +80,8 @@ class RunTable(QAbstractTableModel):
             self.endResetModel()
 
     def range_of(self, key: str) -> tuple[float, float]:
-        """Return the smallest and the largest value of a figure."""
-        values = [row.figures[key] for row in self.rows]
+        """Return the smallest and the largest value of a figure, without those of dominated runs."""
+        values = [row.figures[key] for row in self.rows if row.record is None or not row.dominated_by]
         return min(values), max(values)
 
     def rowCount(self, parent: QModelIndex | None = None) -> int:

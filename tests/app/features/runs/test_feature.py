@@ -129,3 +129,12 @@ def test_the_dots_are_between_the_smallest_and_the_largest_value():
     places = [place(model, row, column, axis) for row in range(3)]
     assert places[1:] == [axis.left(), axis.right()]
     assert places[0] == pytest.approx(axis.center().x())
+
+
+def test_a_dominated_run_does_not_stretch_the_axis():
+    model, axis, column = RunTable(), axis_of(QRectF(0, 0, 160, 20)), FIRST + 1
+    best = RunRow(object(), "good", "", GIVEN | {"q_min": 0.5}, BLUE)
+    worst = RunRow(object(), "bad", "", GIVEN | {"q_min": 0.0}, BLUE, dominated_by=("good",))
+    model.fill([RunRow(None, "start", "", GIVEN, MUTED), best, worst])
+    assert model.range_of("q_min") == (0.4, 0.5)
+    assert [place(model, row, column, axis) for row in range(3)] == [axis.left(), axis.right(), axis.left()]

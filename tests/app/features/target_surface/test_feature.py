@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QLabel
 
 from hexmend import io
 from hexmend.boundary import SkinSurface
@@ -50,6 +51,10 @@ def test_it_is_shown_as_a_ghost_until_it_is_removed(window, stl):
     assert window.session.view.look.structure.is_on("target")
     ghost = window.canvas.viewport.overlay_layers.optional["target"]
     np.testing.assert_allclose(ghost.places, target(window).points, atol=1e-6)
+    window.show_panel("show")
+    window.refresh()
+    row = window.features["structure"].panel.layers["target"].entries
+    assert "fine.stl" in " ".join(label.text() for label in row.findChildren(QLabel))
     window.action("slide_on_boundary").trigger()
     window.refresh()
     assert target(window) is None
