@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hexmend.arrays import mask
+from hexmend.boundary.closest_point import NearPoints
 from hexmend.boundary.comparison import SkinSurface
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
@@ -119,7 +120,7 @@ class Band:
         points : (n, 3) float64
             Node positions.
         indices : (k,) int64
-            Samples of `samples` to be examined.
+            Samples of `samples` to be examined, ascending.
         limit : float or (k,) float64
             In the mesh's unit; one for all samples, or one for each.
 
@@ -128,10 +129,15 @@ class Band:
         Deviations
         """
         limit = np.broadcast_to(limit, indices.shape)
-        moved = (points - self._start)[self.samples[indices]].mean(axis=1)
-        # A sample cannot be further away than it was at first plus its own move: no search for the others.
-        near = self._initial_boundary_deviation[indices] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
-        indices, limit = indices[near], limit[near]
+        if limit.size and limit.min() > 0:
+            x = points[self.samples[indices]].mean(axis=1)
+            every = len(indices) == len(self.samples)  # ascending
+            far = self.target.beyond(x, self._near_target, None if every else indices, limit)
+        else:
+            # A sample cannot be further away than it was at first plus its own move: no search for the others.
+            moved = np.linalg.norm((points - self._start)[self.samples[indices]].mean(axis=1), axis=1)
+            far = self._initial_boundary_deviation[indices] + moved > np.maximum(limit, 0.0)
+        indices, limit = indices[far], limit[far]
         nodes = self.samples[indices]
         x = points[nodes].mean(axis=1)
         closest = self.target.closest(x, max(float(limit.min(initial=np.inf)), 0.0))
@@ -156,11 +162,18 @@ class Band:
         Deviations
         """
         initial, nodes, weights = self.initial_surface_deviation
+        every = indices is None
+        samples = slice(None) if every else indices
         indices = np.arange(len(initial)) if indices is None else indices
         limit = np.broadcast_to(limit, indices.shape)
-        moved = np.einsum("sk,ski->si", weights[indices], (points - self._start)[nodes[indices]])
-        near = initial[indices] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
-        indices, limit = indices[near], limit[near]
+        if limit.size and limit.min() > 0:
+            boundary = self.skin.with_points(points)
+            x = self._target_samples
+            far = boundary.beyond(x if every else x[samples], self._near_boundary, None if every else samples, limit)
+        else:
+            moved = np.einsum("sk,ski->si", weights[samples], (points - self._start)[nodes[samples]])
+            far = initial[samples] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
+        indices, limit = indices[far], limit[far]
         if not indices.size:
             return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
         x = self._target_samples[indices]
@@ -196,6 +209,16 @@ class Band:
         return np.maximum(initial, self.max_deviation) * (1 + _ROUNDING)
 
     @cached_property
+    def _near_target(self) -> NearPoints:
+        """Points of the surface near `samples` at some earlier node positions."""
+        return NearPoints(len(self.samples))
+
+    @cached_property
+    def _near_boundary(self) -> NearPoints:
+        """Points of the boundary near samples of the surface at some earlier node positions."""
+        return NearPoints(len(self._target_samples))
+
+    @cached_property
     def _target_samples(self) -> np.ndarray:
         return self._start[self.samples].mean(axis=1) if self._given is None else self._given.samples()
 
@@ -212,7 +235,7 @@ class Band:
         if self._given is None:
             return InitialDistances(np.zeros(len(self.samples)), self.samples, np.full(self.samples.shape, 0.25))
         x = self._target_samples
-        closest, nodes, weights = self.skin.with_points(self._start).closest_on(x)
+        closest, nodes, weights = self.skin.with_points(self._start).closest_on(x, near=self._near_boundary)
         return InitialDistances(np.linalg.norm(x - closest, axis=1), nodes, weights)
 
 
