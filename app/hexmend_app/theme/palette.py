@@ -98,6 +98,7 @@ BACKGROUND = Role("#eef1f5", "#323943")  # uniform, as a gradient takes a fifth 
 AXES = Role("#39414d", "#d5dae1", on=(BACKGROUND,))
 GHOST = Role("#6f7b8b", "#aab4c1")
 ORIGINAL = Role("#0072b2", "#6cb9f0")  # boundary of the mesh as opened
+TARGET = Role("#e69f00", "#f0b53c")  # surface of a file on which the boundary slides
 INTERFACE = Role("#aa4499", "#e07fd0")  # faces between materials
 OTHER_CELLS = Role("#5f6670", "#b9bfc8")  # tetrahedra, pyramids and wedges
 SHARP = Role("#1b1f2a", "#0c0e13")
@@ -125,3 +126,6 @@ KEPT = (
     Role("#000000", "#ffffff"),
     Role("#cc79a7", "#cc79a7"),
 )
+
+#: Colours of runs in charts, by slot modulo their number.
+RUN_COLOURS = (BLUE, *KEPT)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hexmend.arrays import mask
+from hexmend.boundary.closest_point import NearPoints
 from hexmend.boundary.comparison import SkinSurface
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
@@ -119,7 +120,7 @@ class Band:
         points : (n, 3) float64
             Node positions.
         indices : (k,) int64
-            Samples of `samples` to be examined.
+            Samples of `samples` to be examined, ascending.
         limit : float or (k,) float64
             In the mesh's unit; one for all samples, or one for each.
 
@@ -127,13 +128,19 @@ class Band:
         -------
         Deviations
         """
-        limit, nodes = np.broadcast_to(limit, indices.shape), self.samples[indices]
+        limit = np.broadcast_to(limit, indices.shape)
+        if limit.size and limit.min() > 0:
+            x = points[self.samples[indices]].mean(axis=1)
+            every = len(indices) == len(self.samples)  # ascending
+            far = self.target.beyond(x, self._near_target, None if every else indices, limit)
+        else:
+            # A sample cannot be further away than it was at first plus its own move: no search for the others.
+            moved = np.linalg.norm((points - self._start)[self.samples[indices]].mean(axis=1), axis=1)
+            far = self._initial_boundary_deviation[indices] + moved > np.maximum(limit, 0.0)
+        indices, limit = indices[far], limit[far]
+        nodes = self.samples[indices]
         x = points[nodes].mean(axis=1)
-        # No sample is further from the surface than from the point that was found before: no search for the others.
-        far = np.linalg.norm(x - self._feet[indices], axis=1) > np.maximum(limit, 0.0)
-        indices, limit, nodes, x = indices[far], limit[far], nodes[far], x[far]
         closest = self.target.closest(x, max(float(limit.min(initial=np.inf)), 0.0))
-        self._feet[indices] = closest
         return _deviations_above(limit, indices, x, closest, nodes, np.full(nodes.shape, 0.25))
 
     def surface_deviation(
@@ -154,18 +161,24 @@ class Band:
         -------
         Deviations
         """
-        nodes, weights = self._surface_feet
-        indices = np.arange(len(nodes)) if indices is None else indices
-        limit, x = np.broadcast_to(limit, indices.shape), self._target_samples[indices]
-        feet = np.einsum("sk,ski->si", weights[indices], points[nodes[indices]])
-        far = np.linalg.norm(x - feet, axis=1) > np.maximum(limit, 0.0)
-        indices, limit, x = indices[far], limit[far], x[far]
+        initial, nodes, weights = self.initial_surface_deviation
+        every = indices is None
+        samples = slice(None) if every else indices
+        indices = np.arange(len(initial)) if indices is None else indices
+        limit = np.broadcast_to(limit, indices.shape)
+        if limit.size and limit.min() > 0:
+            boundary = self.skin.with_points(points)
+            x = self._target_samples
+            far = boundary.beyond(x if every else x[samples], self._near_boundary, None if every else samples, limit)
+        else:
+            moved = np.einsum("sk,ski->si", weights[samples], (points - self._start)[nodes[samples]])
+            far = initial[samples] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
+        indices, limit = indices[far], limit[far]
         if not indices.size:
             return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
+        x = self._target_samples[indices]
         enough = max(float(limit.min(initial=np.inf)), 0.0)
-        closest, own_nodes, own_weights = self.skin.with_points(points).closest_on(x, enough)
-        nodes[indices], weights[indices] = own_nodes, own_weights
-        nodes, weights = own_nodes, own_weights
+        closest, nodes, weights = self.skin.with_points(points).closest_on(x, enough)
         return _deviations_above(limit, indices, x, closest, nodes, weights)
 
     def nodes_outside_band(self, points: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
@@ -179,7 +192,7 @@ class Band:
         points : (n, 3) float64
             Node positions.
         changed : (n,) bool, optional
-            Nodes at which the boundary is examined; all by default.
+            Nodes of whose samples the distance from the surface is examined; all by default.
 
         Returns
         -------
@@ -189,32 +202,27 @@ class Band:
         if not np.isfinite(self.max_deviation):
             return NO_NODES
         initial, nodes, _ = self.initial_surface_deviation
-        own, of_surface = np.arange(len(self.samples)), np.arange(len(initial))
-        if changed is not None:
-            own = np.flatnonzero(changed[self.samples].any(axis=1))
-            of_surface = np.flatnonzero(changed[self._surface_feet[0]].any(axis=1))
+        own = np.arange(len(self.samples)) if changed is None else np.flatnonzero(changed[self.samples].any(axis=1))
         boundary = self.boundary_deviation(points, own, self._allowed(self._initial_boundary_deviation[own]))
-        surface = self.surface_deviation(points, of_surface, self._allowed(initial[of_surface]))
+        surface = self.surface_deviation(points, limit=self._allowed(initial))
         return np.unique(np.concatenate([x.ravel() for x in (boundary.nodes, surface.nodes, nodes[surface.indices])]))
 
     def _allowed(self, initial: np.ndarray) -> np.ndarray:
         return np.maximum(initial, self.max_deviation) * (1 + _ROUNDING)
 
     @cached_property
+    def _near_target(self) -> NearPoints:
+        """Points of the surface near `samples` at some earlier node positions."""
+        return NearPoints(len(self.samples))
+
+    @cached_property
+    def _near_boundary(self) -> NearPoints:
+        """Points of the boundary near samples of the surface at some earlier node positions."""
+        return NearPoints(len(self._target_samples))
+
+    @cached_property
     def _target_samples(self) -> np.ndarray:
         return self._start[self.samples].mean(axis=1) if self._given is None else self._given.samples()
-
-    @cached_property
-    def _feet(self) -> np.ndarray:
-        """A point of the surface near each of `samples`, (s, 3); that which was found last."""
-        x = self._start[self.samples].mean(axis=1)
-        return x if self._given is None else self.target.closest(x)
-
-    @cached_property
-    def _surface_feet(self) -> tuple[np.ndarray, np.ndarray]:
-        """Nodes (s, 4) and weights of a point of the boundary near each sample of the surface, found last."""
-        _, nodes, weights = self.initial_surface_deviation
-        return nodes.copy(), weights.copy()
 
     @cached_property
     def _initial_boundary_deviation(self) -> np.ndarray:
@@ -229,7 +237,7 @@ class Band:
         if self._given is None:
             return InitialDistances(np.zeros(len(self.samples)), self.samples, np.full(self.samples.shape, 0.25))
         x = self._target_samples
-        closest, nodes, weights = self.skin.with_points(self._start).closest_on(x)
+        closest, nodes, weights = self.skin.with_points(self._start).closest_on(x, near=self._near_boundary)
         return InitialDistances(np.linalg.norm(x - closest, axis=1), nodes, weights)
 
 

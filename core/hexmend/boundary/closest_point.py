@@ -14,6 +14,8 @@ from hexmend.mesh.validation import as_faces, as_points, points_like
 
 #: Squares of coordinates beyond this overflow.
 MAX_CLOSEST_COORDINATE = 1e150
+#: Share of samples that may be too far away, beyond which all are checked anew.
+_MAX_DOUBTFUL = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,6 +119,82 @@ class ClosestPointTrees:
                 f"nothing is closest to the point {wrong}: expected finite numbers, below {MAX_CLOSEST_COORDINATE:g}"
             )
         return ClosestPoints(places, piece, weights)
+
+
+class NearPoints:
+    """Points of trees that were near samples before: they tell which samples cannot be far away now, without a search.
+
+    What is found does not depend on them. A sample is at most as far away as it was at the last full check, plus the
+    moves since then of the sample and of the piece on which the point near to it lies.
+
+    Parameters
+    ----------
+    count : int
+        Number of samples.
+    """
+
+    def __init__(self, count: int):
+        self._pieces, self._weights = np.full(count, -1, dtype=np.int32), np.zeros((count, 3))
+        self._distances = np.full(count, np.inf)
+        self._x: np.ndarray | None = None  # samples and points of the trees at the last full check
+        self._points = np.empty((0, 3))
+
+    def store(self, found: ClosestPoints) -> None:
+        """Store the closest points of all samples."""
+        self._pieces, self._weights = found.pieces.copy(), found.weights.copy()
+
+    def beyond(
+        self, trees: ClosestPointTrees, x: np.ndarray, samples: np.ndarray | None, limits: np.ndarray
+    ) -> np.ndarray:
+        """Find samples that are further than their limits from the first group of trees.
+
+        Parameters
+        ----------
+        trees : ClosestPointTrees
+            Those of each call have the same pieces, at any points.
+        x : (k, 3) float64
+            Positions of the samples; finite. The same array means the same positions.
+        samples : (k,) int or None
+            Their numbers; None for all.
+        limits : (k,) float64
+            Not negative.
+
+        Returns
+        -------
+        (k,) bool
+        """
+        if samples is not None:
+            return self._distances_of(trees, x, samples, limits) > limits
+        if self._x is not None:
+            bounds = self._bounds(trees, x)
+            doubtful = np.flatnonzero(bounds > limits)
+            if len(doubtful) < _MAX_DOUBTFUL * len(x):
+                far = np.zeros(len(x), dtype=bool)
+                far[doubtful] = self._distances_of(trees, x[doubtful], doubtful, limits[doubtful]) > limits[doubtful]
+                return far
+        self._distances = self._distances_of(trees, x, None, limits)
+        self._x, self._points = x, trees.points
+        return self._distances > limits
+
+    def _bounds(self, trees: ClosestPointTrees, x: np.ndarray) -> np.ndarray:
+        """Return upper bounds of the distances of all samples, (k,)."""
+        moves = np.linalg.norm(trees.points - self._points, axis=1)[trees.pieces].max(axis=1)
+        bounds = self._distances + moves[self._pieces]
+        return bounds if x is self._x else bounds + np.linalg.norm(x - self._x, axis=1)
+
+    def _distances_of(
+        self, trees: ClosestPointTrees, x: np.ndarray, samples: np.ndarray | None, limits: np.ndarray
+    ) -> np.ndarray:
+        """Return distances of samples, exact where they exceed their limits; store the points near to them."""
+        pieces, weights = self._pieces, self._weights
+        if samples is not None:
+            pieces, weights = pieces[samples], weights[samples]
+        distances, before = np.empty(len(x)), pieces.copy()
+        closest_point.near(trees.box_trees, x, np.ascontiguousarray(limits), pieces, weights, distances)
+        if samples is not None:
+            self._pieces[samples], self._weights[samples] = pieces, weights
+            self._distances[samples[pieces != before]] = np.inf  # not known at the points of the last full check
+        return distances
 
 
 def triangulate(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

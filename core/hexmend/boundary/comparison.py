@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.aliases import old_keywords
 from hexmend.boundary.classification import boundary_of
-from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate
+from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, NearPoints, triangulate
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.features import FEATURE_ANGLE, FeatureAngle, angle_in_degrees, dihedral_angles
 from hexmend.errors import MeshError
@@ -142,7 +142,9 @@ class SkinSurface:
         """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit."""
         return np.linalg.norm(self.closest(x) - x, axis=1)
 
-    def closest_on(self, x: np.ndarray, stop_distance: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def closest_on(
+        self, x: np.ndarray, stop_distance: float = 0.0, near: NearPoints | None = None
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Find the points of the surface closest to x, with the nodes of their faces.
 
         Parameters
@@ -150,6 +152,8 @@ class SkinSurface:
         x : (k, 3) float64
         stop_distance : float
             The search ends at any point within this distance.
+        near : NearPoints, optional
+            Stores what is found.
 
         Returns
         -------
@@ -160,6 +164,8 @@ class SkinSurface:
             Weights of these nodes, whose mean is the point.
         """
         found = self._found(x, stop_distance)
+        if near is not None:
+            near.store(found)
         pieces, width = self._trees.pieces[found.pieces], self.faces.shape[1]
         if width == 3:
             return found.points, pieces, found.weights
@@ -172,6 +178,10 @@ class SkinSurface:
     def closest(self, x: np.ndarray, stop_distance: float = 0.0) -> np.ndarray:
         """Return the points of the surface closest to x (k, 3), or any within `stop_distance`, (k, 3)."""
         return self._found(x, stop_distance).points
+
+    def beyond(self, x: np.ndarray, near: NearPoints, samples: np.ndarray | None, limits: np.ndarray) -> np.ndarray:
+        """Find points x (k, 3) that are further than limits (k,) from the surface, (k,) bool; see `NearPoints`."""
+        return near.beyond(self._trees, x, samples, limits)
 
     def _found(self, x: np.ndarray, stop_distance: float) -> ClosestPoints:
         return self._trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance)

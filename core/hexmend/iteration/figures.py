@@ -19,7 +19,7 @@ _HISTORY = (
         format_objective,
         -1,
     ),
-    *(SUMMARY_QUANTITIES[key] for key in ("q_min", "q_mean", "inverted")),
+    *(SUMMARY_QUANTITIES[key] for key in ("q_min", "q_mean", "scaled_jacobian_min", "inverted")),
     Quantity(
         "largest_move",
         "largest move",

@@ -70,7 +70,7 @@ class Iteration:
         return objective(self.judged_quality, *self.norm)
 
     def row(self) -> dict[str, float | int | str | None]:
-        """Row of the history: `iteration seconds objective q_min q_mean inverted largest_move`.
+        """Row of the history: `iteration seconds objective q_min q_mean scaled_jacobian_min inverted largest_move`.
 
         `objective_formula` names the objective: stages of a recipe, and steps of a method that raises p, differ in it.
         """
@@ -81,6 +81,7 @@ class Iteration:
             "objective_formula": self.norm.formula,
             "q_min": float(self.quality.q.min()),
             "q_mean": float(self.quality.q.mean()),
+            "scaled_jacobian_min": float(self.quality.scaled_jacobian.min()),
             "inverted": self.quality.n_inverted,
             "largest_move": self.largest_move,
         }

@@ -39,3 +39,11 @@ def closest(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(No
     A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is
     not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3).
     """
+
+def near(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Write the distance (j,) of each of x (j, 3) from a point of the first tree.
+
+    It is the point of piece (j,) int32, -1 for none, with barycentric weights (j, 3), if it is within the
+    limit (j,); else another one within it, or the closest one, which takes its place.
+    """

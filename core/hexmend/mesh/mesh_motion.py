@@ -109,14 +109,15 @@ class MeshMotion(MeshData):
         """Surface on which the boundary slides if that is not the original boundary; see `sliding_on`."""
         return self.__dict__.get("_target")
 
-    def sliding_on(self: M, surface: TargetSurface, *, check: bool = True) -> M:
+    def sliding_on(self: M, surface: TargetSurface | None, *, check: bool = True) -> M:
         """Return the mesh with a surface on which its boundary slides, such as `hexmend.read_surface` gives.
 
         Methods that let the boundary slide first project its nodes onto that surface; other methods ignore it.
 
         Parameters
         ----------
-        surface : hexmend.boundary.SkinSurface
+        surface : hexmend.boundary.SkinSurface or None
+            None for its own boundary.
         check : bool
             Check that the surface is near the boundary; not needed for one that the mesh had before.
 
@@ -129,6 +130,10 @@ class MeshMotion(MeshData):
         MeshError
             If the surface is far from the boundary.
         """
+        if surface is None:
+            copy = self._copy(*SHARED)
+            copy.__dict__.pop("_target", None)
+            return copy
         if check:
             surface.check_near(self)
         return self._copy(*SHARED, _target=surface)

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 #: Heights over the width of the figure: of title and axis, and of each chart.
 _HEAD, _CHART = 0.16, 0.227
 
+#: Dashes of the quantities of one chart, as matplotlib names them.
+DASHES = ("-", "--", ":")
+
 
 @dataclass(frozen=True)
 class DrawnCurve:
@@ -26,7 +29,9 @@ class DrawnCurve:
     label, colour : str
     x, y : sequence of float
         NaN in y is a gap.
-    dashed, strong : bool
+    dash : str
+        One of `DASHES`.
+    strong : bool
     part : str
         Text after the label, if a run has several curves.
     """
@@ -35,7 +40,7 @@ class DrawnCurve:
     colour: str
     x: Sequence[float]
     y: Sequence[float]
-    dashed: bool = False
+    dash: str = "-"
     strong: bool = False
     part: str = ""
 
@@ -106,7 +111,7 @@ class Convergence:
 def _draw(axes: Axes, chart: DrawnChart, style: ChartStyle) -> None:
     named = []
     for curve in chart.curves:
-        line = {"linestyle": "--" if curve.dashed else "-", "linewidth": 1.8 if curve.strong else 1.0}
+        line = {"linestyle": curve.dash, "linewidth": 1.8 if curve.strong else 1.0}
         name = style.name(curve.label) + (f" {curve.part}" if curve.part else "")
         named.append((axes.plot(curve.x, curve.y, color=curve.colour, **line)[0], name))
     known = [y for curve in chart.curves for y in curve.y if math.isfinite(y)]

@@ -31,6 +31,10 @@ void bind_closest_point(nb::module_ m) {
           "The point closest to each of x (j, 3) in the tree of its root (j,).\n\n"
           "A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is\n"
           "not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3).");
+    m.def("near", &near, "trees"_a, "x"_a, "limits"_a, "piece"_a, "weights"_a, "distances"_a, ReleaseGil(),
+          "Write the distance (j,) of each of x (j, 3) from a point of the first tree.\n\n"
+          "It is the point of piece (j,) int32, -1 for none, with barycentric weights (j, 3), if it is within the\n"
+          "limit (j,); else another one within it, or the closest one, which takes its place.");
 }
 
 void bind_sliding_surface(nb::module_ m) {

@@ -1,6 +1,7 @@
 #include "boundary/closest_point.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "simd/threads.hpp"
@@ -177,6 +178,30 @@ void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std:
     parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
         ClosestPoint found = trees.closest(x[i], roots[i], enough * enough);
         piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
+    });
+}
+
+void near(const BoxTrees &trees, Points x, Numbers limits, std::span<std::int32_t> piece,
+          std::span<Barycentric> weights, std::span<double> distances) {
+    expect(limits.size() == x.size() && piece.size() == x.size() && weights.size() == x.size() &&
+               distances.size() == x.size(),
+           "x, limits, piece, weights and distances have different lengths: expected a row a point");
+    auto count = static_cast<std::int32_t>(trees.pieces.size());
+    for (std::int32_t of : piece) expect(of < count, "piece: a number is out of range");
+    parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
+        double enough = limits[i] * limits[i];
+        if (piece[i] >= 0) {
+            auto [a, b, c] = trees.pieces[piece[i]];
+            Vector known = weights[i][0] * vector(trees.points[a]) + weights[i][1] * vector(trees.points[b]) +
+                           weights[i][2] * vector(trees.points[c]);
+            double far = square(known - vector(x[i]));
+            if (far <= enough) {
+                distances[i] = std::sqrt(far);
+                return;
+            }
+        }
+        ClosestPoint found = trees.closest(x[i], 0, enough);
+        piece[i] = found.piece, weights[i] = found.weights, distances[i] = std::sqrt(found.square);
     });
 }
 

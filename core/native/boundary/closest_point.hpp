@@ -48,4 +48,9 @@ void refit(Points points, std::span<const Piece> pieces, std::span<const TreeLin
 void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std::span<std::int32_t> piece,
              std::span<Point> places, std::span<Barycentric> weights);
 
+// Write the distance of a point of the first tree from each x: of that of a piece (-1 for none) with its weights if it
+// is within the limit, else of another one that is, or of the closest one, which then takes its place.
+void near(const BoxTrees &trees, Points x, Numbers limits, std::span<std::int32_t> piece,
+          std::span<Barycentric> weights, std::span<double> distances);
+
 }  // namespace hexmend

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from hexmend.boundary.closest_point import NearPoints
 from hexmend.boundary.comparison import SkinSurface
+from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
 
 
@@ -42,3 +44,20 @@ def test_a_skin_whose_nodes_have_moved_is_elsewhere_and_the_first_is_not(skin):
     moved = skin.with_points(skin.points + [0, 0, 7])
     np.testing.assert_allclose(moved.distances(x + [0, 0, 7]), 0, atol=1e-12)
     np.testing.assert_allclose(skin.distances(x), 0, atol=1e-12)
+
+
+@pytest.mark.parametrize("moves", [(0.0, 1e-3, 0.3, 0.3, 1e-3), (0.5, 0.0, 0.5)])
+def test_points_known_from_before_do_not_change_which_are_beyond_their_limits(moves):
+    rng = np.random.default_rng(3)
+    mesh = ball(4)
+    skin = SkinSurface(mesh.points, mesh.topology.boundary_faces)
+    x = skin.samples() + rng.normal(scale=0.05, size=skin.samples().shape)
+    limits = rng.uniform(0.01, 0.2, len(x))
+    near, some = NearPoints(len(x)), rng.permutation(len(x))[:50]
+    for seed, amplitude in enumerate(moves):
+        moved = skin.with_points(slid(mesh, amplitude, seed).points)
+        far = moved.distances(x) > limits
+        assert 0 < np.count_nonzero(far) < len(x)
+        np.testing.assert_array_equal(moved.beyond(x[some], near, some, limits[some]), far[some])
+        np.testing.assert_array_equal(moved.beyond(x, near, None, limits), far)
+        np.testing.assert_array_equal(moved.beyond(x, near, None, limits), far)

@@ -30,6 +30,8 @@ def test_history_has_a_row_an_iteration_and_one_before(mesh):
     assert result.history[0]["inverted"] == result.before.inverted > 0
     assert result.history[0]["objective"] is None
     assert result.history[-1]["objective"] == result.after.objective
+    assert result.history[0]["scaled_jacobian_min"] == result.before.scaled_jacobian_min < 0
+    assert result.history[-1]["scaled_jacobian_min"] == result.after.scaled_jacobian_min
     assert result.history[-1]["largest_move"] < 1e-4 <= result.history[-2]["largest_move"]
     seconds = [row["seconds"] for row in result.history]
     assert seconds == sorted(seconds)

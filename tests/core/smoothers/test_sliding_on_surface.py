@@ -159,3 +159,21 @@ def test_what_the_command_line_says_of_a_surface_that_is_none(tmp_path, capsys):
         assert said in captured.err
         assert captured.err.count("\n") == 1
     assert not (tmp_path / "out.vtu").exists()
+
+
+def test_methods_are_compared_on_it(tmp_path, capsys):
+    path, stl, folder = tmp_path / "ball.vtu", tmp_path / "fine.stl", tmp_path / "tables"
+    mesh, skin = slid(ball(3), 0.3), skin_of(ball(12))
+    io.write(path, mesh)
+    write_stl(stl, skin)
+    words = ["compare", str(path), "-o", str(folder), "--methods", "laplacian,local-nr", "--max-iterations", "3"]
+    assert main([*words, "--surface", str(stl), "--boundary", "fixed"]) == 2
+    assert "--surface is for a sliding boundary" in capsys.readouterr().err
+    assert not folder.exists()
+    assert main([*words, "--surface", str(stl), "--surface-tolerance", "0", "--write-meshes"]) == 0
+    rows = json.loads((folder / "comparison.json").read_text())["rows"]
+    assert {row["parameters"]["boundary"] for row in rows} == {"slide"}
+    for row in rows:
+        moved = io.read(folder / f"ball-{row['method']}.vtu")
+        on = SlidingBoundary(mesh.sliding_on(skin)).nodes
+        assert np.abs(skin.distances(moved.points[on])).max() < 1e-6 < skin.distances(mesh.points[on]).max()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.arguments.options import add_force, add_method
+from hexmend.cli.arguments.options import add_force, add_method, add_surface
 from hexmend.signal_guard import uninterrupted
 from hexmend_app.cli.picture_command import PictureCommand
 
@@ -19,6 +19,7 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", metavar="MESH", help="the mesh file")
     parser.add_argument("-o", "--output", metavar="FILE.gif", required=True, help="where to write the animation")
     add_method(parser)
+    add_surface(parser)
     parser.add_argument("--frames", metavar="N", default="40", help="maximum number of frames (default %(default)s)")
     parser.add_argument("--rate", metavar="N", default="10", help="frames per second (default %(default)s)")
     add_arguments(parser)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.cli.arguments.checks import check_memory
-from hexmend.cli.arguments.run_arguments import method_and_limits
+from hexmend.cli.arguments.run_arguments import method_and_limits, with_surface
 from hexmend.cli.output.progress import follow
 from hexmend.io import read
 from hexmend.run import iterate
@@ -27,7 +27,7 @@ def run(args: argparse.Namespace) -> int:
     size, view, path = parse_size(args.size), view_of(args), Path(args.output)
     max_frames, rate = parse_integer(args.frames, "--frames", 2, 1000), parse_integer(args.rate, "--rate", 1, 50)
     method, stop = method_and_limits(args)
-    mesh = read(args.mesh)
+    mesh = with_surface(args, read(args.mesh), method)
     check_memory(args, [method], mesh)
     look = replace(look_of(args, mesh), movement=_traces(args))
     format_of(path)  # raises for an unknown suffix before the run
@@ -41,7 +41,11 @@ def run(args: argparse.Namespace) -> int:
     states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), mesh))
     frames = pictures(states, look, size, view=view, movement=movement, chart=args.histogram)
     write_film(path, [*frames], rate)
-    print(f"{run.message}\n{path}: {len(numbers)} frames of {size[0]} × {size[1]} pixels")
+    result = run.result()
+    print(result.message)
+    if result.surface is not None:
+        print(result.surface.sentence)
+    print(f"{path}: {len(numbers)} frames of {size[0]} × {size[1]} pixels")
     return 0
 
 

@@ -29,8 +29,14 @@ class Scale:
     floor: float | None = None
 
 
-#: The axis of quality.
-UNIT = Scale(0.0, 1.0, ((0.0, "0"), (0.5, "0.5"), (1.0, "1")))
+#: The axis of quality, without and with negative scaled Jacobians.
+_UNIT = Scale(0.0, 1.0, ((0.0, "0"), (0.5, "0.5"), (1.0, "1")))
+_SIGNED = Scale(-1.0, 1.0, ((-1.0, "−1"), (0.0, "0"), (1.0, "1")))
+
+
+def unit_scale(values: np.ndarray) -> Scale:
+    """Return the axis of quality from 0 to 1, or from -1 if any of the values, (k,) float64, is negative."""
+    return _SIGNED if values.min(initial=0.0) < 0 else _UNIT
 
 
 def linear_scale(values: np.ndarray, whole: bool) -> Scale:

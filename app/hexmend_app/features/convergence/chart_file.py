@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
-from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
+from hexmend.report.convergence import DASHES, Convergence, DrawnChart, DrawnCurve
 from hexmend.report.documents import write_csv
 from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, Chart
 from hexmend_app.features.convergence.curves import Columns, Curve, axis_title, colour_of, run_start
@@ -117,5 +117,5 @@ def _drawn(chart: Chart, curves: Sequence[Curve], by_time: bool, log: bool) -> D
             x, y = curve.drawn(quantity.key, by_time)
             if np.isfinite(y).any():
                 name, colour = curve.record.name, colour_of(curve).light
-                drawn.append(DrawnCurve(name, colour, x.tolist(), y.tolist(), bool(at), curve.current, label))
+                drawn.append(DrawnCurve(name, colour, x.tolist(), y.tolist(), DASHES[at], curve.current, label))
     return DrawnChart(chart.title, drawn, log and chart.quantities[0].log, chart.quantities[0].whole)

@@ -12,6 +12,9 @@ from hexmend_app.codec.checks import check_known
 STEP_SECONDS = Quantity(
     "step_seconds", "seconds per iteration", "Time that the method took for each iteration.", format_significant, -1
 )
+#: Quantities of the chart of quality.
+_QUALITIES = ("q_min", "q_mean", "scaled_jacobian_min")
+
 _QUANTITIES = HISTORY | DIAGNOSTICS | {STEP_SECONDS.key: STEP_SECONDS}
 
 
@@ -67,7 +70,7 @@ CHARTS: dict[str, Chart] = {
     chart.key: chart
     for chart in (
         _single("objective", "objective", log=True),
-        Chart("quality", "quality", (PlottedQuantity(_QUANTITIES["q_min"]), PlottedQuantity(_QUANTITIES["q_mean"]))),
+        Chart("quality", "quality", tuple(PlottedQuantity(_QUANTITIES[key]) for key in _QUALITIES)),
         _single("inverted", "inverted hexes", log=True, whole=True),
         _single("largest_move", log=True),
         _single("gradient_norm", log=True),

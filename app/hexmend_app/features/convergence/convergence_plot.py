@@ -1,4 +1,4 @@
-"""Chart of one or two quantities of several runs against iterations or seconds."""
+"""Chart of one to three quantities of several runs against iterations or seconds."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from hexmend_app.features.convergence.axis import UNIT, Scale, linear_scale, log_scale
+from hexmend_app.features.convergence.axis import Scale, linear_scale, log_scale, unit_scale
 from hexmend_app.features.convergence.charts import Chart, PlottedQuantity
 from hexmend_app.features.convergence.curves import Curve, colour_of, thinned
 from hexmend_app.features.convergence.line import MAX_POINTS, RunLine
@@ -21,8 +21,8 @@ from hexmend_app.theme.style import note, on_theme_change, set_help, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot
 
-_STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine)
-_DASHES = ("—", "- -")
+_STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine)
+_DASHES = ("—", "- -", "···")
 
 #: Largest distance of a click from a curve that selects it, in pixels; farther away the current run is selected.
 _PICK_DISTANCE = 12
@@ -208,7 +208,10 @@ class ConvergencePlot(QWidget):
         columns = [curve.columns.of(one.key) for curve in self._curves for one in self.chart.quantities]
         values = np.concatenate([*columns, np.empty(0)])
         values, whole = values[np.isfinite(values)], self.chart.quantities[0].whole
-        scale = UNIT if self.chart.key == "quality" else (log_scale if self.is_log else linear_scale)(values, whole)
+        if self.chart.key == "quality":
+            scale = unit_scale(values)
+        else:
+            scale = (log_scale if self.is_log else linear_scale)(values, whole)
         if scale != self.scale:
             self.scale = scale
             self.plot.getAxis("left").setTicks([list(scale.ticks)])

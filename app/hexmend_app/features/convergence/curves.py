@@ -10,11 +10,8 @@ import numpy as np
 from hexmend.iteration.figures import objective_changes
 from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS
 from hexmend_app.state.mesh.history import RunRecord
-from hexmend_app.theme.palette import BLUE, KEPT, Role
+from hexmend_app.theme.palette import RUN_COLOURS, Role
 from hexmend_app.translation import tr
-
-#: Colours of runs, by slot modulo their number.
-RUN_COLOURS = (BLUE, *KEPT)
 
 _RECORDED = tuple(one.key for chart in CHARTS.values() for one in chart.quantities if one.quantity is not STEP_SECONDS)
 

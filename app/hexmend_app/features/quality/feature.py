@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.canvas.canvas import Canvas
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.features.quality.quality_bar import QualityBar
 from hexmend_app.features.quality.statistics import StatisticsTable
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
+from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr
+from hexmend_app.widgets.overlay import Overlay
 
 
 class FeatureQuality(Feature):
@@ -21,6 +25,22 @@ class FeatureQuality(Feature):
         self._seen = ChangeTracker()
         self.panel = StatisticsTable()
         self.panel.isolate_requested.connect(self._isolate)
+        self.bar = QualityBar(host.dialog_parent)
+        self.bar.hide()
+
+    def actions(self) -> Sequence[Action]:
+        """Return the action that shows the key figures in the view."""
+        return (
+            Action(
+                id="key_figures",
+                text=tr("&Key figures"),
+                menu="View",
+                part=3,
+                help=tr("Show inverted hexes, q min, q mean and least scaled Jacobian, at the start and now."),
+                handle=self._show_bar,
+                checked=settings.KEY_FIGURES.get,
+            ),
+        )
 
     def panels(self) -> Sequence[Panel]:
         """Return the table of statistics."""
@@ -35,11 +55,26 @@ class FeatureQuality(Feature):
             ),
         )
 
+    def canvas_ready(self, canvas: Canvas) -> None:
+        """Show the key figures in the view."""
+        Overlay(self.bar, canvas.interactor, (0.0, 1.0), key="key_figures")
+        self.bar.setVisible(settings.KEY_FIGURES.get())
+
     def refresh(self) -> None:
         """Update the statistics."""
         document = self.session.document
-        if document.is_open and self._seen.changed("figures", document.start, document.now):
-            self.panel.set_summaries(document.start.summary, document.now.summary)
+        if not document.is_open:
+            return
+        if self._seen.changed("figures", document.start, document.now):
+            summaries = document.start.summary, document.now.summary
+            self.panel.set_summaries(*summaries)
+            self.bar.set_summaries(*summaries)
+        if self.canvas is not None and self._seen.changed("mesh", document.start):
+            self.bar.setVisible(settings.KEY_FIGURES.get())
+
+    def _show_bar(self, on: bool) -> None:
+        settings.KEY_FIGURES.set(on)
+        self.bar.setVisible(on)
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now

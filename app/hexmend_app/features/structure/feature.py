@@ -66,7 +66,8 @@ class FeatureStructure(Feature):
         if self._seen.changed("found", session.structure_finder.structure, session.document.start):
             self.panel.set_found(session.structure_finder.structure)
         now = session.document.now
-        if self._seen.changed("legends", session.document.start, now.mesh.cells, now.mesh.materials):
+        of_mesh = now.mesh.cells, now.mesh.materials, now.mesh.target
+        if self._seen.changed("legends", session.document.start, *of_mesh):
             for layer in ordered_layers():
                 if layer.drawn_by is not None:
                     self.panel.set_legend(layer.name, layer.drawn_by.legend(now.mesh))

@@ -13,6 +13,9 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, measure, summarise
 from hexmend_app.codec.codec import since
 
+#: What the user adds to a mesh, and its iterations have too: pins, tags, marked curves, surface to slide on.
+OWN_PARTS = ("pinned", "hex_sets", "cells", "target")
+
 
 @dataclass(frozen=True, eq=False)
 class State:
@@ -181,7 +184,7 @@ class Document(QObject):
         return self.is_open and self.now is not self._changes[self._at].state
 
     def commit(self, title: str, state: State, show: bool = True) -> None:
-        """Record a state as a change, unless its positions, pins, tags and hexes are those of the current change.
+        """Record a state as a change, unless its positions, hexes and `OWN_PARTS` are those of the current change.
 
         Parameters
         ----------
@@ -192,7 +195,7 @@ class Document(QObject):
             False to leave the state shown as it is.
         """
         before, after = self._changes[self._at].state.mesh, state.mesh
-        if any(getattr(after, part) is not getattr(before, part) for part in ("points", "pinned", "hex_sets", "hexes")):
+        if any(getattr(after, part) is not getattr(before, part) for part in ("points", "hexes", *OWN_PARTS)):
             del self._changes[self._at + 1 :]
             self._changes.append(Change(title, state))
             self._at += 1

@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.iteration import Iteration
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import printable
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import OWN_PARTS, State
 from hexmend_app.state.mesh.history_data import HistoryData, to_data
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.state.settings.settings import HISTORY_MEGABYTES
@@ -145,7 +145,7 @@ class History:
             parent = None if saved.parent is None else RecordedIteration(self.records[saved.parent[0]], saved.parent[1])
             slot = self._free_slot() if saved.slot is None else saved.slot
             record = RunRecord(printable(saved.name), saved.title, saved.start, parent, slot)
-            record.plotted = saved.plotted
+            record.plotted, record.settings = saved.plotted, printable(saved.settings)
             record.rows, record.result, record.end = [dict(row) for row in saved.rows], saved.result, saved.end
             record.message, record.pauses, record.advice = saved.message, dict(saved.pauses), saved.advice
             self.records.append(record)
@@ -191,7 +191,7 @@ class History:
         ----------
         moment : RecordedIteration
         mesh : Mesh
-            The open mesh, whose pins and tags the state gets.
+            The open mesh, whose `OWN_PARTS` the state gets.
         """
         record = moment.record
         with self._lock:
@@ -199,7 +199,7 @@ class History:
             number = int(numbers[np.abs(numbers - moment.number).argmin()])
             points = record.points(number)
         for state in (record.start, record.end):
-            if state is not None and state.mesh.points is points and _same_pins_and_tags(state.mesh, mesh):
+            if state is not None and state.mesh.points is points and _same_own_parts(state.mesh, mesh):
                 break
         else:
             mesh = mesh.with_points(points)
@@ -237,8 +237,8 @@ class History:
             self._bytes -= record._offsets.pop(number).nbytes
 
 
-def _same_pins_and_tags(mesh: Mesh, other: Mesh) -> bool:
-    return mesh.pinned is other.pinned and mesh.hex_sets is other.hex_sets
+def _same_own_parts(mesh: Mesh, other: Mesh) -> bool:
+    return all(getattr(mesh, part) is getattr(other, part) for part in OWN_PARTS)
 
 
 __all__ = ["LIMIT", "History", "RecordedIteration", "RunRecord"]

@@ -34,6 +34,7 @@ class RecordData:
     offsets: tuple[tuple[int, NodeOffsets], ...]
     slot: int | None = field(default=None, metadata=since(2))
     plotted: bool = field(default=True, metadata=since(2))
+    settings: str = field(default="", metadata=since(6))
 
     def __post_init__(self) -> None:
         numbers = [number for number, _ in self.offsets]
@@ -90,7 +91,7 @@ class HistoryData:
 def to_data(record: RunRecord, at: Mapping[RunRecord, int], offsets: Mapping[int, NodeOffsets]) -> RecordData:
     """Return the data of a run; `at` has the numbers of the runs, with which the data refer to the parent."""
     parent = record.parent
-    same = ("name", "title", "start", "result", "end", "message", "advice", "slot", "plotted")
+    same = ("name", "title", "start", "result", "end", "message", "advice", "slot", "plotted", "settings")
     return RecordData(
         **{name: getattr(record, name) for name in same},
         parent=(at[parent.record], parent.number) if parent and parent.record in at else None,

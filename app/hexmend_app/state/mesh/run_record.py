@@ -75,6 +75,8 @@ class RunRecord:
         None for a recipe, whose stages have their own.
     rules : MotionRules
         Rules of motion of the run.
+    settings : str
+        Values of the run that differ from the defaults, as text.
     changes : list of (int, Stage)
         Iterations after which the method was switched, and the new stages.
     case : Path or None
@@ -97,6 +99,7 @@ class RunRecord:
         self.work: Smoother | Recipe | None = None
         self.stop: StoppingCriteria | None = None
         self.rules = MotionRules()
+        self.settings = ""
         self.changes: list[tuple[int, Stage]] = []
         self.case: Path | None = None
         self._moved = start.mesh.free  # grows if boundary nodes slide

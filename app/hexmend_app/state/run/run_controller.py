@@ -18,6 +18,7 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
+from hexmend_app.state.run.run_settings import settings_text
 from hexmend_app.state.run.worker import IterationFrame, Worker
 
 #: Milliseconds between two checks of the mailbox.
@@ -129,6 +130,7 @@ class RunController(QObject):
         self._worker = Worker(self._before.mesh, smoother, stop, record, rules)
         self.record.work, self.record.stop, self.record.changes = smoother, stop, self._worker.changes
         self.record.rules = rules
+        self.record.settings = settings_text(smoother, stop)
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
         self._worker.grant(iterations)
         self._set_phase(Phase.PREPARING)
@@ -181,6 +183,8 @@ class RunController(QObject):
         """Continue the current stage with another method, other values or other limits."""
         if self._worker is not None:
             self._worker.change(stage)
+            change = f"{stage.smoother.name} {settings_text(stage.smoother, stage.stop)}".strip()
+            self.record.settings = "; ".join(filter(None, (self.record.settings, change)))
             if isinstance(self.work, Recipe):
                 at = self.record.rows[-1]["stage"] - 1
                 stages = (*self.work.stages[:at], stage, *self.work.stages[at + 1 :])

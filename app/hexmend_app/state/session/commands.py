@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.boundary.marking import with_curve, without_curves
+from hexmend.io.surfaces.sliding import sliding_on_boundary, sliding_on_file
 from hexmend.mesh.fixing import with_pinned, with_region_free
-from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.mesh import Mesh, TargetSurface
 from hexmend.mesh.tags import with_tag, with_tag_renamed, without_tag
 from hexmend.quality import summarise
 from hexmend.run.memory import available, shortage
@@ -161,6 +164,28 @@ class Commands(QObject):
     def rename_tag(self, name: str, new_name: str) -> None:
         """Rename a tag, if the mesh is editable."""
         self._amend("rename the tag", with_tag_renamed, name, new_name)
+
+    def slide_on(self, surface: TargetSurface, path: Path) -> None:
+        """Let the boundary slide on a surface that was read from a file, if the mesh is editable."""
+        if self._session.editable:
+            self._session.node_sweep.leave()
+            now = self.document.now
+            self.document.commit("set target surface", replace(now, mesh=now.mesh.sliding_on(surface, check=False)))
+            values = (str(path.absolute()),)
+            event = MeshEdited("set target surface", now, self.document.now, sliding_on_file, values)
+            self._session.user_event.emit(event)
+
+    def slide_on_boundary(self) -> None:
+        """Let the boundary slide on itself, if the mesh is editable."""
+        self._amend("remove target surface", sliding_on_boundary)
+
+    def mark_curve(self, nodes: Sequence[int]) -> None:
+        """Mark the edges of a chain of nodes as a curve, if the mesh is editable."""
+        self._amend("mark a curve", with_curve, tuple(nodes))
+
+    def unmark_curves(self, nodes: Sequence[int] | None = None) -> None:
+        """Remove the marks of the edges of a chain of nodes, or of all, if the mesh is editable."""
+        self._amend("unmark a curve", without_curves, *([] if nodes is None else [tuple(nodes)]))
 
     def _amend(self, title: str, change: Callable[..., Mesh], *values: object) -> None:
         """Change pins or tags of the mesh by a function of the core, which recorded scripts call."""

@@ -86,6 +86,12 @@ def _positive(value: Any) -> int:
     return int(value)
 
 
+def _switch(value: Any) -> bool:
+    if str(value) not in ("true", "false"):  # as files of settings have it
+        raise ValueError(value)
+    return str(value) == "true"
+
+
 def _paths(value: Any) -> tuple[Path, ...]:
     return tuple(Path(path) for path in json.loads(value))
 
@@ -102,6 +108,8 @@ FOLDER = Setting("folder", Path.home(), Path, str)
 #: Memory limit of the positions of iterations in MB, and iterations played per second.
 HISTORY_MEGABYTES = Setting("history_megabytes", 512, _positive)
 ITERATIONS_PLAYED = Setting("iterations_played", 10, _positive)
+#: Key figures are shown in the view.
+KEY_FIGURES = Setting("key_figures", True, _switch, lambda on: "true" if on else "false")
 
 
 def overlay_position(key: str, default: tuple[float, float]) -> Setting[tuple[float, float]]:

@@ -54,6 +54,13 @@ def ask_list(parent: QWidget, stem: str) -> str:
     return _ask_to_save(parent, tr("Save list as"), f"{stem}-worst.csv", tr("Table (*.csv)"))
 
 
+def ask_surface(parent: QWidget) -> str:
+    """Ask for the file of a surface; "" if cancelled."""
+    return _ask_to_open(
+        parent, tr("Slide on surface of file"), tr("Surfaces (*.stl *.obj *.ply *.vtp *.vtk);;All files (*)")
+    )
+
+
 def ask_recipe(parent: QWidget) -> str:
     """Ask for the recipe to load; "" if cancelled."""
     return _ask_to_open(parent, tr("Load recipe"), tr("Recipes (*.toml);;All files (*)"))

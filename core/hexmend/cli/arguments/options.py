@@ -82,6 +82,12 @@ def add_motion(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_curves(parser: argparse.ArgumentParser) -> None:
+    """Declare the option for curves that are marked by hand."""
+    text = "mark edges of the boundary as curves, which sliding keeps: a chain of node numbers from 0 in each line"
+    parser.add_argument("--ridges", metavar="FILE", help=text)
+
+
 def add_rewrite(parser: argparse.ArgumentParser) -> None:
     """Declare the option that writes a file anew where coordinates could be replaced in a copy of the given one."""
     text = "write the file anew; else, in the format of MESH, only the coordinates change and all else is kept"

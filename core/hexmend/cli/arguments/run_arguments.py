@@ -124,19 +124,19 @@ def motion_rules(args: argparse.Namespace) -> MotionRules:
     return read_recipe(args.recipe).with_more_rules(given_rules(args), args.interfaces).rules
 
 
-def with_surface(args: argparse.Namespace, mesh: Mesh, method: Smoother | Recipe) -> Mesh:
+def with_surface(args: argparse.Namespace, mesh: Mesh, *methods: Smoother | Recipe) -> Mesh:
     """Return the mesh with the surface of --surface to slide on; the mesh itself without that option.
 
     Raises
     ------
     ParameterError
-        If the method keeps the boundary fixed.
+        If every method keeps the boundary fixed.
     FileError
         If the surface cannot be read.
     """
     if args.surface is None:
         return mesh
-    stages = [stage.smoother for stage in method.stages] if isinstance(method, Recipe) else [method]
-    if not any(stage.slides for stage in stages):
+    stages = [[stage.smoother for stage in one.stages] if isinstance(one, Recipe) else [one] for one in methods]
+    if not any(smoother.slides for smoothers in stages for smoother in smoothers):
         raise ParameterError("--surface is for a sliding boundary, and this one is fixed: set boundary = slide")
     return mesh.sliding_on(read_surface(args.surface))

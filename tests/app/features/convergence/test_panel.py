@@ -64,6 +64,17 @@ def place(panel, key, x, y=None):
     return plot.plot.viewport(), plot.plot.mapFromScene(at)
 
 
+def test_quality_has_a_third_curve_on_an_axis_that_extends_to_negative_scaled_jacobians(panel):
+    plot = panel.plots["quality"]
+    tangled = record("mend", 6, scaled_jacobian_min=-0.5)
+    panel.set_curves([curve(tangled)])
+    assert plot.scale.low == -1
+    assert (0, "scaled_jacobian_min") in plot.lines
+    assert "scaled Jacobian min -0.5" in describe(plot.chart, [curve(tangled)], 3, by_time=False).replace("−", "-")
+    panel.set_curves([curve(record("mend", 6, scaled_jacobian_min=0.5))])
+    assert plot.scale.low == 0
+
+
 def test_the_default_charts_are_drawn_below_one_another_with_one_axis(panel):
     assert [plot.chart.key for plot in panel.drawn] == ["objective", "quality", "inverted"]
     tops = [plot.mapTo(panel, QPoint(0, 0)).y() for plot in panel.drawn]

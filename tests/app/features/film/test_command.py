@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from hexmend import io
 from hexmend.cli.main import main
 from hexmend.run import memory
+from tests.core.boundary.solids import ball, slid
+from tests.core.smoothers.test_sliding_on_surface import skin_of, write_stl
 
 
 def test_a_run_becomes_an_animation(mesh_file, tmp_path, capsys):
@@ -95,3 +98,12 @@ def test_a_colour_bar_has_no_bands(mesh_file, tmp_path):
     with Image.open(path) as film:
         bar = np.asarray(film.convert("RGB"))[-34, 100:600].astype(int)
     assert abs(np.diff(bar, axis=0)).max() <= 8
+
+
+def test_the_boundary_slides_on_the_surface_of_an_option(tmp_path, capsys):
+    write_stl(tmp_path / "fine.stl", skin_of(ball(8)))
+    io.write(tmp_path / "ball.vtu", slid(ball(3), 0.3))
+    options = ["--method", "laplacian", "--max-iterations", "2", "--size", "320x240", "--frames", "2"]
+    words = ["film", str(tmp_path / "ball.vtu"), "-o", str(tmp_path / "run.gif"), *options]
+    assert main([*words, "--surface", str(tmp_path / "fine.stl")]) == 0
+    assert "from fine.stl" in capsys.readouterr().out

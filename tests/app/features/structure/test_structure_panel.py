@@ -82,7 +82,7 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     panel.set_legend("original", OriginalSurface.legend(grid(2)))
     assert panel.offered() == {
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
-        "kinds": False, "others": False, "original": True, "interfaces": False,
+        "kinds": False, "others": False, "original": True, "target": False, "interfaces": False,
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]
     assert "shared by four hexes" in panel.layers["irregular"].box.toolTip()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.arguments.options import add_motion, add_settings
+from hexmend.cli.arguments.options import add_motion, add_settings, add_surface
 from hexmend.cli.command import CoreCommand
 
 _HELP = "Run several methods on a mesh and write a table of the results as CSV, Markdown, LaTeX and JSON."
@@ -16,6 +16,7 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     text = "see `hexmend methods` (default: all of them); a FILE.toml is a recipe"
     parser.add_argument("--methods", metavar="A,B,...", help=text)
     add_settings(parser)
+    add_surface(parser)
     add_motion(parser)
     parser.add_argument("--write-meshes", action="store_true", help="write each method's mesh into the folder too")
 

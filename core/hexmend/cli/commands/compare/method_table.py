@@ -8,7 +8,13 @@ import sys
 from pathlib import Path
 
 from hexmend.cli.arguments.checks import check_element_targets, check_memory
-from hexmend.cli.arguments.run_arguments import given_limits, given_rules, method_settings, stopping_criteria
+from hexmend.cli.arguments.run_arguments import (
+    given_limits,
+    given_rules,
+    method_settings,
+    stopping_criteria,
+    with_surface,
+)
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.output.rich_tables import print_table
 from hexmend.cli.process.interrupts import FinishWriting
@@ -34,6 +40,7 @@ def run(args: argparse.Namespace) -> int:
     smoothers = [one.with_more_rules(rules, args.interfaces) if isinstance(one, Recipe) else one for one in smoothers]
     check_element_targets(smoothers, mesh)
     check_memory(args, smoothers, mesh, "compare fewer methods (--methods)")
+    sliding = with_surface(args, mesh, *smoothers)
     folder = output_folder(args.output)
     suffix, original = copy_suffix(args.mesh), Original(Path(args.mesh), mesh)
     if args.write_meshes:
@@ -42,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
         )  # raises now, and not after the runs, for a format that is only read
     with FinishWriting():
         with Progress() as progress:
-            comparison = compare(mesh, smoothers, limits, watch=progress.show)
+            comparison = compare(sliding, smoothers, limits, watch=progress.show)
         record = comparison.record()
         table = record_table(record)
         paths = write_documents(folder, "comparison", table, comparison_rows(record), record)

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.arguments.options import add_force, add_mesh, add_method, add_motion, add_rewrite, add_surface
+from hexmend.cli.arguments.options import (
+    add_curves,
+    add_force,
+    add_mesh,
+    add_method,
+    add_motion,
+    add_rewrite,
+    add_surface,
+)
 from hexmend.cli.command import CoreCommand
 
 _HELP = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run and writes the result so far."
@@ -17,6 +25,7 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     add_method(parser)
     add_surface(parser)
     add_motion(parser)
+    add_curves(parser)
     parser.add_argument("--only", metavar="SET", help="smooth only the hexes of this set, or 'inverted' ones")
     text = "with --only: also K rings of hexes around (default 1)"
     parser.add_argument("--rings", metavar="K", type=int, help=text)

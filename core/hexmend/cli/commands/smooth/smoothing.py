@@ -20,6 +20,7 @@ from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.errors import ParameterError
 from hexmend.io import read, writer_for
+from hexmend.io.surfaces.curve_file import with_curves_of_file
 from hexmend.iteration import Result
 from hexmend.mesh.fixing import with_region_free
 from hexmend.mesh.mesh import Mesh
@@ -46,6 +47,8 @@ def run(args: argparse.Namespace) -> int:
     output.warn_of_losses(mesh)
     pinned = mesh.pinned  # as in the file, for the output: --only holds for this run alone
     mesh = with_rules(mesh, motion_rules(args))
+    if args.ridges:
+        mesh = with_curves_of_file(mesh, args.ridges)
     if isinstance(method, Recipe):  # the mesh has the recipe's rules now, changed by the options
         method = replace(method, rules=MotionRules())
     if args.only:

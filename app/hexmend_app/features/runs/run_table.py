@@ -1,0 +1,138 @@
+"""Table model of the results of all runs, with those that others dominate."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
+from PySide6.QtGui import QBrush, QColor, QFont
+
+from hexmend.quality import SUMMARY_QUANTITIES
+from hexmend.quality.dominance import KEY_FIGURES
+from hexmend_app.state.mesh.run_record import RunRecord
+from hexmend_app.theme.palette import Role
+from hexmend_app.theme.style import MUTED, TEXT, WORSE, tabular
+from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import figure
+
+#: Quantities with a column.
+QUANTITIES = tuple(SUMMARY_QUANTITIES[key] for key in KEY_FIGURES)
+#: Columns before those of the quantities.
+NAME, SETTINGS, FIRST = 0, 1, 2
+
+_RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+_LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+_Role = Qt.ItemDataRole
+
+
+@dataclass(frozen=True, eq=False)
+class RunRow:
+    """Row of the table.
+
+    Parameters
+    ----------
+    record : RunRecord or None
+        None for the mesh at the start.
+    name, settings : str
+        Name of the run, and its values that differ from the defaults.
+    figures : mapping
+        Values by the keys of `KEY_FIGURES`.
+    colour : Role
+    dominated_by : tuple of str
+        Names of the rows that are as good in all figures, and better in one.
+    running : bool
+    """
+
+    record: RunRecord | None
+    name: str
+    settings: str
+    figures: dict[str, Any]
+    colour: Role
+    dominated_by: tuple[str, ...] = ()
+    running: bool = False
+
+    @property
+    def help(self) -> str:
+        """Sentence about the dominance of the row."""
+        if self.dominated_by:
+            return tr("As good in all figures, and better in one: {names}.", names=", ".join(self.dominated_by))
+        return tr("No other result is as good in all figures.")
+
+
+class RunTable(QAbstractTableModel):
+    """Model of the table, with the mesh at the start first, then the runs, the oldest first."""
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self.rows: Sequence[RunRow] = ()
+
+    def fill(self, rows: Sequence[RunRow]) -> None:
+        """Show rows."""
+        same = [row.record for row in rows] == [row.record for row in self.rows]
+        if not same:
+            self.beginResetModel()
+        self.rows = rows
+        if same and rows:  # the view keeps its selection and scroll position
+            self.dataChanged.emit(self.index(0, 0), self.index(len(rows) - 1, self.columnCount() - 1))
+        elif not same:
+            self.endResetModel()
+
+    def range_of(self, key: str) -> tuple[float, float]:
+        """Return the smallest and the largest value of a figure, without those of dominated runs."""
+        values = [row.figures[key] for row in self.rows if row.record is None or not row.dominated_by]
+        return min(values), max(values)
+
+    def rowCount(self, parent: QModelIndex | None = None) -> int:
+        return 0 if parent is not None and parent.isValid() else len(self.rows)
+
+    def columnCount(self, parent: QModelIndex | None = None) -> int:
+        return 0 if parent is not None and parent.isValid() else FIRST + len(QUANTITIES)
+
+    def data(self, index: QModelIndex, role: int = _Role.DisplayRole) -> Any:
+        row, column = self.rows[index.row()], index.column()
+        if role == _Role.DisplayRole:
+            texts = row.name, row.settings, *(figure(row.figures[one.key]) for one in QUANTITIES)
+            return texts[column]
+        if role == _Role.TextAlignmentRole:
+            return _LEFT if column < FIRST else _RIGHT
+        if role == _Role.ForegroundRole:
+            return QBrush(QColor(str(self._colour(row, column))))
+        if role == _Role.FontRole and column >= FIRST and self._is_best(row, QUANTITIES[column - FIRST].key):
+            font = tabular(QFont())
+            font.setBold(True)
+            return font
+        if role == _Role.ToolTipRole:
+            settings = f"<br>{row.settings}" if row.settings else ""
+            return f"<qt><b>{row.name}</b>{settings}<br>{row.help}</qt>"
+        if role == _Role.AccessibleTextRole and column == NAME and row.dominated_by:
+            return tr("{name}, dominated", name=row.name)
+        return None
+
+    def _colour(self, row: RunRow, column: int) -> Role:
+        if column >= FIRST and QUANTITIES[column - FIRST].key == "inverted" and row.figures["inverted"]:
+            return WORSE
+        return MUTED if row.dominated_by or column == SETTINGS else TEXT
+
+    def _is_best(self, row: RunRow, key: str) -> bool:
+        low, high = self.range_of(key)
+        return low < high and row.figures[key] == (high if SUMMARY_QUANTITIES[key].better > 0 else low)
+
+    def headerData(self, section: int, orientation: Qt.Orientation, role: int = _Role.DisplayRole) -> Any:
+        if orientation != Qt.Orientation.Horizontal:
+            return None
+        quantity = QUANTITIES[section - FIRST] if section >= FIRST else None
+        if role == _Role.DisplayRole:
+            return tr(quantity.label) if quantity else (tr("Run"), tr("Settings"))[section]
+        if role == _Role.TextAlignmentRole:
+            return _LEFT if quantity is None else _RIGHT
+        if role == _Role.ForegroundRole:
+            return QBrush(QColor(str(MUTED)))
+        if role == _Role.ToolTipRole:
+            help = quantity.help if quantity else (
+                tr("Click a run to show its result. Grey runs are dominated: another is as good in all figures."),
+                tr("Values of the method and limits that differ from the defaults."),
+            )[section]  # fmt: skip
+            return f"<qt>{help}</qt>"
+        return None

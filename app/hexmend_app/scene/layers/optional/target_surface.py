@@ -1,0 +1,60 @@
+"""The surface of a file on which the boundary slides, translucent."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+
+from hexmend.mesh.mesh import Mesh, TargetSurface
+from hexmend.terminal_text import printable
+from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
+from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.theme.palette import TARGET
+
+#: Depth offset of the faces, in VTK's units, which hides them where they are on the boundary.
+_BEHIND = 40.0
+#: Letters of a file's name in the legend.
+_MAX_LETTERS = 20
+
+
+@layer(
+    "target",
+    title="Target surface",
+    help="The translucent surface of a file on which the boundary slides.",
+    empty="None: the boundary slides on itself.",
+    action="&Target surface",
+    action_help="Show the surface of a file on which the boundary slides, translucent.",
+    order=91,
+)
+class TargetSurfaceLayer(TranslucentSurface, OptionalLayer):
+    """Draws the surface on which the boundary of a mesh slides, if that is not its own."""
+
+    colour, face_opacity = TARGET, 0.3
+
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
+        super().__init__(pane, pixel_ratio)
+        self._target: TargetSurface | None = None
+        mapper = self.actors[0].GetMapper()
+        mapper.SetResolveCoincidentTopologyToPolygonOffset()
+        mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, _BEHIND)
+
+    def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
+        """Draw the whole surface without its edges, of which there are many; an unchanged one is not rebuilt."""
+        target = frame.mesh.target
+        if target is None:
+            self.hide()
+            return
+        if target is not self._target:
+            self._target = target
+            self.set_data(pv.PolyData.from_regular_faces(target.points, target.faces), pv.PolyData())
+        self.show()
+
+    @classmethod
+    def legend(cls, mesh: Mesh) -> list[LegendEntry]:
+        """Return one entry, with the name of the file, if the mesh has such a surface."""
+        if mesh.target is None:
+            return []
+        name = printable(mesh.target.name) or "surface"
+        return [(TARGET, False, name if len(name) <= _MAX_LETTERS else f"{name[: _MAX_LETTERS - 1]}…")]
