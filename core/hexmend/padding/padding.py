@@ -17,8 +17,8 @@ from hexmend.iteration import Iteration, Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.padding.padded_mesh import padded_mesh
 from hexmend.padding.regions import around_sheet, set_sheet, whole_sheet
-from hexmend.padding.visibility import nodes_without_space
 from hexmend.padding.sheet import Sheet
+from hexmend.padding.visibility import nodes_without_space
 from hexmend.quality import Summary, locked_hexes, measure, summarise
 from hexmend.run import smooth
 from hexmend.terminal_text import count_phrase
@@ -68,7 +68,7 @@ class Padding:
 
     @cached_property
     def nodes_without_space(self) -> np.ndarray:
-        """Boundary nodes of inverted hexes at which the boundary leaves no space for sound hexes; see `hexmend.padding.visibility`."""
+        """Boundary nodes of inverted hexes at which the boundary leaves no space for sound ones."""
         inverted = self.layer[measure(self.mesh.points, self.mesh.hexes[self.layer]).inverted]
         return nodes_without_space(self.mesh, inverted)
 

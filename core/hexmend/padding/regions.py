@@ -88,10 +88,10 @@ def around_sheet(mesh: Mesh, hexes: np.ndarray, rings: int = 1) -> Sheet:
         try:
             return region_sheet(mesh, region)
         except CrossingError as error:
-            grown = region | (mask(error.nodes, mesh.n_nodes)[mesh.hexes].sum(axis=1) == 2)
-            if (grown == region).all():
+            larger = region | (mask(error.nodes, mesh.n_nodes)[mesh.hexes].sum(axis=1) == 2)
+            if (larger == region).all():
                 raise
-            region = grown
+            region = larger
 
 
 def set_sheet(mesh: Mesh, name: str) -> Sheet:
@@ -205,7 +205,7 @@ def _check_rim(sheet: Sheet, name: str) -> None:
             f"a layer under the set {name!r} cannot be closed at {count:,} of the {len(open_):,} edges at which it "
             f"ends, such as that between the nodes {first[0]} and {first[1]}: the boundary goes on there "
             "flat or into a corner, and a layer that ended so would have hexes with two faces in one plane. Add the "
-            "faces beside it to the set, up to a sharp edge, or pad the whole boundary"
+            "faces next to it to the set, up to a sharp edge, or pad the whole boundary"
         )
     hexes, faces = np.nonzero(rest)
     copies = sheet.copy_of_corner[hexes[:, None], FACES[faces]]
