@@ -14,11 +14,11 @@ from hexmend.boundary.normals import unit_vectors
 from hexmend.errors import MeshError, ParameterError
 from hexmend.io import read
 from hexmend.iteration import Iteration, Result
+from hexmend.locking.visibility import nodes_without_space
 from hexmend.mesh.mesh import Mesh
 from hexmend.padding.padded_mesh import padded_mesh
 from hexmend.padding.regions import around_sheet, set_sheet, whole_sheet
 from hexmend.padding.sheet import Sheet
-from hexmend.padding.visibility import nodes_without_space
 from hexmend.quality import Summary, locked_hexes, measure, summarise
 from hexmend.run import smooth
 from hexmend.terminal_text import count_phrase
