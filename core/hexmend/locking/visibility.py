@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
-from scipy.optimize import linprog
 
 from hexmend.boundary.normals import unit_vectors
 from hexmend.mesh.mesh import Mesh
@@ -38,7 +39,18 @@ def nodes_without_space(mesh: Mesh, hexes: np.ndarray) -> np.ndarray:
 
 
 def _sees_inside(normals: np.ndarray) -> bool:
-    """Return True if a direction has a negative product with each of some unit normals (k, 3)."""
-    below = np.column_stack([normals, np.ones(len(normals))])
-    found = linprog([0, 0, 0, -1], A_ub=below, b_ub=np.zeros(len(normals)), bounds=[(-1, 1)] * 3 + [(None, 1)])
-    return bool(found.status == 0 and -found.fun > _MIN_SINE)
+    """Return True if a direction has a negative product with each of some unit normals (k, 3).
+
+    The direction with the least largest product has the same with one, two or three normals: all such are tried.
+    """
+    candidates = [-normals]
+    for count in (2, 3):
+        rows = np.array(list(combinations(range(len(normals)), count)), dtype=np.int64).reshape(-1, count)
+        some = normals[rows]
+        if count == 2:
+            candidates.append(-some.sum(axis=1))
+        else:
+            crosses = np.cross(some, np.roll(some, -1, axis=1)).sum(axis=1)  # equal products with all three
+            candidates += [crosses, -crosses]
+    directions = unit_vectors(np.concatenate(candidates))
+    return bool((normals @ directions.T).max(axis=0).min() < -_MIN_SINE)

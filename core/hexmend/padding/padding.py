@@ -98,10 +98,10 @@ class Padding:
 def pad(
     mesh: Mesh | str | os.PathLike[str],
     name: str | None = None,
-    *,
     around: str | None = None,
     rings: int = 1,
     thickness: float | None = None,
+    *,
     mend: bool = True,
     watch: Callable[[Iteration], Any] | None = None,
 ) -> Padding:
