@@ -35,13 +35,26 @@ def nodes_without_space(mesh: Mesh, hexes: np.ndarray) -> np.ndarray:
     normals = unit_vectors(np.cross(x[ahead] - x[quads], x[back] - x[quads]))
     nodes = np.unique(mesh.hexes[hexes])
     nodes = nodes[mesh.topology.boundary[nodes]]
-    return np.array([node for node in nodes if not _sees_inside(normals[quads == node])], dtype=np.int64)
+    return np.array(
+        [node for node in nodes if inward_direction(normals[quads == node])[1] <= _MIN_SINE], dtype=np.int64
+    )
 
 
-def _sees_inside(normals: np.ndarray) -> bool:
-    """Return True if a direction has a negative product with each of some unit normals (k, 3).
+def inward_direction(normals: np.ndarray) -> tuple[np.ndarray, float]:
+    """Find the direction that is furthest below the planes of faces at a node.
 
-    The direction with the least largest product has the same with one, two or three normals: all such are tried.
+    It has the same product with one, two or three of the normals: all such directions are tried.
+
+    Parameters
+    ----------
+    normals : (k, 3) float64
+        Unit normals, outward.
+
+    Returns
+    -------
+    direction : (3,) float64
+    sine : float
+        Least sine of its angle to a plane; there is space for a layer where it is positive.
     """
     candidates = [-normals]
     for count in (2, 3):
@@ -53,4 +66,6 @@ def _sees_inside(normals: np.ndarray) -> bool:
             crosses = np.cross(some, np.roll(some, -1, axis=1)).sum(axis=1)  # equal products with all three
             candidates += [crosses, -crosses]
     directions = unit_vectors(np.concatenate(candidates))
-    return bool((normals @ directions.T).max(axis=0).min() < -_MIN_SINE)
+    sines = -(normals @ directions.T).max(axis=0)
+    best = int(sines.argmax())
+    return directions[best], float(sines[best])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.boundary.normals import unit_vectors
+from hexmend.locking.visibility import inward_direction
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.materials import Materials
 from hexmend.padding.sheet import Sheet
@@ -143,9 +144,15 @@ def _below_faces(sheet: Sheet, depth: np.ndarray) -> np.ndarray:
     moves = -depth[:, None] * np.linalg.solve(matrix, total[:, :, None])[:, :, 0]
     least = np.full(count, np.inf)
     np.minimum.at(least, at, -np.einsum("ki,ki->k", moves[at], normals))
-    poor = least < _MIN_SHARE * depth
-    middle = _mean_of_hexes(sheet)
-    return np.where(poor[:, None], depth[:, None] * unit_vectors(middle), moves)
+    poor = np.flatnonzero(least < _MIN_SHARE * depth)
+    if poor.size:
+        middle = unit_vectors(_mean_of_hexes(sheet))
+        order = np.argsort(at, kind="stable")
+        first = np.searchsorted(at[order], [poor, poor + 1])
+        for copy, start, end in zip(poor, *first, strict=True):
+            direction, sine = inward_direction(normals[order[start:end]])
+            moves[copy] = depth[copy] * (direction if sine > 0 else middle[copy])
+    return moves
 
 
 def _mean_of_hexes(sheet: Sheet) -> np.ndarray:
