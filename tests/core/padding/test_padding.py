@@ -9,8 +9,9 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES, MID_NODE_WEIGHTS
-from hexmend.padding import around_sheet, padded_mesh
+from hexmend.padding import around_sheet, padded_mesh, whole_sheet
 from hexmend.padding.mid_nodes import CENTRES, SIDE_COLUMNS
+from hexmend.padding.sheet import CrossingError
 from hexmend.quality.material_volumes import material_volumes
 from tests.core.grids import grid, scrambled
 from tests.core.padding.conforming import area_of_sides, check_layer, sides_where, sorted_rows
@@ -201,6 +202,35 @@ def test_an_edge_at_which_the_mesh_crosses_itself_is_named():
         around += [[0, 0, z], [1, 0, z], [1, 1, z]]
     with pytest.raises(MeshError, match="at the edge between the nodes"):
         hx.pad(cubes(*around))
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_layers_of_random_blocks_are_conforming_or_refused(seed):
+    random = np.random.default_rng(seed)
+    whole = grid(3)
+    kept = np.flatnonzero(random.random(27) < random.choice([0.3, 0.6, 0.9]))
+    nodes, number = np.unique(whole.hexes[kept], return_inverse=True)
+    mesh = Mesh(whole.points[nodes], number.reshape(-1, 8))
+    region = random.random(mesh.n_hexes) < 0.5
+    for sheet in (lambda: whole_sheet(mesh)), (lambda: around_sheet(mesh, np.flatnonzero(region), 0)):
+        try:
+            check_layer(mesh, padded_mesh(sheet()))
+        except CrossingError as error:
+            x = mesh.points[error.nodes]
+            assert np.abs(x[1] - x[0]).sum() == 1  # an edge
+
+
+def test_a_set_of_hexes_is_padded_next_to_other_cells():
+    mesh = grid(2)
+    apex = np.array([[1.0, 1.0, 3.0]])
+    top = mesh.hexes[4][[4, 5, 6, 7]]
+    pyramid = Cells("pyramid", np.array([[*top, mesh.n_nodes]]))
+    mesh = Mesh(np.vstack([mesh.points, apex]), mesh.hexes, cells=(pyramid,), hex_sets={"all": np.arange(7)})
+    with pytest.raises(MeshError, match="1 pyramid cells"):
+        hx.pad(mesh)
+    padding = hx.pad(mesh, "all")
+    check_layer(mesh, padding.mesh)
+    np.testing.assert_array_equal(padding.mesh.cells[0].nodes, pyramid.nodes)
 
 
 def test_a_layer_around_hexes_grows_where_they_touch_in_an_edge():

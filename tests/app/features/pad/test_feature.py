@@ -7,6 +7,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.features.pad.pad_dialog import PadDialog
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.mesh_padder import PaddingChoice
+from tests.app.driving import open_and_wait
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
@@ -57,6 +58,19 @@ def test_a_run_goes_on_with_the_padded_mesh_and_its_pins(window, session, qtbot)
     record = session.timeline.record
     assert record is not None
     assert session.document.now.mesh.n_hexes == now.mesh.n_hexes
+
+
+def test_a_padded_mesh_is_kept_by_a_session(window, session, qtbot, tmp_path):
+    before, now = session.document.now, pad(qtbot, session, PaddingChoice())
+    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
+    session.document.replace(before, None)
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    mesh = session.document.now.mesh
+    np.testing.assert_array_equal(mesh.hexes, now.mesh.hexes)
+    np.testing.assert_array_equal(mesh.points, now.mesh.points)
+    np.testing.assert_array_equal(mesh.side_sets["bottom"], now.mesh.side_sets["bottom"])
+    session.commands.undo()
+    assert session.document.now.mesh.n_hexes == before.mesh.n_hexes
 
 
 def test_a_layer_that_cannot_be_closed_is_reported(window, session, qtbot):
