@@ -207,6 +207,7 @@ def _check_rim(sheet: Sheet, name: str) -> None:
             "flat or into a corner, and a layer that ended so would have hexes with two faces in one plane. Add the "
             "faces next to it to the set, up to a sharp edge, or pad the whole boundary"
         )
+    _check_single_copies(sheet, np.unique(ends), name)
     hexes, faces = np.nonzero(rest)
     copies = sheet.copy_of_corner[hexes[:, None], FACES[faces]]
     on_rim = sheet.inner_hexes[behind[:, None], (mesh.hexes[behind][:, None] == ends[:, :, None]).argmax(axis=2)]
@@ -223,4 +224,17 @@ def _check_rim(sheet: Sheet, name: str) -> None:
         raise MeshError(
             f"node {shared[0]} of the set {name!r} belongs to a cell that is no hex: a layer has hexes alone. Pad a "
             "set of hexes instead"
+        )
+
+
+def _check_single_copies(sheet: Sheet, nodes: np.ndarray, name: str) -> None:
+    """Raise if hexes at one of some nodes (k,) of the rim touch there without a common face."""
+    mesh = sheet.mesh
+    highest = np.full(mesh.n_nodes, -1)
+    np.maximum.at(highest, mesh.hexes, sheet.copy_of_corner)
+    apart = mask(nodes, mesh.n_nodes)[mesh.hexes] & (sheet.copy_of_corner != highest[mesh.hexes])
+    if apart.any():
+        raise MeshError(
+            f"a layer under the set {name!r} cannot be closed at node {mesh.hexes[apart][0]}: it ends there, and hexes "
+            "touch there without a common face. Divide the node, or pad the whole boundary"
         )

@@ -280,6 +280,13 @@ def test_a_layer_that_cannot_be_closed_is_an_error(change, name, words):
         hx.pad(grid(4).replace(**change), name)
 
 
+def test_a_layer_cannot_end_where_hexes_touch_in_an_edge_alone():
+    mesh = cubes([0, 0, 0], [1, 1, 0])
+    for sides in ([0, 4], [1, 4]), ([0, 4],):
+        with pytest.raises(MeshError, match="touch there without a common face"):
+            hx.pad(mesh.replace(side_sets={"bottom": np.array(sides)}), "bottom")
+
+
 def test_choices_that_make_no_sense_are_errors():
     mesh = grid(2)
     for choices in {"thickness": -1}, {"thickness": float("nan")}, {"around": "bad"}, {"rings": -1}:
