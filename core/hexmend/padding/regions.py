@@ -232,9 +232,9 @@ def _check_single_copies(sheet: Sheet, nodes: np.ndarray, name: str) -> None:
     mesh = sheet.mesh
     highest = np.full(mesh.n_nodes, -1)
     np.maximum.at(highest, mesh.hexes, sheet.copy_of_corner)
-    apart = mask(nodes, mesh.n_nodes)[mesh.hexes] & (sheet.copy_of_corner != highest[mesh.hexes])
-    if apart.any():
+    divided = mask(nodes, mesh.n_nodes)[mesh.hexes] & (sheet.copy_of_corner != highest[mesh.hexes])
+    if divided.any():
         raise MeshError(
-            f"a layer under the set {name!r} cannot be closed at node {mesh.hexes[apart][0]}: it ends there, and hexes "
-            "touch there without a common face. Divide the node, or pad the whole boundary"
+            f"a layer under the set {name!r} cannot be closed at node {mesh.hexes[divided][0]}: it ends there, and "
+            "hexes touch there without a common face. Divide the node, or pad the whole boundary"
         )
