@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from hexmend.mesh.cells import Cells
     from hexmend.mesh.mesh import Mesh
     from hexmend.notebook import view
+    from hexmend.padding import Padding, pad
     from hexmend.parameters import parameter
     from hexmend.quality import METRICS, Summary, measure, summarise
     from hexmend.run import Run, StoppingCriteria, iterate, smooth
@@ -55,6 +56,7 @@ _HOMES = {
     "mesh": ("Mesh",),
     "mesh.cells": ("Cells",),
     "notebook": ("view",),
+    "padding": ("Padding", "pad"),
     "parameters": ("parameter",),
     "quality": ("METRICS", "Summary", "measure", "summarise"),
     "run": ("Run", "StoppingCriteria", "iterate", "smooth"),
@@ -77,6 +79,7 @@ __all__ = [
     "Mesh",
     "MeshError",
     "Outcome",
+    "Padding",
     "ParameterError",
     "Recipe",
     "Result",
@@ -97,6 +100,7 @@ __all__ = [
     "make_target",
     "measure",
     "method",
+    "pad",
     "parameter",
     "read",
     "read_recipe",

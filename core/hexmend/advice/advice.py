@@ -139,6 +139,10 @@ def _state(now: Situation) -> str:
     return " ".join(words)
 
 
+#: Advice to lay a layer of hexes, as a part of a sentence.
+_PAD = ", or keep it and lay a layer of hexes under it (Pad, hexmend pad)"
+
+
 def _locked(now: Situation) -> str:
     many = now.locked.size
     them = "it" if many == 1 else "them"
@@ -149,15 +153,17 @@ def _locked(now: Situation) -> str:
         return f"{which} locked: fixed nodes alone hold {them} in inversion."
     if now.result.surface is not None:
         rest = f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
-        remedy = "" if now.cut_short else " Correct the boundary where the mesh was made."
+        remedy = "" if now.cut_short else f" Correct the boundary where the mesh was made{_PAD}."
     elif now.freed:
         others = f", {many - now.freed:,} cannot" if now.freed < many else ""
         rest = ", and no method moves these unless the boundary slides: "
         rest += f"then {now.freed:,} can be freed by sliding alone{others}."
-        remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
+        remedy = f" Let it slide (boundary = slide), or correct it where the mesh was made{_PAD}."
     else:
         rest = f", and sliding alone does not free {them}."
-        remedy = " Correct the boundary where the mesh was made, or try mend with boundary = slide: it also moves nodes"
-        remedy += " off the surface within the tolerance."
+        remedy = (
+            f" Correct the boundary where the mesh was made{_PAD}, or try mend with boundary = slide: it also moves"
+        )
+        remedy += " nodes off the surface within the tolerance."
     text = f"{which} locked: fixed nodes alone hold {them} in inversion{rest}"
     return text if now.pinned_nodes.size else text + remedy

@@ -73,7 +73,7 @@ def waits(kept):
 
 def test_closing_waits_for_all_threads_together(kept, gate, waits, windows):
     session, tasks = kept.session, []
-    parts = (session.saver, session.repairer, session.structure_finder, session.boundary_classifier, session.node_step_task, session.mesh_checker,
+    parts = (session.saver, session.repairer, session.padder, session.structure_finder, session.boundary_classifier, session.node_step_task, session.mesh_checker,
              session.opener, kept.canvas.shading_task)  # fmt: skip
     for part in parts:
         tasks.append(Task(type(part).__name__, lambda _: gate.wait(PATIENCE / 1000)))

@@ -10,11 +10,15 @@ import numpy as np
 
 from hexmend.doctor import repair
 from hexmend.mesh.rules import MotionRules
+from hexmend.padding import pad
 from hexmend.parameters import Parametrised, declared
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend.terminal_text import printable
+
+#: Source of the mesh in the result of functions that return more than a mesh; it slides on its own boundary.
+_MESH_OF = {repair: "[0].keeping_surface()", pad: ".mesh.keeping_surface()"}
 
 #: Maximum line length in characters.
 WIDTH = 110
@@ -73,8 +77,9 @@ def mesh_call(mesh: str, change: Callable[..., Any], values: Sequence[Any]) -> s
     >>> mesh_call("mesh_1", with_pinned, (3, False))
     'with_pinned(mesh_1, 3, False)'
     """
-    sources = (repr(value) if isinstance(value, str | bool | tuple) else integers_source(value) for value in values)
-    return f"{change.__name__}({', '.join([mesh, *sources])})" + "[0].keeping_surface()" * (change is repair)
+    literal = str | bool | tuple | float | None
+    sources = (repr(value) if isinstance(value, literal) else integers_source(value) for value in values)
+    return f"{change.__name__}({', '.join([mesh, *sources])})" + _MESH_OF.get(change, "")
 
 
 def comment_text(text: str) -> str:

@@ -25,6 +25,7 @@ from hexmend_app.state.session.user_events import FileExported, MeshEdited, Node
 
 if TYPE_CHECKING:
     from hexmend_app.state.session.session_parts import SessionParts
+    from hexmend_app.state.tasks.mesh_padder import MeshPadder, PaddingChoice
     from hexmend_app.state.tasks.mesh_repairer import MeshRepairer
     from hexmend_app.state.tasks.mesh_saver import MeshSaver, SaveTask
 
@@ -37,6 +38,7 @@ class Commands(QObject):
     session : SessionParts
     saver : MeshSaver
     repairer : MeshRepairer
+    padder : MeshPadder
 
     Signals
     -------
@@ -46,9 +48,9 @@ class Commands(QObject):
 
     memory_short = Signal(object, object)
 
-    def __init__(self, session: SessionParts, saver: MeshSaver, repairer: MeshRepairer):
+    def __init__(self, session: SessionParts, saver: MeshSaver, repairer: MeshRepairer, padder: MeshPadder):
         super().__init__(session)
-        self._session, self._saver, self._repairer = session, saver, repairer
+        self._session, self._saver, self._repairer, self._padder = session, saver, repairer, padder
         self.document, self.smoothing = session.document, session.run
 
     def open(self, path: str | Path) -> None:
@@ -82,9 +84,10 @@ class Commands(QObject):
     def when_memory_suffices(self, works: Sequence[Smoother | Recipe], start: Callable[[], object]) -> None:
         """Call `start` if memory suffices for each method on the current mesh; otherwise emit `memory_short`.
 
-        Do nothing if no mesh is open, or a mesh is being read or repaired.
+        Do nothing if no mesh is open, or a mesh is being read, repaired or padded.
         """
-        if not self.document.is_open or self._session.opener.busy or self._repairer.busy:
+        changing = self._session.opener.busy or self._repairer.busy or self._padder.busy
+        if not self.document.is_open or changing:
             return
         free = available()
         mesh = self.document.now.mesh
@@ -203,6 +206,13 @@ class Commands(QObject):
         `Session.repairer` reports the outcome.
         """
         return self._repairer.start(kinds)
+
+    def pad(self, choice: PaddingChoice) -> bool:
+        """Start laying a layer of hexes under the boundary; return False if the mesh is not editable.
+
+        `Session.padder` reports the outcome.
+        """
+        return self._padder.start(choice)
 
     def undo(self) -> None:
         """Undo the last change, if the mesh is editable."""

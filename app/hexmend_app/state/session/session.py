@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.state.session.commands import Commands
 from hexmend_app.state.session.session_parts import SessionParts
+from hexmend_app.state.tasks.mesh_padder import MeshPadder
 from hexmend_app.state.tasks.mesh_repairer import MeshRepairer
 from hexmend_app.state.tasks.mesh_saver import MeshSaver
 
@@ -27,6 +28,7 @@ class Session(SessionParts):
     ----------
     saver : MeshSaver
     repairer : MeshRepairer
+    padder : MeshPadder
     commands : Commands
     """
 
@@ -36,7 +38,8 @@ class Session(SessionParts):
         super().__init__(parent)
         self.saver = MeshSaver(self)
         self.repairer = MeshRepairer(self)
-        self.commands = Commands(self, self.saver, self.repairer)
+        self.padder = MeshPadder(self)
+        self.commands = Commands(self, self.saver, self.repairer, self.padder)
         self.opener.loaded.connect(self.restore)
         self.opener.restored.connect(self._show_as_picture)
         self.user_event.connect(self._on_change)

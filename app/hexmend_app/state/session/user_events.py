@@ -26,7 +26,7 @@ class MeshEdited:
     change : callable
         Function of the mesh before the change and `values`.
     values : tuple
-        Strings, booleans, integers or arrays of integers.
+        Strings, booleans, numbers, None or arrays of integers.
     """
 
     title: str

@@ -13,6 +13,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.features.film.film_dialog import FilmDialog
+from hexmend_app.features.pad.pad_dialog import PadDialog
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, phase
@@ -56,7 +57,8 @@ TOLD = {
     "runs": ("step", "iteration_first", "iteration_on", "iteration_back", "iteration_newest", "stop",
              "iteration_play", "iteration_branch", "reset", "run", "recipe_run", "next_node", "ten_nodes",
              "finish_sweep"),
-    "files": ("save", "screenshot", "save_session", "recipe_save", "figure_set", "film", "open_demo", "open", "repair"),
+    "files": ("save", "screenshot", "save_session", "recipe_save", "figure_set", "film", "open_demo", "open", "repair",
+              "pad"),
 }  # fmt: skip
 
 
@@ -82,6 +84,7 @@ def others(window, qtbot, tmp_path, monkeypatch):
     monkeypatch.setattr("hexmend_app.features.figures.feature.ask_figures", lambda *asked: str(tmp_path / "set"))
     monkeypatch.setattr("hexmend_app.features.camera.feature.ask_camera_name", lambda *asked: "mine")
     monkeypatch.setattr(FilmDialog, "exec", lambda dialog: True)
+    monkeypatch.setattr(PadDialog, "exec", lambda dialog: True)
     monkeypatch.setattr(
         PictureDialog, "exec", lambda dialog: dialog.target.line.setText(str(tmp_path / "view.png")) or True
     )

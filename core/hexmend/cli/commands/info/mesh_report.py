@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from hexmend.quality import (
     MetricStatistics,
     SecondOrder,
     Summary,
-    locked_hexes,
     measure,
     metric_statistics,
     summarise,
@@ -27,6 +26,9 @@ from hexmend.quality import (
 )
 from hexmend.quality.material_volumes import material_volumes
 from hexmend.terminal_text import count_phrase, printable
+
+if TYPE_CHECKING:
+    from hexmend.locking import Locking
 
 #: Places of a problem that are printed.
 _MAX_PLACES = 10
@@ -42,12 +44,13 @@ def run(args: argparse.Namespace) -> int:
     metrics = metric_statistics(mesh, quality) if args.metrics else {}
     second_order = summarise_second_order(mesh)
     layers = describe_layers(find_layers(mesh, quality), mesh, quality)
+    locking = _locking(mesh, quality)
     if args.json:
-        _print_json(args, mesh, summary, metrics, second_order, quality, layers)
+        _print_json(args, mesh, summary, metrics, second_order, quality, layers, locking)
         return 0
     print_summaries(args.mesh, [""], [summary])
-    if summary.locked_inverted:
-        _print_locked(mesh, quality, summary.locked_inverted)
+    if locking is not None:
+        _print_locked(args, locking)
     if mesh.materials is not None:
         _print_materials(mesh)
     if second_order is not None:
@@ -70,6 +73,7 @@ def _print_json(
     second_order: SecondOrder | None,
     quality: ElementQuality,
     layers: list[dict[str, Any]],
+    locking: Locking | None,
 ) -> None:
     from hexmend.report import to_json  # not loaded for a report in words
 
@@ -85,6 +89,8 @@ def _print_json(
         answer["second_order"] = second_order.to_dict()
     if layers:
         answer["layers"] = layers
+    if locking is not None:
+        answer["locking"] = locking.to_dict()
     if args.solver is not None:
         answer |= _checks(mesh, args.solver, quality)
     if args.doctor:
@@ -135,12 +141,27 @@ def _layer_line(wall: dict[str, Any]) -> str:
     )
 
 
-def _print_locked(mesh: Mesh, quality: ElementQuality, n_locked: int) -> None:
-    """Print how many of the locked inverted hexes a sliding boundary frees."""
-    from hexmend.boundary import freed_by_sliding  # loaded only for a mesh with locked hexes
+def _locking(mesh: Mesh, quality: ElementQuality) -> Locking | None:
+    """Return the locked hexes, and what frees them; None where there are none."""
+    if quality.scaled_jacobian.min() > 0.01:
+        return None
+    from hexmend.locking import find_locking  # loaded only for a mesh with hexes that are inverted or flat
 
-    freed = int(freed_by_sliding(mesh, locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)).sum())
-    print(f"Locked: {freed:,} can be freed by a sliding boundary (--boundary slide), {n_locked - freed:,} cannot.")
+    found = find_locking(mesh, quality=quality)
+    return found if found.hexes.size else None
+
+
+def _print_locked(args: argparse.Namespace, locking: Locking) -> None:
+    """Print how many locked hexes sliding frees, and with --doctor the proofs for the others."""
+    print(f"{locking.phrase}.")
+    if args.doctor:
+        for corner in locking.corners[:_MAX_PLACES]:
+            print(f"      {corner.sentence}")
+        more = len(locking.corners) - _MAX_PLACES
+        if more > 0:
+            print(f"      ... and {more:,} more corners; --json lists them all.")
+    if not locking.unmendable.all():
+        print(f"      With a layer under the boundary it can stay as it is: hexmend pad {args.mesh} -o OUT")
 
 
 def _print_problems(args: argparse.Namespace, mesh: Mesh) -> None:

@@ -1,0 +1,1 @@
+"""Padding: a layer of hexes under the boundary."""

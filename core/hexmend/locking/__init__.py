@@ -1,0 +1,20 @@
+"""Locked hexes: those that no movement of nodes can mend while the boundary stays as it is, with proofs."""
+
+from hexmend.aliases import exports
+from hexmend.locking.free_positions import FreePositions, find_free_positions
+from hexmend.locking.locked_corners import LockedCorner, Reason, find_locked_corners
+from hexmend.locking.locking import Locking, find_locking
+from hexmend.locking.visibility import nodes_without_space
+
+__all__ = [
+    "FreePositions",
+    "LockedCorner",
+    "Locking",
+    "Reason",
+    "find_free_positions",
+    "find_locked_corners",
+    "find_locking",
+    "nodes_without_space",
+]
+
+__getattr__ = exports(__name__)

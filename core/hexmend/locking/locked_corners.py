@@ -1,0 +1,134 @@
+"""Corner tetrahedra that no movement of nodes can mend while the boundary keeps its patches and curves, with proofs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from hexmend.arrays import mask
+from hexmend.boundary.flat_parts import FlatPart, flat_parts
+from hexmend.boundary.sliding import SlidingBoundary
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh.linear_motion import LinearMotion
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality.measure import fixed_tetrahedra
+
+#: Largest distance of nodes from a plane or line, in mean edge lengths: files may hold seven digits.
+_FLATNESS = 1e-7
+#: Largest determinant that counts as 0, and change that counts as none, in cubes of the longest edge.
+_ROUNDING = 1e-6
+#: Displacements that are tried: a determinant that is the same at all of them is constant.
+_TRIALS = 4
+
+
+class Reason(Enum):
+    """Reason why the determinant of a corner tetrahedron cannot become positive."""
+
+    FIXED = "its four nodes are fixed"
+    PLANE = "its four nodes lie on one flat piece of the boundary"
+    LINE = "three of its nodes lie on one straight edge of the boundary"
+    CONSTANT = "no move of its nodes along the boundary changes its volume"
+
+
+@dataclass(frozen=True)
+class LockedCorner:
+    """Corner tetrahedron that no movement can mend: its nodes, and the reason.
+
+    Parameters
+    ----------
+    hex : int
+    corner : int
+        Row of `hexmend.mesh.hexahedron.CORNER_TETRAHEDRA`.
+    nodes : tuple of int
+        Its four nodes, the apex first.
+    reason : Reason
+    """
+
+    hex: int
+    corner: int
+    nodes: tuple[int, int, int, int]
+    reason: Reason
+
+    @property
+    def sentence(self) -> str:
+        """The proof as a sentence."""
+        others = ", ".join(map(str, self.nodes[1:]))
+        return f"Hex {self.hex} at node {self.nodes[0]}, with its edges to {others}: {self.reason.value}."
+
+
+def find_locked_corners(mesh: Mesh, sliding: SlidingBoundary, hexes: np.ndarray) -> tuple[LockedCorner, ...]:
+    """Find the corners of some hexes that stay inverted or flat wherever the nodes move that may.
+
+    Nodes move that are free, and those of the boundary in the planes of their flat patches and along their straight
+    curves; those of curved ones count as free. The determinant is affine in the displacement of each node: if it is
+    the same at displacements taken at random, it is the same at all.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    sliding : SlidingBoundary
+        Of the mesh.
+    hexes : (k,) int
+
+    Returns
+    -------
+    tuple of LockedCorner
+        By hex and corner.
+    """
+    tetrahedra = mesh.hexes[hexes][:, CORNER_TETRAHEDRA]
+    parts = flat_parts(sliding.points, sliding.boundary, mesh.mean_edge_length, _FLATNESS)
+    at, corner = np.nonzero(_constant(mesh.points, tetrahedra, _projectors(sliding, parts)))
+    fixed = fixed_tetrahedra(mesh.hexes[hexes], sliding.mesh.fixed)
+    count = {2: np.zeros(fixed.shape, dtype=np.int64), 1: np.zeros(fixed.shape, dtype=np.int64)}
+    for part in parts:
+        dimension = part.directions.shape[1]
+        on_part = mask(part.nodes, mesh.n_nodes)[tetrahedra].sum(axis=2)
+        np.maximum(count[dimension], on_part, out=count[dimension])
+    found = []
+    for row, k in zip(at.tolist(), corner.tolist(), strict=True):
+        if fixed[row, k]:
+            reason = Reason.FIXED
+        elif count[2][row, k] == 4:
+            reason = Reason.PLANE
+        else:
+            reason = Reason.LINE if count[1][row, k] >= 3 else Reason.CONSTANT
+        found.append(LockedCorner(int(hexes[row]), k, tuple(tetrahedra[row, k].tolist()), reason))
+    return tuple(found)
+
+
+def _projectors(sliding: SlidingBoundary, parts: list[FlatPart]) -> np.ndarray:
+    """Orthogonal projectors onto the directions in which each node may move, (n, 3, 3)."""
+    mesh = sliding.mesh
+    projectors = np.tile(np.eye(3), (mesh.n_nodes, 1, 1))
+    nodes, onto = [], []
+    if mesh.target is None:  # on a surface of its own nodes leave the planes of the mesh
+        for part in parts:
+            own = part.nodes[sliding.slides(part.nodes)]
+            nodes.append(own)
+            onto.append(np.tile(part.directions @ part.directions.T, (own.size, 1, 1)))
+    motion = LinearMotion(np.concatenate(nodes), np.concatenate(onto)) if nodes else LinearMotion()
+    projectors[motion.nodes] = motion.projectors
+    given = mesh.linear_motion
+    if given is not None:
+        projectors[given.nodes] = given.projectors
+    projectors[mesh.fixed] = 0.0
+    return projectors
+
+
+def _constant(points: np.ndarray, tetrahedra: np.ndarray, projectors: np.ndarray) -> np.ndarray:
+    """Mark the tetrahedra (k, 8, 4) whose determinant is not positive and the same wherever the nodes are, (k, 8)."""
+    x = points[tetrahedra]
+    edges = x[:, :, 1:] - x[:, :, :1]
+    size = np.linalg.norm(edges, axis=-1).max(axis=-1)
+    volume, sigma = size**3, np.linalg.det(edges)
+    same = sigma <= _ROUNDING * volume
+    random = np.random.default_rng(0)
+    for _ in range(_TRIALS):
+        moves = random.uniform(-1, 1, (len(points), 3))
+        moves = np.einsum("nij,nj->ni", projectors, moves)[tetrahedra] * size[..., None, None]
+        moved = x + moves
+        change = np.abs(np.linalg.det(moved[:, :, 1:] - moved[:, :, :1]) - sigma)
+        same &= change <= _ROUNDING * volume
+    return same

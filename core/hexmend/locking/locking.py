@@ -1,0 +1,136 @@
+"""Hexes that stay inverted while the boundary is fixed: those that sliding frees, and those that need another layer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from hexmend.arrays import mask
+from hexmend.boundary.features import FEATURE_ANGLE
+from hexmend.boundary.sliding import SlidingBoundary
+from hexmend.locking.free_positions import find_free_positions
+from hexmend.locking.locked_corners import LockedCorner, find_locked_corners
+from hexmend.locking.visibility import nodes_without_space
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import ElementQuality, locked_hexes, measure
+
+#: Scaled Jacobian up to which a hex may be flat but for rounding.
+_FLAT = 1e-5
+
+
+@dataclass(frozen=True, eq=False)
+class Locking:
+    """Locked hexes of a mesh.
+
+    Parameters
+    ----------
+    hexes : (k,) int64
+        Hexes with a corner that is inverted, or flat, wherever the free nodes are while the boundary is fixed.
+    freed : (k,) bool
+        True for those that are sound at positions that were found, the nodes of the boundary on their patches and
+        curves, while no other hex is inverted that was not before.
+    needs_layer : (k,) bool
+        True for those with a corner of `corners`: no movement mends them while the boundary keeps its patches and
+        curves. A layer of hexes under the boundary takes them off it (`hexmend.pad`).
+    unmendable : (k,) bool
+        True for those that no layer mends either: at a node of theirs the faces of the boundary leave no space for
+        sound hexes, such as a face with two edges on one line; or fixed nodes inside lock them.
+    corners : tuple of LockedCorner
+        Proofs.
+    """
+
+    hexes: np.ndarray
+    freed: np.ndarray
+    needs_layer: np.ndarray
+    unmendable: np.ndarray
+    corners: tuple[LockedCorner, ...] = field(default=())
+
+    @property
+    def undecided(self) -> np.ndarray:
+        """True for hexes for which neither was shown, (k,) bool."""
+        return ~self.freed & ~self.needs_layer & ~self.unmendable
+
+    @property
+    def phrase(self) -> str:
+        """The counts as a phrase; "" without locked hexes.
+
+        >>> from hexmend.gallery import make
+        >>> find_locking(make("cube", size=8)).phrase
+        ''
+        """
+        if not self.hexes.size:
+            return ""
+        marks = self.freed, self.needs_layer, self.unmendable, self.undecided
+        freed, layer, neither, open_ = (int(np.count_nonzero(which)) for which in marks)
+        words = [f"{self.hexes.size:,} locked", f"sliding frees {freed:,}" if freed else "sliding frees none"]
+        if layer:
+            words.append(f"{layer:,} {'needs' if layer == 1 else 'need'} another layer")
+        if neither:
+            words.append(f"{neither:,} that neither mends")
+        if open_:
+            words.append(f"{open_:,} undecided")
+        return "; ".join(words)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the lists of hexes and the proofs as plain data."""
+        marks = {
+            "freed_by_sliding": self.freed,
+            "need_layer": self.needs_layer,
+            "unmendable": self.unmendable,
+            "undecided": self.undecided,
+        }
+        corners = [
+            {"hex": one.hex, "corner": one.corner, "nodes": list(one.nodes), "reason": one.reason.value}
+            for one in self.corners
+        ]
+        lists = {name: self.hexes[which].tolist() for name, which in marks.items()}
+        return {"hexes": self.hexes.tolist(), **lists, "corners": corners}
+
+
+def find_locking(mesh: Mesh, feature_angle: float = FEATURE_ANGLE, quality: ElementQuality | None = None) -> Locking:
+    """Find the locked hexes of a mesh, and what frees them.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    feature_angle : float
+        Dihedral angle beyond which an edge is a feature; see `hexmend.boundary.boundary_of`.
+    quality : ElementQuality, optional
+        Of the hexes; measured if None.
+
+    Returns
+    -------
+    Locking
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> mesh = make("cube", size=27)
+    >>> points = mesh.points.copy()
+    >>> points[0] = points[[1, 4]].mean(axis=0)  # a corner between its neighbours: two edges on one line
+    >>> find_locking(mesh.with_points(points)).phrase
+    '1 locked; sliding frees none; 1 that neither mends'
+    """
+    quality = measure(mesh.points, mesh.hexes) if quality is None else quality
+    locked = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)
+    candidates = np.flatnonzero(locked | (quality.scaled_jacobian <= _FLAT))
+    if not candidates.size:
+        nothing = np.empty(0, dtype=bool)
+        return Locking(candidates, nothing, nothing, nothing)
+    sliding = SlidingBoundary(mesh, feature_angle)
+    corners = find_locked_corners(mesh, sliding, candidates)
+    proven = np.unique(np.array([one.hex for one in corners], dtype=np.int64))
+    hexes = np.union1d(np.flatnonzero(locked), proven)
+    is_proven, freed = np.isin(hexes, proven), np.zeros(hexes.size, dtype=bool)
+    freed[~is_proven] = find_free_positions(mesh, sliding, hexes[~is_proven]).free
+    unmendable = is_proven & np.isin(hexes, _without_layer(mesh, corners, proven))
+    return Locking(hexes, freed, is_proven & ~unmendable, unmendable, corners)
+
+
+def _without_layer(mesh: Mesh, corners: tuple[LockedCorner, ...], hexes: np.ndarray) -> np.ndarray:
+    """Find which of some hexes (k,), of which these corners are locked, no layer under the boundary mends."""
+    blocked = mask(nodes_without_space(mesh, hexes), mesh.n_nodes)[mesh.hexes[hexes]].any(axis=1)
+    inside = [one.hex for one in corners if not mesh.topology.boundary[list(one.nodes)].any()]
+    return np.union1d(hexes[blocked], np.array(inside, dtype=np.int64))

@@ -1,0 +1,185 @@
+"""Padding: a layer of hexes under the boundary of a mesh, then mended with the boundary as it is."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from hexmend.boundary.normals import unit_vectors
+from hexmend.errors import MeshError, ParameterError
+from hexmend.io import read
+from hexmend.iteration import Iteration, Result
+from hexmend.locking.visibility import nodes_without_space
+from hexmend.mesh.mesh import Mesh
+from hexmend.padding.padded_mesh import padded_mesh
+from hexmend.padding.regions import around_sheet, set_sheet, whole_sheet
+from hexmend.padding.sheet import Sheet
+from hexmend.quality import Summary, locked_hexes, measure, summarise
+from hexmend.run import smooth
+from hexmend.terminal_text import count_phrase
+
+#: Hexes around which `pad` can lay a layer.
+AROUND = ("locked", "inverted")
+#: Nodes that a message names.
+_MAX_NAMED = 5
+
+
+@dataclass(frozen=True, eq=False)
+class Padding:
+    """Mesh with a layer of hexes.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Nodes and hexes of the given mesh keep their numbers; those that are added follow them.
+    layer : (k,) int64
+        Numbers of the hexes of the layer.
+    before, after : Summary
+        Quality and counts of the mesh as given, and of this one.
+    run : Result or None
+        The run that mended the mesh; None if it was not mended.
+    settings : mapping of str to str
+        Settings of the run that mends the mesh.
+    """
+
+    mesh: Mesh
+    layer: np.ndarray
+    before: Summary
+    after: Summary
+    run: Result | None = None
+    settings: Mapping[str, str] = field(default_factory=dict)
+
+    def mended(self, run: Result) -> Padding:
+        """Return the padding with the mesh that a run has mended."""
+        return replace(self, mesh=run.mesh.with_element_target(None), after=run.after, run=run)
+
+    @cached_property
+    def thickness(self) -> np.ndarray:
+        """Distance of the centre of each inner face below the plane of the outer one, (k,) float64."""
+        corners = self.mesh.points[self.mesh.hexes[self.layer]]
+        outer, inner = corners[:, 4:], corners[:, :4]
+        normals = unit_vectors(np.cross(outer[:, 2] - outer[:, 0], outer[:, 3] - outer[:, 1]))
+        return np.einsum("ki,ki->k", outer.mean(axis=1) - inner.mean(axis=1), normals)
+
+    @cached_property
+    def nodes_without_space(self) -> np.ndarray:
+        """Boundary nodes of inverted hexes at which the boundary leaves no space for sound ones."""
+        inverted = self.layer[measure(self.mesh.points, self.mesh.hexes[self.layer]).inverted]
+        return nodes_without_space(self.mesh, inverted)
+
+    @property
+    def message(self) -> str:
+        """The layer and what is left inverted, as sentences."""
+        least, mean = self.thickness.min(), self.thickness.mean()
+        words = [
+            f"The layer has {count_phrase(len(self.layer), 'hex', 'hexes')}, {mean:.3g} thick in the mean and "
+            f"{least:.3g} at least."
+        ]
+        left = self.after.inverted
+        if left:
+            words.append(f"{count_phrase(left, 'hex is', 'hexes are')} inverted.")
+            if self.run is None:
+                words.append("Mend the mesh.")
+        nodes = self.nodes_without_space if left and self.run is not None else ()
+        if len(nodes):
+            named = ", ".join(map(str, nodes[:_MAX_NAMED])) + (", ..." if len(nodes) > _MAX_NAMED else "")
+            words.append(
+                f"At {count_phrase(len(nodes), 'node')} ({named}) the faces of the boundary leave no space for a sound "
+                "hex under each: let the boundary slide there."
+            )
+        return " ".join(words)
+
+
+def pad(
+    mesh: Mesh | str | os.PathLike[str],
+    name: str | None = None,
+    around: str | None = None,
+    rings: int = 1,
+    thickness: float | None = None,
+    *,
+    mend: bool = True,
+    watch: Callable[[Iteration], Any] | None = None,
+) -> Padding:
+    """Lay a layer of hexes under the boundary of a mesh, and mend it with the boundary fixed.
+
+    Under the layer each hex has at most one face on the boundary: hexes that fixed nodes keep inverted can be mended.
+    The faces of the boundary stay exactly as they are; copies of their nodes move into the mesh.
+
+    Parameters
+    ----------
+    mesh : Mesh or path
+        A mesh, which is not changed, or the path of a file.
+    name : str, optional
+        Set of boundary faces (sides, quads or nodes) or of hexes: only under its faces a layer is laid.
+    around : {"locked", "inverted"}, optional
+        Lay the layer around hexes that fixed nodes keep inverted, or that are inverted, and not under the whole
+        boundary.
+    rings : int
+        Rings of hexes around these that the layer encloses.
+    thickness : float, optional
+        Thickness of the layer in the mesh's unit of length, which is kept as far as the shape of the mesh allows. By
+        default the layer begins with a third of the edges behind it and takes the shape that is best for the hexes.
+    mend : bool
+        Mend the mesh by the default method; else hexes may be inverted.
+    watch : callable, optional
+        Called with each iteration; mending stops if it returns False.
+
+    Returns
+    -------
+    Padding
+
+    Raises
+    ------
+    MeshError
+        For a mesh that cannot be padded, a set that does not exist, and a layer that cannot be closed.
+    ParameterError
+        For a thickness that is not positive, and where both a set and hexes to be enclosed are named.
+    FileError
+        If the file cannot be read.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> padded = pad(make("cube", size=27))
+    >>> padded.mesh.n_hexes, len(padded.layer), padded.after.inverted
+    (81, 54, 0)
+    """
+    _check_choices(name, around, rings, thickness)
+    mesh = mesh if isinstance(mesh, Mesh) else read(mesh)
+    before = summarise(mesh)
+    sheet = _sheet(mesh, name, around, rings)
+    padded = padded_mesh(sheet, thickness)
+    layer, settings = np.arange(mesh.n_hexes, padded.n_hexes), {} if thickness is None else {"target": "given-shape"}
+    padding = Padding(padded, layer, before, summarise(padded), settings=settings)
+    return padding.mended(smooth(padded, watch=watch, **settings)) if mend else padding
+
+
+def _check_choices(name: str | None, around: str | None, rings: int, thickness: float | None) -> None:
+    if thickness is not None and not 0 < thickness < np.inf:
+        raise ParameterError(f"thickness is {thickness:g}: expected a positive length in the unit of the mesh")
+    if around is not None and around not in AROUND:
+        raise ParameterError(f"around is {around!r}: expected {' or '.join(AROUND)}")
+    if around is not None and name is not None:
+        raise ParameterError(f"a layer is laid under the set {name!r} or around {around} hexes: choose one of them")
+    if rings < 0:
+        raise ParameterError(f"rings is {rings}: expected 0 or more")
+
+
+def _sheet(mesh: Mesh, name: str | None, around: str | None, rings: int) -> Sheet:
+    """Return the sheet under a set, around hexes, or under the whole boundary."""
+    if name is not None:
+        return set_sheet(mesh, name)
+    if around is None:
+        return whole_sheet(mesh)
+    quality = measure(mesh.points, mesh.hexes)
+    chosen = quality.inverted
+    if around == "locked":
+        chosen = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, chosen)
+    if not chosen.any():
+        raise MeshError(f"no hex of the mesh is {around}: there is nothing around which a layer could be laid")
+    return around_sheet(mesh, np.flatnonzero(chosen), rings)

@@ -1,0 +1,114 @@
+"""Padding in the window: the dialog, the layer, undo, cancelling, and errors."""
+
+import numpy as np
+import pytest
+
+from hexmend.mesh.mesh import Mesh
+from hexmend_app.features.pad.pad_dialog import PadDialog
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.tasks.mesh_padder import PaddingChoice
+from tests.app.driving import open_and_wait
+from tests.core.grids import grid
+from tests.patience import PATIENCE
+
+
+def dented():
+    """Return a block of which a corner is pushed through the plane of its neighbours."""
+    mesh = grid(3)
+    points = mesh.points.copy()
+    points[0] = [0.9, 0.9, 0.9]
+    sides = {"bottom": np.array([[h, 4] for h in range(9)])}
+    return Mesh(points, mesh.hexes, name="dented", side_sets=sides, pinned=np.arange(64) == 21)
+
+
+@pytest.fixture
+def session(window):
+    window.session.document.replace(State.of(dented()), None)
+    return window.session
+
+
+def pad(qtbot, session, choice):
+    with qtbot.waitSignal(session.padder.ended, timeout=PATIENCE):
+        assert session.commands.pad(choice)
+    return session.document.now
+
+
+@pytest.mark.parametrize("choice", [PaddingChoice(), PaddingChoice(around="locked"), PaddingChoice(thickness=0.2)])
+def test_the_mesh_is_padded_and_undone(window, session, qtbot, choice):
+    before = session.document.now
+    assert before.summary.locked_inverted == 1
+    now = pad(qtbot, session, choice)
+    assert now.summary.inverted == 0
+    assert session.document.undo_title == "pad"
+    assert "The layer has" in window.messages.title.text()
+    np.testing.assert_array_equal(
+        now.mesh.points[: before.mesh.n_nodes][before.mesh.fixed], before.mesh.points[before.mesh.fixed]
+    )
+    session.commands.undo()
+    assert session.document.now is before
+    session.commands.redo()
+    assert session.document.now is now
+
+
+def test_a_run_goes_on_with_the_padded_mesh_and_its_pins(window, session, qtbot):
+    now = pad(qtbot, session, PaddingChoice())
+    assert np.flatnonzero(now.mesh.pinned).tolist() == [21]
+    window.action("run").trigger()
+    qtbot.waitUntil(lambda: not session.run.busy, timeout=PATIENCE)
+    record = session.timeline.record
+    assert record is not None
+    assert session.document.now.mesh.n_hexes == now.mesh.n_hexes
+
+
+def test_a_padded_mesh_is_kept_by_a_session(window, session, qtbot, tmp_path):
+    before, now = session.document.now, pad(qtbot, session, PaddingChoice())
+    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
+    session.document.replace(before, None)
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    mesh = session.document.now.mesh
+    np.testing.assert_array_equal(mesh.hexes, now.mesh.hexes)
+    np.testing.assert_array_equal(mesh.points, now.mesh.points)
+    np.testing.assert_array_equal(mesh.side_sets["bottom"], now.mesh.side_sets["bottom"])
+    session.commands.undo()
+    assert session.document.now.mesh.n_hexes == before.mesh.n_hexes
+
+
+def test_a_layer_that_cannot_be_closed_is_reported(window, session, qtbot):
+    mesh = session.document.now.mesh.replace(side_sets={"one": np.array([[4, 4]])})
+    session.document.replace(State.of(mesh), None)
+    before = session.document.now
+    with qtbot.waitSignal(session.padder.failed, timeout=PATIENCE):
+        session.commands.pad(PaddingChoice("one"))
+    assert session.document.now is before
+    assert "cannot be closed" in window.messages.text.text()
+
+
+def test_a_cancelled_layer_leaves_the_mesh(window, session, qtbot):
+    before = session.document.now
+    session.commands.pad(PaddingChoice())
+    assert not session.editable
+    session.padder.cancel()
+    assert session.editable
+    assert session.document.now is before
+    assert not session.padder.busy
+
+
+def test_the_dialog_offers_what_the_mesh_has(window, session, qtbot, monkeypatch):
+    mesh = session.document.now.mesh
+    dialog = PadDialog(mesh, 1, 1)
+    qtbot.addWidget(dialog)
+    offered = [dialog.where.itemData(k) for k in range(dialog.where.count())]
+    assert offered == [(None, None), (None, "locked"), (None, "inverted"), ("bottom", None)]
+    assert dialog.choice() == PaddingChoice()
+    assert not dialog.rings.isEnabled()
+    dialog.where.setCurrentIndex(1)
+    dialog.rings.setValue(2)
+    dialog.thickness.setValue(0.25)
+    assert dialog.choice() == PaddingChoice(None, "locked", 2, 0.25)
+    monkeypatch.setattr(PadDialog, "exec", lambda dialog: False)
+    window.action("pad").trigger()
+    assert not session.padder.busy
+    monkeypatch.setattr(PadDialog, "exec", lambda dialog: dialog.where.setCurrentIndex(1) or True)
+    with qtbot.waitSignal(session.padder.ended, timeout=PATIENCE) as ended:
+        window.action("pad").trigger()
+    assert len(ended.args[0].layer) < 54
