@@ -155,7 +155,8 @@ def raise_jacobian(
     path = CentralPath(energy, points, config.path)
     target = Least(np.inf, -np.inf)
     yield from _steps(path, path.rise(target))
-    yield from _steps(path, path.rise(target, config.patient))
+    if not energy.faceted:
+        yield from _steps(path, path.rise(target, config.patient))
     return path.points
 
 
