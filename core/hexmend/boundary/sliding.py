@@ -15,7 +15,7 @@ from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints
 from hexmend.boundary.comparison import MAX_TARGET_DISTANCE
 from hexmend.boundary.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.edges import SurfaceEdges
-from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
+from hexmend.boundary.features import FEATURE_ANGLE, FeatureAngle, marked_corners
 from hexmend.boundary.flat_parts import flat_motion
 from hexmend.boundary.normals import unit_vectors, vertex_normals
 from hexmend.boundary.restrictions import fixed_on_surface, freed_by_rules, interface_nodes, moving_with_surface
@@ -44,7 +44,7 @@ class SlidingBoundary(Band):
     ----------
     mesh : Mesh
         Nodes slide on its `target`, or else on the boundary that its `surface_points` define.
-    feature_angle : float
+    feature_angle : float or "auto"
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
     max_deviation : float
         Largest distance of the boundary's edge and face midpoints from the surface, in the mesh's unit.
@@ -69,7 +69,7 @@ class SlidingBoundary(Band):
     """
 
     def __init__(
-        self, mesh: Mesh, feature_angle: float = FEATURE_ANGLE, max_deviation: float = np.inf, outer: bool = True
+        self, mesh: Mesh, feature_angle: FeatureAngle = FEATURE_ANGLE, max_deviation: float = np.inf, outer: bool = True
     ):
         whole = boundary_with_kept_corners(mesh, feature_angle)
         stays = fixed_on_surface(mesh, outer)

@@ -54,8 +54,9 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--surface-tolerance",
         metavar="X",
-        help="largest distance of the boundary from the surface in mean edge lengths: 0 to stay on it, or the word "
-        "unlimited; the same as --set surface_tolerance=X",
+        help="largest distance of the boundary from the surface in mean edge lengths, or in per cent of the diagonal "
+        "such as 0.5%%: 0 to stay on it, or one of the words auto (default) and unlimited; the same as "
+        "--set surface_tolerance=X",
     )
 
 
