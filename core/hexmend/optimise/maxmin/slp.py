@@ -198,11 +198,15 @@ class MaxMinOptimiser:
         nodes = holding[envelope.slides(holding) & ~sliding.confined[holding]]
         if not nodes.size and active.least <= 0:
             nodes = holding[sliding.releasable[holding] & ~mesh.free[holding]]
-            fixed = mesh.fixed.copy()
-            fixed[nodes] = False
-            self.corners.set_mesh(mesh.with_fixed(fixed))
-        envelope.release(nodes)
+        self.release_nodes(nodes)
         return nodes.size > 0
+
+    def release_nodes(self, nodes: np.ndarray) -> None:
+        """Let nodes (k,) of the boundary leave the surface, corners too."""
+        fixed = self.mesh.fixed.copy()
+        fixed[nodes] = False
+        self.corners.set_mesh(self.mesh.with_fixed(fixed))
+        self.envelope.release(nodes)
 
     def _begin(self) -> None:
         self._radius, self._max_corners = self.config.initial_radius, self.config.initial_corners
