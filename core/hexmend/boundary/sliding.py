@@ -93,7 +93,7 @@ class SlidingBoundary(Band):
         self.nodes = np.flatnonzero(slides)
         self.releasable = self.boundary.node_class == NodeClass.CORNER
         self.releasable[marked_corners(mesh)] = False
-        self.confined = interface_nodes(mesh)
+        self.confined = interface_nodes(mesh).copy()
         self.confined[marked_edges(mesh)] = True
         self.releasable &= ~(stays | self.confined)
         self._group = self.surface.group_of(self.nodes)
