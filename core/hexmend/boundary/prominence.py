@@ -24,7 +24,7 @@ CERTAIN_ANGLE = 75.0
 _QUANTILE = 0.6
 
 
-def surrounding_bends(edges: SurfaceEdges, angle: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+def surrounding_angles(edges: SurfaceEdges, angle: np.ndarray, chosen: np.ndarray) -> np.ndarray:
     """Measure the bends of the surface around some edges.
 
     Parameters
@@ -49,12 +49,12 @@ def surrounding_bends(edges: SurfaceEdges, angle: np.ndarray, chosen: np.ndarray
     row, node = _unique_pairs(np.repeat(row, 2), edges.nodes[first].ravel(), edges.n)
     row, around = _unique_pairs(*_joined(row, node, start, number), angle.size)
     counts = (angle[around] <= CERTAIN_ANGLE) & (around != chosen[row])
-    row, bends = row[counts], angle[around[counts]]
-    order = np.lexsort((bends, row))
-    row, bends = row[order], bends[order]
+    row, angles = row[counts], angle[around[counts]]
+    order = np.lexsort((angles, row))
+    row, angles = row[order], angles[order]
     count = np.bincount(row, minlength=chosen.size)
     place = np.cumsum(count) - count + (_QUANTILE * count).astype(np.int64)
-    return np.where(count > 0, np.append(bends, 0.0)[np.minimum(place, bends.size)], 0.0)
+    return np.where(count > 0, np.append(angles, 0.0)[np.minimum(place, angles.size)], 0.0)
 
 
 def is_low(chain: np.ndarray, angle: np.ndarray, around: np.ndarray) -> np.ndarray:
