@@ -14,8 +14,6 @@ from hexmend.boundary.edges import SurfaceEdges, segment_pairs
 LEAST_ANGLE = 40.0
 #: Multiple of the bends of the surface around it that the mean dihedral angle of a chain has at least.
 EDGE_FACTOR = 3.5
-#: The same for a chain whose mean angle is above `CERTAIN_ANGLE`.
-CERTAIN_FACTOR = 1.75
 #: Multiple of the lower turn of its two neighbours at which a node of a curve is a corner.
 TURN_FACTOR = 2.0
 #: Angle, in degrees, of an edge or turn that is no bend of a smooth surface or curve, however coarse the mesh.
@@ -71,9 +69,7 @@ def is_low(chain: np.ndarray, angle: np.ndarray, around: np.ndarray) -> np.ndarr
     -------
     (s,) bool
     """
-    total = np.bincount(chain, angle)
-    factor = np.where(total > CERTAIN_ANGLE * np.bincount(chain), CERTAIN_FACTOR, EDGE_FACTOR)
-    return (total < factor * np.bincount(chain, around))[chain]
+    return (np.bincount(chain, angle) < EDGE_FACTOR * np.bincount(chain, around))[chain]
 
 
 def standing_corners(segments: np.ndarray, turn: np.ndarray, between: np.ndarray) -> np.ndarray:
