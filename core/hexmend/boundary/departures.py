@@ -20,7 +20,7 @@ _KEYS = ("corners", "curve_nodes", "patch_nodes")
 
 
 class Keeping(IntEnum):
-    """How a node keeps the original boundary."""
+    """Degree to which a node keeps the original boundary."""
 
     INSIDE = 0
     EXACT = 1

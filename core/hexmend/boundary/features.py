@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from hexmend.boundary.edges import SurfaceEdges, chains, segment_pairs
-from hexmend.boundary.prominence import LEAST_ANGLE, is_low, standing_corners, surrounding_bends
+from hexmend.boundary.prominence import LEAST_ANGLE, is_low, standing_corners, surrounding_angles
 from hexmend.boundary.skin_faces import edges_between_sets, lone_set_nodes
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.components import components
@@ -59,7 +59,7 @@ def feature_edges(
     around = np.zeros(angle.size)
     if feature_angle == AUTO:
         sharp = np.flatnonzero(feature)
-        around[sharp] = surrounding_bends(edges, angle, sharp)
+        around[sharp] = surrounding_angles(edges, angle, sharp)
     while True:
         chosen = np.flatnonzero(feature)
         segments = edges.nodes[chosen]

@@ -14,8 +14,6 @@ from hexmend.boundary.edges import SurfaceEdges, segment_pairs
 LEAST_ANGLE = 40.0
 #: Multiple of the bends of the surface around it that the mean dihedral angle of a chain has at least.
 EDGE_FACTOR = 3.5
-#: The same for a chain whose mean angle is above `CERTAIN_ANGLE`.
-CERTAIN_FACTOR = 1.75
 #: Multiple of the lower turn of its two neighbours at which a node of a curve is a corner.
 TURN_FACTOR = 2.0
 #: Angle, in degrees, of an edge or turn that is no bend of a smooth surface or curve, however coarse the mesh.
@@ -24,7 +22,7 @@ CERTAIN_ANGLE = 75.0
 _QUANTILE = 0.6
 
 
-def surrounding_bends(edges: SurfaceEdges, angle: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+def surrounding_angles(edges: SurfaceEdges, angle: np.ndarray, chosen: np.ndarray) -> np.ndarray:
     """Measure the bends of the surface around some edges.
 
     Parameters
@@ -49,12 +47,12 @@ def surrounding_bends(edges: SurfaceEdges, angle: np.ndarray, chosen: np.ndarray
     row, node = _unique_pairs(np.repeat(row, 2), edges.nodes[first].ravel(), edges.n)
     row, around = _unique_pairs(*_joined(row, node, start, number), angle.size)
     counts = (angle[around] <= CERTAIN_ANGLE) & (around != chosen[row])
-    row, bends = row[counts], angle[around[counts]]
-    order = np.lexsort((bends, row))
-    row, bends = row[order], bends[order]
+    row, angles = row[counts], angle[around[counts]]
+    order = np.lexsort((angles, row))
+    row, angles = row[order], angles[order]
     count = np.bincount(row, minlength=chosen.size)
     place = np.cumsum(count) - count + (_QUANTILE * count).astype(np.int64)
-    return np.where(count > 0, np.append(bends, 0.0)[np.minimum(place, bends.size)], 0.0)
+    return np.where(count > 0, np.append(angles, 0.0)[np.minimum(place, angles.size)], 0.0)
 
 
 def is_low(chain: np.ndarray, angle: np.ndarray, around: np.ndarray) -> np.ndarray:
@@ -71,9 +69,7 @@ def is_low(chain: np.ndarray, angle: np.ndarray, around: np.ndarray) -> np.ndarr
     -------
     (s,) bool
     """
-    total = np.bincount(chain, angle)
-    factor = np.where(total > CERTAIN_ANGLE * np.bincount(chain), CERTAIN_FACTOR, EDGE_FACTOR)
-    return (total < factor * np.bincount(chain, around))[chain]
+    return (np.bincount(chain, angle) < EDGE_FACTOR * np.bincount(chain, around))[chain]
 
 
 def standing_corners(segments: np.ndarray, turn: np.ndarray, between: np.ndarray) -> np.ndarray:

@@ -135,7 +135,7 @@ class NumberBox(QAbstractSpinBox):
         low = -math.inf if self._declaration.low is None else self._declaration.low
         high = math.inf if self._declaration.high is None else self._declaration.high
         if isinstance(value, str):
-            return self._beside(value, sign)
+            return self._next_to_word(value, sign)
         if sign > 0 and value >= high and self._declaration.no_limit:
             return self._declaration.no_limit
         if sign < 0 and value <= low and self._declaration.automatic:
@@ -150,7 +150,7 @@ class NumberBox(QAbstractSpinBox):
         stepped = round(value + sign * 10.0**exponent, 12 - exponent)
         return min(max(stepped, low), high)
 
-    def _beside(self, value: str, sign: int) -> float | str:
+    def _next_to_word(self, value: str, sign: int) -> float | str:
         """Return the next value up or down from a word or percentage: auto is below all numbers, no limit above."""
         declaration = self._declaration
         if value == declaration.automatic:
