@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.aliases import old_keywords, reads_old_names
 from hexmend.arrays import mask
 from hexmend.boundary.edges import SurfaceEdges, chains
-from hexmend.boundary.features import (
+from hexmend.boundary.feature_edges.features import (
     FEATURE_ANGLE,
     WHISKER_FACTOR,
     FeatureAngle,

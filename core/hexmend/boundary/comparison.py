@@ -11,7 +11,7 @@ from hexmend.aliases import old_keywords
 from hexmend.boundary.classification import boundary_of
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, NearPoints, triangulate
 from hexmend.boundary.edges import SurfaceEdges
-from hexmend.boundary.features import FEATURE_ANGLE, FeatureAngle, angle_in_degrees, dihedral_angles
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, angle_in_degrees, dihedral_angles
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_faces, as_points, points_like

@@ -8,7 +8,7 @@ from enum import IntEnum
 import numpy as np
 
 from hexmend.boundary.classification import NodeClass
-from hexmend.boundary.features import FEATURE_ANGLE, FeatureAngle
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase

@@ -14,9 +14,9 @@ from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import NodeClass, classify
 from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints, triangulate
 from hexmend.boundary.comparison import MAX_TARGET_DISTANCE
-from hexmend.boundary.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.edges import SurfaceEdges
-from hexmend.boundary.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges
+from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges
 from hexmend.boundary.flat_parts import flat_motion
 from hexmend.boundary.normals import unit_vectors, vertex_normals
 from hexmend.boundary.restrictions import fixed_on_surface, freed_by_rules, interface_nodes, moving_with_surface

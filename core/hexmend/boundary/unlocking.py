@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.arrays import mask
-from hexmend.boundary.features import FEATURE_ANGLE, FeatureAngle
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle
 from hexmend.boundary.flat_parts import flat_parts
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, TypeAlias, TypeVar
 import numpy as np
 
 from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
-from hexmend.boundary.features import FEATURE_ANGLE, FeatureAngle
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
 from hexmend.layers import Layers

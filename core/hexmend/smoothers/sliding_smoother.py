@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.boundary.features import AUTO, FEATURE_ANGLE
+from hexmend.boundary.feature_edges.features import AUTO, FEATURE_ANGLE
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Smoother

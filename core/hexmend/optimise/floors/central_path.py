@@ -169,7 +169,7 @@ class CentralPath:
                 _next(floors.quality, least.quality, target.quality, config.share),
             )
 
-    def settle(self, floors: Least, weights: tuple[float, ...]) -> Iterator[Least]:
+    def minimise_above(self, floors: Least, weights: tuple[float, ...]) -> Iterator[Least]:
         """Minimise the energy above floors, which lie below the present least values.
 
         Parameters

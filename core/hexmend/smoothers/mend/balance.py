@@ -133,7 +133,7 @@ def balance(
             min(max(share * top.jacobian, floor.jacobian), _below(top.jacobian, config.margin)),
             min(floor.quality, _below(top.quality, config.margin)),
         )
-        yield from _steps(path, path.settle(floors, config.weights))
+        yield from _steps(path, path.minimise_above(floors, config.weights))
         if not measure(path.points, energy.mesh.hexes).q.mean() < start.mean:
             break
     message = (

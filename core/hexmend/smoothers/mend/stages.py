@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Generator, Sequence
 from itertools import islice
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.boundary.features import AUTO
+from hexmend.boundary.feature_edges.features import AUTO
 from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
@@ -19,6 +18,7 @@ from hexmend.smoothers.base import Steps
 from hexmend.smoothers.mend.balance import balance, raise_jacobian
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.maxmin import MAXMIN, NO_CORNERS, active_set, maximise_minimum
+from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface, raise_within_tolerance
@@ -28,20 +28,17 @@ from hexmend.smoothers.mend.starts import raise_from_better
 from hexmend.smoothers.mend.time_step import maximise_time_step
 from hexmend.smoothers.mend.untangling import Untangled, UntanglingConfig, untangle
 
-if TYPE_CHECKING:
-    from hexmend.smoothers.mend.mend import Mend
-
 
 class Stages:
     """Stages of a run of mend.
 
     Parameters
     ----------
-    settings : Mend
+    settings : MendSettings
         The method with its parameters.
     """
 
-    def __init__(self, settings: Mend):
+    def __init__(self, settings: MendSettings):
         self.settings, self.goal = settings, settings.goal
 
     def steps(self, mesh: Mesh) -> Steps:

@@ -6,7 +6,7 @@ import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.boundary import NodeClass
-from hexmend.boundary.features import FEATURE_ANGLE
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
 from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import Structure as MeshStructure

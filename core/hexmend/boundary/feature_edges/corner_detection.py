@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of
 from hexmend.boundary.edges import edge_keys
-from hexmend.boundary.features import FEATURE_ANGLE, FeatureAngle, marked_corners
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners
 from hexmend.boundary.skin_faces import skin_faces
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from hexmend.boundary.edges import SurfaceEdges, chains, segment_pairs
-from hexmend.boundary.prominence import LEAST_ANGLE, is_low, standing_corners, surrounding_angles
+from hexmend.boundary.feature_edges.prominence import LEAST_ANGLE, is_low, standing_corners, surrounding_angles
 from hexmend.boundary.skin_faces import edges_between_sets, lone_set_nodes
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.components import components
@@ -40,7 +40,7 @@ def feature_edges(
     edges : SurfaceEdges
     feature_angle : float or "auto"
         Dihedral angle beyond which an edge is a feature; auto: chains of edges that stand out from the surface around
-        them, see `hexmend.boundary.prominence`.
+        them, see `hexmend.boundary.feature_edges.prominence`.
     given : (e,) bool
         Edges that are features whatever their angle.
     kept : (n,) bool
