@@ -12,7 +12,16 @@ from hexmend.iteration import Step
 from hexmend.optimise.floors.central_path import PATH, CentralPath, CentralPathConfig, Least
 from hexmend.quality import measure
 
-_PATIENT = replace(PATH, jacobian_gap=0.01, quality_gap=0.01, max_hexes=1.0, min_gain=1e-3, window=4, max_floors=50)
+_PATIENT = replace(
+    PATH,
+    jacobian_gap=0.01,
+    quality_gap=0.01,
+    max_hexes=0.2,
+    few_hexes=20_000,
+    min_gain=1e-3,
+    window=4,
+    max_floors=50,
+)
 _CAREFUL = replace(_PATIENT, jacobian_gap=5e-3, quality_gap=5e-3, min_gain=2e-4, max_floors=20)
 
 
