@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.energy.floor_barrier import FloorBarrier
-from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid, scrambled
 
 seeds = st.integers(0, 2**32 - 1)
@@ -156,8 +156,6 @@ def test_a_flattened_and_an_inverted_hex_are_below_any_floor():
 def test_the_barrier_of_a_part_has_the_values_of_its_hexes(seed, weight):
     energy, x, expected = case_of(seed, weight)
     hexes = np.arange(3, energy.mesh.n_hexes, 2)
-    part = energy.barrier.on_part(hexes)
-    lengths = energy._lengths
-    target = None if lengths is None else TargetMatrices(energy.unit / lengths[hexes], weight)
-    values = part.hex_values(x, energy.mesh.hexes[hexes], energy.omitted[hexes], target)
+    part = Mesh(energy.mesh.points, energy.mesh.hexes[hexes]).with_fixed(energy.mesh.fixed)
+    values = energy.on_part(part, hexes).barriers(x)
     np.testing.assert_allclose(values, expected[hexes], rtol=1e-9, atol=1e-12)
