@@ -224,7 +224,7 @@ def test_a_run_that_was_stopped_before_it_began_is_said_to_be_and_not_judged(met
 
 @pytest.mark.slow
 def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
-    result = smooth(slid(ball(3), 0.6, seed=0), "mend")
+    result = smooth(slid(ball(3), 0.6, seed=0), "mend", feature_angle=40.0)  # many edges, which hold some hexes
     advice = advise(result)
     now = Situation(result)
     assert 0 < now.freed < advice.locked.size
