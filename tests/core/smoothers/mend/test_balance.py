@@ -196,6 +196,6 @@ def test_of_real_meshes_nothing_falls(real_mesh, name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["swivel2_7494.mesh", "impeller.vtk", "cap_out.vtk"])
+@pytest.mark.parametrize("name", ["swivel2_7494.mesh", "impeller.vtk", "cap_out.mesh"])
 def test_of_larger_real_meshes_nothing_falls(real_mesh, name):
     check_nothing_falls(smooth(read(real_mesh(name)), Mend()))
