@@ -74,7 +74,7 @@ def test_above_floors_the_energy_falls_and_the_floors_are_kept(optimum):
     top, before = path.least, energy.value(path.x)
     floors = Least(0.9 * top.jacobian, 0.9 * top.quality)
     values = []
-    for least in path.settle(floors, (1.0, 0.1, 0.01)):
+    for least in path.minimise_above(floors, (1.0, 0.1, 0.01)):
         assert least.jacobian > floors.jacobian
         assert least.quality > floors.quality
         values.append(energy.value(path.x))
