@@ -126,7 +126,8 @@ template <class T> struct InverseDerivatives : Derivatives<T> {
 struct Inverse {
     static constexpr bool has_squares = true;
     template <class T> InverseDerivatives<T> operator()(const Derivatives<T> &d) const {
-        T q = 1.0 / d.eta, square = q * q, outer = 16.0 * square * q;
+        T q = d.eta > 0.0 ? 1.0 / d.eta : broadcast<T>(0.0);  // 0 where it is not counted
+        T square = q * q, outer = 16.0 * square * q;
         return {{q, -square * d.k, -square * d.c, -square * d.mixed - outer * d.k * d.c,
                  -square * d.half + 0.5 * outer * d.c * d.c},
                 outer * d.k * d.k};

@@ -157,7 +157,7 @@ def test_a_recipe_that_version_0_1_wrote_is_read_with_its_values():
         METHODS["getme-sequential"](**then, rejection_penalty=0.02),
         METHODS["local-patch"](**then, max_backtracks=40, backtrack_factor=0.6, initial_step=0.5),
         METHODS["global-nr"](**then, max_backtracks=30),
-        METHODS["mend"](**then, initial_epsilon=0.05, max_p=8.0, boundary="slide"),
+        METHODS["mend"](**then, goal="shape", p=2.0, initial_epsilon=0.05, max_p=8.0, boundary="slide"),
         title="Written by 0.1",
     )
     assert from_toml(to_toml(recipe)) == recipe

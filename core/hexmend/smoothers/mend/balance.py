@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hexmend.energy import MeshEnergy
+from hexmend.energy.sliding_energy import SlidingEnergy
 from hexmend.iteration import Step
 from hexmend.optimise.floors.central_path import PATH, CentralPath, CentralPathConfig, Least
 from hexmend.quality import measure
@@ -40,6 +41,8 @@ class BalanceConfig:
         Least distance of a floor from the value above it, as a share.
     weights : tuple of float
         Of the barrier while the energy falls above the floors.
+    returns : tuple of float
+        Shares of the way from the given mesh to the result that are tried where the mean of q(H) is lower all the same.
     sound : float
         Least scaled Jacobian from which on nothing is to be gained.
     path : CentralPathConfig
@@ -54,6 +57,7 @@ class BalanceConfig:
     quality_margin: float = 2e-3
     margin: float = 1e-4
     weights: tuple[float, ...] = (1.0, 0.1, 0.01)
+    returns: tuple[float, ...] = (0.5, 0.25, 0.125, 0.0625)
     sound: float = 0.99
     path: CentralPathConfig = PATH
     patient: CentralPathConfig = _PATIENT
@@ -145,11 +149,35 @@ def balance(
         yield from _steps(path, path.minimise_above(floors, config.weights))
         if not measure(path.points, energy.mesh.hexes).q.mean() < start.mean:
             break
+    else:
+        yield from _return_towards(path, energy.to_edge_units(given), start, config.returns)
     message = (
         f"The least scaled Jacobian of the corners that can be moved can be {top.jacobian:.4f}; it is kept at "
         f"{path.least.jacobian:.4f} at least, and the least q(H) at {path.least.quality:.4f}."
     )
     return Balanced(path.points, message)
+
+
+def _return_towards(path: CentralPath, given: np.ndarray, start: Floors, shares: tuple[float, ...]) -> Iterator[Step]:
+    """Go back towards the given mesh, x (n, 3), until the mean of q(H) is no lower than there, above the floors.
+
+    The worst hexes gain on the first part of the way, where the others lose little. Positions on a surface do not allow
+    it.
+    """
+    if isinstance(path.energy, SlidingEnergy):
+        return
+    far = path.x
+    for share in shares:
+        path.move_to(given + share * (far - given))
+        least = path.least
+        if (
+            least.jacobian >= start.jacobian
+            and least.quality >= start.quality
+            and not measure(path.points, path.energy.mesh.hexes).q.mean() < start.mean
+        ):
+            yield from _steps(path, iter([least]))
+            return
+    path.move_to(far)
 
 
 def _is_above(least: Least, floor: Least, margin: float) -> bool:

@@ -39,22 +39,38 @@ class Mend(MendSettings):
 
         Inverted hexes come first, then whether a guarded figure is lower than at the start, then whether the objective
         of the sound hexes, with the highest p that was asked for, is higher. With a target a fall counts from
-        `_TARGET_FALL` on: as given, a mesh may have better corners than hexes of the lengths that are asked for.
+        `_TARGET_FALL` on: as given, a mesh may have better corners than hexes of the lengths that are asked for. The
+        goal balanced guards the figures of all hexes but those that are inverted at the start and still are.
         """
+        if self.balances:
+            return now.n_inverted, self._lowers(start, now)
         share = 1 - _TARGET_FALL if now.against_target and not self.guard else 1.0
         fallen = (
             now.q.min() < share * start.q.min(),
             now.scaled_jacobian.min() < share * start.scaled_jacobian.min(),
         )
-        harmed = any(fallen) if self.guard or self.balances else all(fallen)
+        harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
             return now.n_inverted, harmed, -now.scaled_jacobian.min()
         if self.goal == "time-step":  # the time step itself comes last, see `rank_by_points`
             return now.n_inverted, harmed if self.guard else False
-        if self.balances:  # floors hold while the rest is raised: of equals the last is the best
-            return now.n_inverted, harmed or (start.n_inverted == 0 and now.q.mean() < start.q.mean())
         before, after = (objective_of_sound(of, self.norm) for of in (start, now))
         return now.n_inverted, harmed, after > before
+
+    def _lowers(self, start: ElementQuality, now: ElementQuality) -> bool:
+        """Return True if q min, the least scaled Jacobian or, of a sound mesh, q mean is lower than at the start."""
+        share = 1 - _TARGET_FALL if now.against_target else 1.0
+        judged = ~(start.inverted & now.inverted)
+        pairs = [(one.q[judged], one.scaled_jacobian[judged]) for one in (start, now)]
+        (q, jacobian), (new_q, new_jacobian) = pairs
+        if not q.size:
+            return False
+        mean_counts = not start.inverted[judged].any()
+        return (
+            new_q.min() < share * q.min()
+            or new_jacobian.min() < share * jacobian.min()
+            or (mean_counts and new_q.mean() < q.mean())
+        )
 
     def rank_by_points(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
         return (-least_heights(points, hexes).min(),) if self.goal == "time-step" else ()

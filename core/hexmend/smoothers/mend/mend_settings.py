@@ -57,7 +57,7 @@ class MendSettings(ObjectiveSmoother):
         Steps with a lower p record the objective with that p instead. Steps that raise the least scaled Jacobian do not
         minimise an energy: they record this one, for comparison, and it may rise.
         """
-        return ObjectiveNorm(max(self.first_norm.p, self.highest_p), self.offset)
+        return ObjectiveNorm(max(self.first_norm.p, self.p_limit), self.offset)
 
     @property
     def first_norm(self) -> ObjectiveNorm:
@@ -66,7 +66,7 @@ class MendSettings(ObjectiveSmoother):
         return ObjectiveNorm(automatic if self.p == AUTO else self.p, self.offset)
 
     @property
-    def highest_p(self) -> float:
+    def p_limit(self) -> float:
         """Value up to which p is doubled."""
         return 1.0 if self.balances else self.max_p
 

@@ -113,7 +113,7 @@ class Stages:
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)
         config = ShapeOptimumConfig(newton=newton)
-        return (yield from optimise_shape(energy, points, self.settings.highest_p, intermediate, config))
+        return (yield from optimise_shape(energy, points, self.settings.p_limit, intermediate, config))
 
     def _sound_energy(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None) -> MeshEnergy:
         """The energy with p = 1, without the corners that are inverted at these points."""
