@@ -32,7 +32,7 @@ BOUNDARY, PINNED, FREE, LOCKED = "#9aa5b4", "#e69f00", "#ffffff", "#f0e442"
 #: Colours of boundary nodes by class.
 KINDS: dict[int, str] = {
     NodeClass.CORNER: "#d55e00", NodeClass.CURVE: "#56b4e9", NodeClass.PATCH: "#009e73",
-    WHISKER: "#cc79a7", PIN: PINNED, LEFT: "#0072b2",
+    WHISKER: "#cc79a7", PIN: PINNED, LEFT: "#9b30ff",
 }  # fmt: skip
 
 #: Maximum number of marks of one kind that are drawn in full. More are drawn thinner, and paler inside the mesh, to
