@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.boundary import NodeClass, boundary_of, boundary_with_kept_corners, freed_by_sliding
 from hexmend.boundary.departures import Departures, departures
-from hexmend.boundary.features import FeatureAngle
+from hexmend.boundary.feature_edges.features import FeatureAngle
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes
 from hexmend_app.state.mesh.document import Document
@@ -65,7 +65,7 @@ def node_classes(mesh: Mesh, degrees: FeatureAngle, left: Departures | None = No
     ----------
     mesh : Mesh
     degrees : float or "auto"
-        Angle between two faces beyond which their edge is a feature; see `hexmend.boundary.features`.
+        Angle between two faces beyond which their edge is a feature; see `hexmend.boundary.feature_edges.features`.
     left : Departures, optional
         Nodes that have left the original boundary.
     """
