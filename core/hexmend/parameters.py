@@ -29,7 +29,7 @@ T = TypeVar("T")
 #: Beginning of the name of a set where the name alone is a word with another meaning.
 SET = "set:"
 #: Fields of `Parameter` that `hexmend methods --json` does not list.
-_NOT_IN_JSON = ("type", "no_limit", "suggestions", "sets", "automatic", "percent_of")
+_NOT_IN_JSON = ("type", "no_limit", "suggestions", "sets", "automatic", "percent_of", "titles")
 _TRUE, _FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
@@ -57,6 +57,8 @@ class Parameter:
         Word, where a number is expected, that leaves the choice to the program; then it is a value as well.
     percent_of : str
         Name of what a number with a per cent sign is a share of, such as "0.5%"; "" where such numbers are no values.
+    titles : tuple of str
+        Titles of the choices in forms, in their order; empty where the choices themselves say enough.
     """
 
     name: str
@@ -72,6 +74,7 @@ class Parameter:
     sets: bool = False
     automatic: str = ""
     percent_of: str = ""
+    titles: tuple[str, ...] = ()
 
     def check(self, value: Any) -> Any:
         """Return `value` as this parameter's type, or raise `ParameterError` saying what was expected.
@@ -187,10 +190,12 @@ def parameter(
     sets: bool = False,
     automatic: str = "",
     percent_of: str = "",
+    titles: tuple[str, ...] = (),
 ) -> Any:
     """Declare a dataclass field as a parameter; its type is the field's annotation, the rest as in `Parameter`."""
     own = {"low": low, "high": high, "choices": choices, "unit": unit, "help": help, "no_limit": no_limit}
     own |= {"suggestions": suggestions, "automatic": automatic, "percent_of": percent_of, "sets": sets}
+    own |= {"titles": titles}
     return dataclasses.field(default=default, metadata={"parameter": own})
 
 

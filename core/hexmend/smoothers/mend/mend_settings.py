@@ -17,6 +17,7 @@ class MendSettings(ObjectiveSmoother):
     goal: str = parameter(
         "balanced",
         choices=("balanced", "shape", "scaled-jacobian", "time-step"),
+        titles=("Balanced", "Best mean shape", "Least scaled Jacobian", "Longest time step"),
         help="balanced: the best mean shape above floors of the least scaled Jacobian and q(H), which rise first; "
         "shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian; time-step: or the "
         "smallest explicit time step, the least height of a hex.",
