@@ -28,6 +28,8 @@ T = TypeVar("T")
 
 #: Beginning of the name of a set where the name alone is a word with another meaning.
 SET = "set:"
+#: Fields of `Parameter` that `hexmend methods --json` does not list.
+_NOT_IN_JSON = ("type", "no_limit", "suggestions", "sets", "automatic", "percent_of", "titles")
 _TRUE, _FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
@@ -51,6 +53,12 @@ class Parameter:
         Word that stands for no limit, where the number is one; then it is a value as well.
     suggestions : tuple of str
         Values that forms offer for a text, which may be another.
+    automatic : str
+        Word, where a number is expected, that leaves the choice to the program; then it is a value as well.
+    percent_of : str
+        Name of what a number with a per cent sign is a share of, such as "0.5%"; "" where such numbers are no values.
+    titles : tuple of str
+        Titles of the choices in forms, in their order; empty where the choices themselves say enough.
     """
 
     name: str
@@ -64,6 +72,9 @@ class Parameter:
     no_limit: str = ""
     suggestions: tuple[str, ...] = ()
     sets: bool = False
+    automatic: str = ""
+    percent_of: str = ""
+    titles: tuple[str, ...] = ()
 
     def check(self, value: Any) -> Any:
         """Return `value` as this parameter's type, or raise `ParameterError` saying what was expected.
@@ -85,8 +96,10 @@ class Parameter:
                 names = ",".join(value)
                 return f"{SET}{names}" if names in self.suggestions else names
             return str(value)
-        if self.no_limit and isinstance(value, str) and value == self.no_limit:
+        if isinstance(value, str) and value and value in (self.no_limit, self.automatic):
             return value
+        if self.percent_of and isinstance(value, str) and value.strip().endswith("%"):
+            return self._percent(value)
         try:
             if isinstance(value, bool | complex) or getattr(value, "ndim", 0):
                 raise ValueError
@@ -100,6 +113,16 @@ class Parameter:
         if (self.low is not None and number < self.low) or (self.high is not None and number > self.high):
             raise self._error(value, "is out of range")
         return number
+
+    def _percent(self, value: str) -> str:
+        """Return a number with a per cent sign in its shortest form."""
+        try:
+            number = float(value.strip()[:-1])
+        except ValueError:
+            raise self._error(repr(value), f"is not {self._kind}") from None
+        if not 0 <= number <= 100:
+            raise self._error(value, "is out of range")
+        return f"{number:.12g}%"
 
     def _error(self, shown: object, problem: str) -> ParameterError:
         return ParameterError(f"{self.name} = {shown} {problem}: expected {self.range}")
@@ -125,7 +148,9 @@ class Parameter:
             words += f" of at least {self.low:g}"
         elif self.high is not None:
             words += f" of at most {self.high:g}"
-        return f"{words}, or {self.no_limit}" if self.no_limit else words
+        percent = f"a percentage such as 0.5% of the {self.percent_of}" if self.percent_of else ""
+        others = [other for other in (percent, self.automatic, self.no_limit) if other]
+        return f"{', '.join([words, *others[:-1]])}, or {others[-1]}" if others else words
 
     def parse(self, text: str) -> Any:
         """Convert text, of the command line for example, to a value; raises `ParameterError` where it is none."""
@@ -143,9 +168,7 @@ class Parameter:
 
     def to_json(self) -> dict[str, Any]:
         """The row of `hexmend methods --json`."""
-        row = {
-            key: value for key, value in vars(self).items() if key not in ("type", "no_limit", "suggestions", "sets")
-        }
+        row = {key: value for key, value in vars(self).items() if key not in _NOT_IN_JSON}
         return row | {"choices": None if self.choices is None else list(self.choices)}
 
 
@@ -165,10 +188,14 @@ def parameter(
     no_limit: str = "",
     suggestions: tuple[str, ...] = (),
     sets: bool = False,
+    automatic: str = "",
+    percent_of: str = "",
+    titles: tuple[str, ...] = (),
 ) -> Any:
     """Declare a dataclass field as a parameter; its type is the field's annotation, the rest as in `Parameter`."""
     own = {"low": low, "high": high, "choices": choices, "unit": unit, "help": help, "no_limit": no_limit}
-    own |= {"suggestions": suggestions, "sets": sets}
+    own |= {"suggestions": suggestions, "automatic": automatic, "percent_of": percent_of, "sets": sets}
+    own |= {"titles": titles}
     return dataclasses.field(default=default, metadata={"parameter": own})
 
 

@@ -52,6 +52,27 @@ def test_a_limit_may_have_a_word_for_none():
         Sample(rho="unlimited")
 
 
+@dataclass(frozen=True)
+class Distance(Parametrised):
+    most: float = parameter(
+        "auto", low=0, high=10, help="A limit.", no_limit="unlimited", automatic="auto", percent_of="diagonal"
+    )
+
+
+@pytest.mark.parametrize(("text", "value"), [("auto", "auto"), ("0.50 %", "0.5%"), ("3", 3.0), ("inf", "unlimited")])
+def test_a_number_may_be_left_to_the_program_or_be_a_percentage(text, value):
+    assert from_strings(Distance, {"most": text}) == from_values(Distance, {"most": text}) == Distance(most=value)
+    assert Distance(most=text).most == value
+    assert Distance().most == "auto"
+
+
+@pytest.mark.parametrize("wrong", ["-1%", "101%", "x%", "%", "automatic", "", "nan%"])
+def test_a_wrong_percentage_names_what_is_expected(wrong):
+    expected = "a number from 0 to 10, a percentage such as 0.5% of the diagonal, auto, or unlimited"
+    with pytest.raises(ParameterError, match=f"most = .*: expected {expected}$"):
+        Distance(most=wrong)
+
+
 def test_infinity_is_no_limit_however_it_is_written():
     for value in (float("inf"), "inf", np.inf, np.float32("inf")):
         assert Sample(most=value).most == "unlimited"

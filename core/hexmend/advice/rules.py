@@ -100,15 +100,22 @@ def undo_inversion(now: Situation) -> Suggestion | None:
 
 
 def continue_run(now: Situation) -> Suggestion | None:
-    """Suggest to continue an optimiser that was ended while it still improved the mesh."""
+    """Suggest to continue an optimiser that was ended while it still improved the mesh.
+
+    A run that balances the figures, and has begun to raise the least of them, would begin that again: see
+    `restart_longer`.
+    """
     if not _still_optimises(now) or (now.unlocked.size and not _is_mend(now)):
+        return None
+    if now.balances and not (now.unlocked.size or now.at_least_objective):
         return None
     stop, more = larger_limits(now)
     stop, keeping = with_last_kept(now, stop)
-    gain = "inverted" if now.unlocked.size else now.aim
+    gain = "inverted" if now.unlocked.size else "figures" if now.balances else now.aim
     gained = {
         "inverted": "fewer hexes were inverted",
         "objective": "the objective fell",
+        "figures": "the objective fell",
         "energy": "nodes moved down the energy",
         "q_norm": "the quality rose",
     }
@@ -119,8 +126,7 @@ def continue_run(now: Situation) -> Suggestion | None:
 def restart_longer(now: Situation) -> Suggestion | None:
     """Suggest larger limits for Mend if it ended during a phase whose iterations are not kept."""
     limited = now.result.outcome in (Outcome.MAX_ITERATIONS, Outcome.MAX_SECONDS)
-    detours = _is_mend(now) and (now.smoother.slides or now.smoother.goal != "shape")
-    if not (limited and detours) or continue_run(now) is not None:
+    if not (limited and _detours(now)) or continue_run(now) is not None:
         return None
     stop, more = larger_limits(now)
     text = (
@@ -134,8 +140,11 @@ def suggest_newton(now: Situation) -> Suggestion | None:
     """Suggest Mend for a slower optimiser that reached its limit."""
     if not _still_optimises(now) or now.unlocked.size or _is_mend(now):
         return None
-    text = f"Run Mend: its Newton steps go to the same optimum as {now.smoother.title} in far fewer iterations."
-    return Suggestion("Mend", text, now.aim, Mend(**now.objective))
+    text = (
+        f"Run Mend with goal = shape: its Newton steps go to the same optimum as {now.smoother.title} in far fewer "
+        "iterations."
+    )
+    return Suggestion("Mend, goal = shape", text, now.aim, Mend(**{**now.objective, "goal": "shape"}))
 
 
 def tighten_tolerance(now: Situation) -> Suggestion | None:
@@ -143,7 +152,7 @@ def tighten_tolerance(now: Situation) -> Suggestion | None:
     usual, own = StoppingCriteria().tolerance, now.stop.tolerance
     if now.result.outcome is not Outcome.CONVERGED or not now.smoother.optimises or now.unlocked.size:
         return None
-    if own <= usual or not now.improving:
+    if own <= usual or not now.improving or _detours(now):  # whose stages end for reasons of their own
         return None
     stop, keeping = with_last_kept(now, replace(now.stop, tolerance=usual))
     text = f"Run it once more with a tolerance of {usual:g} in place of {own:g}: it still gained.{keeping}"
@@ -151,15 +160,12 @@ def tighten_tolerance(now: Situation) -> Suggestion | None:
 
 
 def optimum(now: Situation) -> Suggestion | None:
-    """Suggest an optimiser after a heuristic."""
+    """Suggest Mend after a heuristic."""
     heuristic = not now.smoother.optimises and not isinstance(now.smoother, SequentialGETMe)
     if not (heuristic or now.result.outcome is Outcome.SUFFICIENT) or not _sound_below(now, PERFECT):
         return None
-    text = (
-        "Run Mend: it moves the mesh to the optimum of the objective, where the worst hexes gain most; the mean may "
-        "fall a little."
-    )
-    return Suggestion("Mend", text, "objective", Mend(**now.objective))
+    text = "Run Mend: it raises q min, q mean and the least scaled Jacobian as far as they go together; none falls."
+    return Suggestion("Mend", text, "figures", Mend(**now.objective))
 
 
 def improve_worst(now: Situation) -> Suggestion | None:
@@ -174,14 +180,17 @@ def raise_p(now: Situation) -> Suggestion | None:
     """Suggest a higher p, which improves the worst hexes of an optimised mesh."""
     if not _worst_can_gain(now):
         return None
-    text = f"Run Mend with p up to {HIGH_P:g}: it improves the worst hexes at the expense of the mean."
+    text = f"Run Mend with goal = shape and p up to {HIGH_P:g}: it improves the worst hexes at the expense of the mean."
     stop = StoppingCriteria(max_iterations=max(500, now.stop.max_iterations))
-    return Suggestion(f"Mend, p up to {HIGH_P:g}", text, "q_min", Mend(**now.objective, max_p=HIGH_P), stop)
+    smoother = Mend(**{**now.objective, "goal": "shape"}, max_p=HIGH_P)
+    return Suggestion(f"Mend, p up to {HIGH_P:g}", text, "q_min", smoother, stop)
 
 
 def guard(now: Situation) -> Suggestion | None:
-    """Suggest the guard if the least quality has fallen."""
+    """Suggest the guard if the least quality has fallen; the goal balanced needs none."""
     before, after = now.result.before, now.result.after
+    if now.balances:
+        return None
     if not _is_mend(now) or now.smoother.guard or before.inverted or after.inverted or after.q_min >= before.q_min:
         return None
     text = (
@@ -223,6 +232,11 @@ def _is_mend(now: Situation) -> bool:
     return isinstance(now.smoother, Mend)
 
 
+def _detours(now: Situation) -> bool:
+    """Return True if the mesh may be worse for a while before the run ends."""
+    return _is_mend(now) and (now.smoother.slides or now.smoother.goal != "shape")
+
+
 def _sound_below(now: Situation, quality: float) -> bool:
     """Return True if no hex is inverted and the worst one, below this quality, has a free node."""
     return not now.unlocked.size and not now.locked.size and now.result.after.q_min < quality and now.worst_can_move
@@ -235,4 +249,4 @@ def _still_optimises(now: Situation) -> bool:
 def _worst_can_gain(now: Situation) -> bool:
     """Return True at an optimum of low p whose worst hex is not good."""
     at_optimum = now.smoother.optimises and now.result.outcome in (Outcome.CONVERGED, Outcome.NO_DESCENT)
-    return at_optimum and _sound_below(now, GOOD) and now.max_p < HIGH_P
+    return at_optimum and _sound_below(now, GOOD) and now.p < HIGH_P

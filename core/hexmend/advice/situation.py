@@ -71,12 +71,12 @@ class Situation:
     @property
     def p(self) -> float:
         """The exponent of the objective."""
-        return getattr(self.smoother, "p", 2.0)
+        return self.smoother.norm.p
 
     @property
-    def objective(self) -> dict[str, float]:
-        """The method's parameters p and offset of the objective, if it has them."""
-        return {name: value for name, value in self.smoother.values().items() if name in ("p", "offset")}
+    def objective(self) -> dict[str, float | str]:
+        """The method's parameters goal, and p and offset of the objective, if it has them."""
+        return {name: value for name, value in self.smoother.values().items() if name in ("goal", "p", "offset")}
 
     @property
     def sliding(self) -> dict[str, str]:
@@ -84,16 +84,22 @@ class Situation:
         return {"boundary": "slide"} if self.smoother.slides else {}
 
     @property
-    def max_p(self) -> float:
-        """The highest exponent of the objective during the run."""
-        return max(self.p, getattr(self.smoother, "max_p", 1.0))
-
-    @property
     def aim(self) -> str:
         """Name of the figure that an optimiser improves; q_norm if the objective is infinite."""
         if objective(self.quality, *self.smoother.norm) is None:
             return "q_norm"
         return "objective" if self.smoother.norm == SQUARES else "energy"
+
+    @property
+    def balances(self) -> bool:
+        """True if the goal is the best shape in which no figure is lower than at the start."""
+        return isinstance(self.smoother, METHODS["mend"]) and self.smoother.balances
+
+    @property
+    def at_least_objective(self) -> bool:
+        """True if the last iteration had the least objective of all: mend is on its way to the optimum of shape."""
+        values = [row["objective"] for row in self.result.history if row["objective"] is not None]
+        return bool(values) and self.result.history[-1]["objective"] == min(values)
 
     @cached_property
     def improving(self) -> bool:

@@ -5,7 +5,8 @@ from hexmend.boundary.band import Deviations
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of, classify
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees
 from hexmend.boundary.comparison import SkinSurface, SurfaceChange, mutual_distances, surface_change
-from hexmend.boundary.corner_detection import boundary_with_kept_corners
+from hexmend.boundary.departures import Departures, Keeping, departures
+from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.boundary.surface import PartitionedSurface
 from hexmend.boundary.unlocking import freed_by_sliding
@@ -14,7 +15,9 @@ __all__ = [
     "Boundary",
     "ClosestPointTrees",
     "ClosestPoints",
+    "Departures",
     "Deviations",
+    "Keeping",
     "NodeClass",
     "PartitionedSurface",
     "SkinSurface",
@@ -23,6 +26,7 @@ __all__ = [
     "boundary_of",
     "boundary_with_kept_corners",
     "classify",
+    "departures",
     "freed_by_sliding",
     "mutual_distances",
     "surface_change",

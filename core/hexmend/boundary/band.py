@@ -181,7 +181,7 @@ class Band:
         closest, nodes, weights = self.skin.with_points(points).closest_on(x, enough)
         return _deviations_above(limit, indices, x, closest, nodes, weights)
 
-    def nodes_outside_band(self, points: np.ndarray) -> np.ndarray:
+    def nodes_outside_band(self, points: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
         """Find nodes at which the boundary is outside the band and further from the surface than at first.
 
         Where a sample of the surface is too far from the boundary, these are the nodes of the face closest to it now
@@ -191,6 +191,8 @@ class Band:
         ----------
         points : (n, 3) float64
             Node positions.
+        changed : (n,) bool, optional
+            Nodes of whose samples the distance from the surface is examined; all by default.
 
         Returns
         -------
@@ -200,8 +202,8 @@ class Band:
         if not np.isfinite(self.max_deviation):
             return NO_NODES
         initial, nodes, _ = self.initial_surface_deviation
-        boundary_limit = self._allowed(self._initial_boundary_deviation)
-        boundary = self.boundary_deviation(points, np.arange(len(self.samples)), boundary_limit)
+        own = np.arange(len(self.samples)) if changed is None else np.flatnonzero(changed[self.samples].any(axis=1))
+        boundary = self.boundary_deviation(points, own, self._allowed(self._initial_boundary_deviation[own]))
         surface = self.surface_deviation(points, limit=self._allowed(initial))
         return np.unique(np.concatenate([x.ravel() for x in (boundary.nodes, surface.nodes, nodes[surface.indices])]))
 

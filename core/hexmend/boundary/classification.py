@@ -10,13 +10,14 @@ import numpy as np
 from hexmend.aliases import old_keywords, reads_old_names
 from hexmend.arrays import mask
 from hexmend.boundary.edges import SurfaceEdges, chains
-from hexmend.boundary.features import (
+from hexmend.boundary.feature_edges.features import (
     FEATURE_ANGLE,
     WHISKER_FACTOR,
+    FeatureAngle,
+    curve_corners,
     feature_edges,
     marked_corners,
     marked_edges,
-    turning_angles,
 )
 from hexmend.boundary.skin_faces import skin_faces
 from hexmend.errors import MeshError
@@ -98,9 +99,9 @@ class Boundary:
 @old_keywords("boundary_of")
 def boundary_of(
     mesh: Mesh,
-    feature_angle: float = FEATURE_ANGLE,
+    feature_angle: FeatureAngle = FEATURE_ANGLE,
     *,
-    turn: float | None = None,
+    turn: FeatureAngle | None = None,
     whisker: float = WHISKER_FACTOR,
     sharp: np.ndarray | None = None,
     corners: np.ndarray | None = None,
@@ -112,13 +113,15 @@ def boundary_of(
     Parameters
     ----------
     mesh : Mesh
-    feature_angle : float
-        Dihedral angle beyond which an edge is a feature.
-    turn : float, optional
+    feature_angle : float or "auto"
+        Dihedral angle beyond which an edge is a feature. auto: edges of more than 40 degrees in chains that stand out
+        from the bends of the surface around them.
+    turn : float or "auto", optional
         Angle between successive segments beyond which a curve has a corner, in degrees; `feature_angle` by default.
+        auto: more than 40 degrees and than the turns beside it, or more than 75.
     whisker : float
         Feature edges that end in the middle of a patch, or are isolated, are dropped if the sum of their dihedral
-        angles is less than this multiple of `feature_angle`; 0 keeps them all.
+        angles is less than this multiple of `feature_angle` (auto: of 40 degrees); 0 keeps them all.
     sharp : (e, 2) int, optional
         Edges that are features whatever their angle. By default those that the mesh's file marks (Medit's Ridges and
         RequiredEdges, and edges at which references of Quadrilaterals change), and those at which named sets end.
@@ -151,9 +154,9 @@ def boundary_of(
 def classify(
     points: np.ndarray,
     faces: np.ndarray,
-    feature_angle: float = FEATURE_ANGLE,
+    feature_angle: FeatureAngle = FEATURE_ANGLE,
     *,
-    turn: float | None = None,
+    turn: FeatureAngle | None = None,
     whisker: float = WHISKER_FACTOR,
     sharp: np.ndarray | None = None,
     corners: np.ndarray | None = None,
@@ -189,7 +192,7 @@ def classify(
     segments = edges.nodes[feature]
     valence = np.bincount(segments.ravel(), minlength=n)
     corner = kept | ((valence != 2) & (valence != 0)) | (edges.fans > 1)
-    corner |= turning_angles(points, segments, ~corner & (valence == 2)) > (feature_angle if turn is None else turn)
+    corner |= curve_corners(points, segments, ~corner & (valence == 2), feature_angle if turn is None else turn)
     curve_of_segment = chains(segments, corner)
     patch_of_face = components(len(faces), edges.neighbours[~feature & (edges.count == 2)])
 

@@ -11,7 +11,7 @@ from hexmend.aliases import old_keywords
 from hexmend.boundary.classification import boundary_of
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, NearPoints, triangulate
 from hexmend.boundary.edges import SurfaceEdges
-from hexmend.boundary.features import FEATURE_ANGLE, dihedral_angles
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, angle_in_degrees, dihedral_angles
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_faces, as_points, points_like
@@ -213,14 +213,14 @@ def mutual_distances(one: SkinSurface, other: SkinSurface) -> tuple[np.ndarray, 
 
 
 @old_keywords("surface_change")
-def surface_change(before: Mesh, after: Mesh, feature_angle: float = FEATURE_ANGLE) -> SurfaceChange:
+def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEATURE_ANGLE) -> SurfaceChange:
     """Measure the change of a mesh's boundary between two states.
 
     Parameters
     ----------
     before, after : Mesh
         Meshes with the same hexes. The original boundary is given by `before.surface_points`.
-    feature_angle : float
+    feature_angle : float or "auto"
         Dihedral angle beyond which an edge is sharp.
 
     Returns
@@ -248,7 +248,8 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: float = FEATURE_ANG
     both = mutual_distances(after.target or old, new)
     was, now = old.points[old.nodes], new.points[old.nodes]
     sharp = np.isin(old.edges.key, old.edges.keys_of(boundary_of(before, feature_angle).segments))
-    sharp &= dihedral_angles(old.points, old.edges) > feature_angle
+    least = angle_in_degrees(feature_angle)
+    sharp &= dihedral_angles(old.points, old.edges) > least
     volume = old.volume()
     return SurfaceChange(
         max_distance=float(max(one.max() for one in both)),
@@ -258,6 +259,6 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: float = FEATURE_ANG
         volume_change=(new.volume() - volume) / volume if volume else 0.0,
         moved=int(np.count_nonzero(np.linalg.norm(now - was, axis=1) > _MOVE_TOLERANCE * before.mean_edge_length)),
         features=int(np.count_nonzero(sharp)),
-        features_kept=int(np.count_nonzero(sharp & (dihedral_angles(new.points, new.edges) > feature_angle))),
+        features_kept=int(np.count_nonzero(sharp & (dihedral_angles(new.points, new.edges) > least))),
         reference="" if after.target is None else after.target.name or "the surface",
     )

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
 
 from hexmend.aliases import reads_old_names
-from hexmend.arrays import index_of
+from hexmend.arrays import index_of, mask
 from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import NodeClass, classify
 from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints, triangulate
 from hexmend.boundary.comparison import MAX_TARGET_DISTANCE
-from hexmend.boundary.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.edges import SurfaceEdges
-from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
+from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges
 from hexmend.boundary.flat_parts import flat_motion
 from hexmend.boundary.normals import unit_vectors, vertex_normals
 from hexmend.boundary.restrictions import fixed_on_surface, freed_by_rules, interface_nodes, moving_with_surface
@@ -30,6 +31,8 @@ from hexmend.mesh.validation import as_points, points_like
 #: A point is inside a triangle or segment if all its weights there exceed this; its tangent is then that of the
 #: triangle or segment, else one interpolated between vertices.
 _INTERIOR_WEIGHT = 1e-3
+#: Cached properties that depend on which nodes slide.
+_OF_SLIDING_NODES = ("sliding_surface", "curved_nodes", "linear_mesh", "_flat", "rings")
 
 
 @reads_old_names
@@ -44,7 +47,7 @@ class SlidingBoundary(Band):
     ----------
     mesh : Mesh
         Nodes slide on its `target`, or else on the boundary that its `surface_points` define.
-    feature_angle : float
+    feature_angle : float or "auto"
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
     max_deviation : float
         Largest distance of the boundary's edge and face midpoints from the surface, in the mesh's unit.
@@ -61,7 +64,7 @@ class SlidingBoundary(Band):
     releasable : (n,) bool
         True for corners found by angle, which may be made to slide; false for those that are marked or pinned.
     confined : (n,) bool
-        True for nodes that never leave the surface: those of interfaces.
+        True for nodes that never leave the surface: those of interfaces and of edges that are marked.
     mesh : Mesh
         The given mesh with only corners, pinned nodes and unused nodes fixed; its sliding nodes lie on the target.
     nodes : (k,) int64
@@ -69,7 +72,7 @@ class SlidingBoundary(Band):
     """
 
     def __init__(
-        self, mesh: Mesh, feature_angle: float = FEATURE_ANGLE, max_deviation: float = np.inf, outer: bool = True
+        self, mesh: Mesh, feature_angle: FeatureAngle = FEATURE_ANGLE, max_deviation: float = np.inf, outer: bool = True
     ):
         whole = boundary_with_kept_corners(mesh, feature_angle)
         stays = fixed_on_surface(mesh, outer)
@@ -90,7 +93,8 @@ class SlidingBoundary(Band):
         self.nodes = np.flatnonzero(slides)
         self.releasable = self.boundary.node_class == NodeClass.CORNER
         self.releasable[marked_corners(mesh)] = False
-        self.confined = interface_nodes(mesh)
+        self.confined = interface_nodes(mesh).copy()
+        self.confined[marked_edges(mesh)] = True
         self.releasable &= ~(stays | self.confined)
         self._group = self.surface.group_of(self.nodes)
         self._number = index_of(self.nodes, mesh.n_nodes)
@@ -98,6 +102,31 @@ class SlidingBoundary(Band):
             start, mesh = self.projected(start), mesh.with_points(self.projected(mesh.points))
         super().__init__(mesh.surface_points, self.boundary.faces, start, target, max_deviation)
         self.mesh = mesh.with_fixed(mesh.fixed & ~slides)
+
+    @property
+    def leavable(self) -> np.ndarray:
+        """Nodes of the boundary that may leave the surface where it holds the hexes down, (n,) bool."""
+        leavable = self.releasable & self.mesh.fixed
+        leavable[self.nodes] = True
+        return leavable & ~self.confined
+
+    def without_nodes(self, nodes: np.ndarray, max_deviation: float) -> SlidingBoundary:
+        """Return the sliding boundary with some nodes (k,) free: they move in all directions, off the surface too.
+
+        The band is `max_deviation` wide, in the mesh's unit, and quads at these nodes may be turned over.
+        """
+        other, freed = copy.copy(self), mask(nodes, self.mesh.n_nodes)
+        for name in _OF_SLIDING_NODES:
+            vars(other).pop(name, None)
+        judged = ~freed[self.boundary.faces].any(axis=1)
+        other.boundary, other.node_class = self.boundary.without_nodes(nodes).with_faces(judged), self.node_class.copy()
+        vars(other)["outward"], other.max_deviation = self.outward[judged], max_deviation
+        other.node_class[nodes] = NodeClass.INSIDE
+        stays = ~freed[self.nodes]
+        other.nodes, other._group = self.nodes[stays], self._group[stays]
+        other._number = index_of(other.nodes, self.mesh.n_nodes)
+        other.mesh = self.mesh.with_fixed(self.mesh.fixed & ~freed)
+        return other
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:
         """Return True for each of some nodes (k,) that slides, (k,) bool."""
@@ -243,16 +272,18 @@ class SlidingBoundary(Band):
         kernels.flipped_quads(before, after, self.boundary.faces, self.outward, found)
         return np.flatnonzero(found)
 
-    def rejected_nodes(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    def rejected_nodes(self, before: np.ndarray, after: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
         """Find nodes whose moves flip a quad or take the boundary out of its band, (k,) int.
 
         Parameters
         ----------
         before, after : (n, 3) float64
             Node positions.
+        changed : (n,) bool, optional
+            Nodes at which the band is examined; all by default.
         """
         flipped = self.boundary.faces[self.flipped_quads(before, after)].ravel()
-        return np.union1d(flipped, self.nodes_outside_band(after))
+        return np.union1d(flipped, self.nodes_outside_band(after, changed))
 
     def reject_flips(self, before: np.ndarray, after: np.ndarray, exempt: np.ndarray | None = None) -> np.ndarray:
         """Undo the moves of nodes whose quads a step flips, until none is flipped.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.arrays import mask
-from hexmend.boundary.features import FEATURE_ANGLE
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle
 from hexmend.boundary.flat_parts import flat_parts
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
@@ -13,7 +13,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants
 
 
-def freed_by_sliding(mesh: Mesh, locked: np.ndarray, feature_angle: float = FEATURE_ANGLE) -> np.ndarray:
+def freed_by_sliding(mesh: Mesh, locked: np.ndarray, feature_angle: FeatureAngle = FEATURE_ANGLE) -> np.ndarray:
     """Find locked hexes that may become valid once boundary nodes slide.
 
     A corner tetrahedron with sigma <= 0 stays inverted if its nodes are all fixed, all lie on one flat patch, or three
@@ -24,7 +24,7 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, feature_angle: float = FEAT
     mesh : Mesh
     locked : (m,) bool
         Locked hexes; see `hexmend.quality.locked`.
-    feature_angle : float
+    feature_angle : float or "auto"
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
 
     Returns

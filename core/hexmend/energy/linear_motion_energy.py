@@ -7,6 +7,7 @@ import numpy as np
 from hexmend.arrays import dot, mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian
+from hexmend.energy.floor_barrier import FloorBarrier
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.reduction import Reduction
@@ -63,6 +64,11 @@ class LinearMotionEnergy(MeshEnergy):
         other.energy = self.energy.with_objective(norm, omitted)
         return other
 
+    def with_barrier(self, barrier: FloorBarrier | None) -> LinearMotionEnergy:
+        other = super().with_barrier(barrier)
+        other.energy = self.energy.with_barrier(barrier)
+        return other
+
     def to_mesh_units(self, x: np.ndarray) -> np.ndarray:
         """Points in the mesh's own unit of length, (n, 3); constraints hold to the last bit."""
         return self.mesh.constrained(super().to_mesh_units(x))
@@ -86,8 +92,10 @@ class LinearMotionEnergy(MeshEnergy):
         step[mask(stopped, len(x))[self.nodes]] = 0.0
         return slope
 
-    def infeasible_nodes(self, x: np.ndarray, moved: np.ndarray) -> np.ndarray | None:
-        marks = self.energy.infeasible_nodes(x, moved)
+    def infeasible_nodes(
+        self, x: np.ndarray, moved: np.ndarray, changed: np.ndarray | None = None
+    ) -> np.ndarray | None:
+        marks = self.energy.infeasible_nodes(x, moved, changed)
         return None if marks is None else self.with_masters(marks)
 
     def with_masters(self, marks: np.ndarray) -> np.ndarray:

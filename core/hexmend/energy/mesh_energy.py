@@ -12,6 +12,7 @@ import numpy as np
 from hexmend.aliases import reads_old_names
 from hexmend.arrays import dot, index_of
 from hexmend.energy.assembled_hessian import AssembledHessian
+from hexmend.energy.floor_barrier import FloorBarrier
 from hexmend.energy.hex_energy import as_omitted_corners, energies
 from hexmend.energy.linear_operator import SymmetricOperator
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
@@ -51,6 +52,8 @@ class MeshEnergy:
         Free nodes; row i of a gradient belongs to node nodes[i].
     target : TargetMatrices or None
         Of the mesh, in the energy's unit of length.
+    barrier : FloorBarrier or None
+        Added to the energy; for delta = 0.
 
     Examples
     --------
@@ -72,6 +75,7 @@ class MeshEnergy:
         self.unit = mesh.mean_edge_length or 1.0
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
         self._set_target(mesh)
+        self.barrier: FloorBarrier | None = None
         self._scratch = threading.local()
 
     @cached_property
@@ -151,6 +155,7 @@ class MeshEnergy:
         """
         energy = MeshEnergy(part, self.norm, self.omitted[hexes])
         energy.unit = self.unit
+        energy.barrier = None if self.barrier is None else self.barrier.on_part(hexes)
         if self._lengths is not None:
             lengths, weight = self._lengths[hexes], self.mesh.element_target.size_weight
             energy._lengths, energy.target = lengths, TargetMatrices(self.unit / lengths, weight)
@@ -169,6 +174,12 @@ class MeshEnergy:
         """
         other = copy.copy(self)
         other.norm, other.omitted = norm, as_omitted_corners(omitted, self.mesh.n_hexes)
+        return other
+
+    def with_barrier(self, barrier: FloorBarrier | None) -> MeshEnergy:
+        """Return a copy to which a barrier of floors is added in place of its own; see `with_objective`."""
+        other = copy.copy(self)
+        other.barrier = barrier
         return other
 
     def to_edge_units(self, points: np.ndarray) -> np.ndarray:
@@ -191,17 +202,25 @@ class MeshEnergy:
         """Compute eta(H) of every hex at points x (n, 3), (m,); +inf at delta = 0 for an inverted hex."""
         return energies(self._as_points(x), self.mesh.hexes, delta, self.omitted, offset, self.target)
 
+    def barriers(self, x: np.ndarray) -> np.ndarray | float:
+        """Compute the barrier of floors of every hex at points x (n, 3), (m,), or 0 where there is none."""
+        if self.barrier is None:
+            return 0.0
+        return self.barrier.hex_values(self._as_points(x), self.mesh.hexes, self.omitted, self.target)
+
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Compute the sum of eta(H)^p at points x (n, 3); +inf at delta = 0 if any hex is inverted."""
         p, offset = self.norm
         eta = self.hex_energies(x, delta, offset)
         with np.errstate(over="ignore"):  # near the barrier, or with a node far away, it is infinite
-            return float((np.square(eta) if p == 2 else np.power(eta, p)).sum())
+            return float((np.square(eta) if p == 2 else np.power(eta, p)).sum() + np.sum(self.barriers(x)))
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Compute the gradient with respect to the free nodes at points x (n, 3), (k, 3): (B.3), (B.21), (C.2)."""
         x, shares = self._as_points(x), self._corner_buffer
         kernels.gradient(x, self.mesh.hexes, delta, self.norm, self.omitted, shares, self.target)
+        if self.barrier is not None:
+            self.barrier.add_gradient(x, self.mesh.hexes, self.omitted, shares, self.target)
         return self._sum_at_nodes()
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
@@ -212,8 +231,13 @@ class MeshEnergy:
         """Compute the slope of `value` at x along a step (k, 3) of the free nodes from the gradient (k, 3) there."""
         return dot(step, gradient)
 
-    def infeasible_nodes(self, x: np.ndarray, moved: np.ndarray) -> np.ndarray | None:
-        """Return True for nodes that may not move from x (n, 3) to `moved` (n, 3), (n,) bool; None if all may."""
+    def infeasible_nodes(
+        self, x: np.ndarray, moved: np.ndarray, changed: np.ndarray | None = None
+    ) -> np.ndarray | None:
+        """Return True for nodes that may not move from x (n, 3) to `moved` (n, 3), (n,) bool; None if all may.
+
+        With `changed`, (n,) bool, other nodes are known to be where they may.
+        """
         return None
 
     def with_masters(self, marks: np.ndarray) -> np.ndarray:
@@ -255,6 +279,8 @@ class Hessian(SymmetricOperator):
 
     def _product(self, v: np.ndarray) -> np.ndarray:
         energy, v = self.energy, v.reshape(-1, 3)
+        if energy.barrier is not None:
+            return self.assembled(np.float64) @ v.ravel()
         kernels.hessian_product(
             self.x,
             energy.mesh.hexes,
@@ -302,4 +328,6 @@ class Hessian(SymmetricOperator):
         energy, shares = self.energy, self.energy.sparsity.shares(threads())
         blocks = matrix.off_diagonal, matrix.diagonal
         assembly.assemble(self.x, self.delta, energy.norm, energy.omitted, shares, *blocks, energy.target)
+        if energy.barrier is not None:
+            energy.barrier.assemble(self.x, energy.omitted, shares, blocks, energy.target)
         matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)

@@ -80,8 +80,10 @@ class SlidingEnergy(MeshEnergy):
         inside = ~mask(rows, len(step))
         return float((step[inside] * gradient[inside]).sum() + slopes[kept].sum())
 
-    def infeasible_nodes(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
-        nodes = self.sliding.rejected_nodes(x * self.unit, there * self.unit)
+    def infeasible_nodes(
+        self, x: np.ndarray, there: np.ndarray, changed: np.ndarray | None = None
+    ) -> np.ndarray | None:
+        nodes = self.sliding.rejected_nodes(x * self.unit, there * self.unit, changed)
         nodes = nodes[(x[nodes] != there[nodes]).any(axis=1)]
         return mask(nodes, len(x)) if nodes.size else None
 

@@ -11,7 +11,6 @@ from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
 from hexmend.io.base.format import Format
 from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING
-from hexmend.io.base.unread import unread_content
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.original import Original, difference
 from hexmend.io.coordinates.replacement import (
@@ -23,6 +22,7 @@ from hexmend.io.coordinates.replacement import (
     is_same_file,
     replace_coordinates,
 )
+from hexmend.io.coordinates.unread import unread_content
 from hexmend.io.format_lookup import every_format, format_by_place, format_of, suffixes_of, writable_format
 from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.io.storage.readable import check_readable, reading

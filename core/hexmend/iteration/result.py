@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.aliases import exports, reads_old_names
-from hexmend.boundary import SurfaceChange
+from hexmend.boundary import Departures, SurfaceChange
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.hooks import hook
 from hexmend.iteration.step import ActiveSet, Outcome
@@ -152,6 +152,8 @@ class Result:
         One for each method that was run.
     surface : SurfaceChange or None
         Distance of the boundary from where it was; None where no method let it slide.
+    departures : Departures or None
+        Nodes that have left their corner, curve or patch; None where no method let the boundary slide.
     materials : mapping of str to MaterialVolume
         Volumes of the materials by name; empty for a mesh of one material.
     active : ActiveSet or None
@@ -176,6 +178,7 @@ class Result:
     history: tuple[dict[str, float | int | str | None], ...]
     stages: tuple[StageResult, ...]
     surface: SurfaceChange | None = None
+    departures: Departures | None = None
     materials: Mapping[str, MaterialVolume] = field(default_factory=dict)
     active: ActiveSet | None = None
     layers: tuple[LayerReport, ...] = ()
@@ -190,6 +193,12 @@ class Result:
         return regressions(self.before, self.after, self.target_q) + ("layers",) * any(
             wall.lost for wall in self.layers
         )
+
+    @property
+    def surface_sentence(self) -> str:
+        """Change of the boundary, and which nodes have left it, in sentences; "" where it was fixed."""
+        of = self.surface, self.departures
+        return " ".join(filter(None, ("" if one is None else one.sentence for one in of)))
 
     def _repr_html_(self) -> str:
         """Show it in a notebook."""

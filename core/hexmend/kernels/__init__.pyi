@@ -10,6 +10,7 @@ from hexmend.kernels import decimals as decimals
 from hexmend.kernels import element_step as element_step
 from hexmend.kernels import elements as elements
 from hexmend.kernels import faces as faces
+from hexmend.kernels import floor_barrier as floor_barrier
 from hexmend.kernels import getme as getme
 from hexmend.kernels import hex_mesh as hex_mesh
 from hexmend.kernels import incidence as incidence

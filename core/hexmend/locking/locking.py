@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.arrays import mask
-from hexmend.boundary.features import FEATURE_ANGLE
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.locking.free_positions import find_free_positions
 from hexmend.locking.locked_corners import LockedCorner, find_locked_corners

@@ -186,11 +186,13 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
         Of the free nodes, in mean edge lengths; changed.
     """
     hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
-    limit = DESCENT.growth_factor * energy.hex_energies(x, delta) + DESCENT.growth_summand
+    limit = DESCENT.growth_factor * (energy.hex_energies(x, delta) + energy.barriers(x)) + DESCENT.growth_summand
+    moved = None
     for _ in range(DESCENT.halvings):
-        moved = energy.moved(x, share[energy.nodes, None] * step)
-        worsened = ~(energy.hex_energies(moved, delta) <= limit)
-        infeasible = energy.infeasible_nodes(x, moved)
+        before, moved = moved, energy.moved(x, share[energy.nodes, None] * step)
+        changed = None if before is None else (before != moved).any(axis=1)
+        worsened = ~(energy.hex_energies(moved, delta) + energy.barriers(moved) <= limit)
+        infeasible = energy.infeasible_nodes(x, moved, changed)
         halved = np.zeros(len(x), dtype=bool) if infeasible is None else infeasible.copy()
         share[halved & (share <= DESCENT.stay_below)] = 0.0
         halved[hexes[worsened]] = True

@@ -85,10 +85,10 @@ class TruncatedNewtonConfig:
     loosest: float = 0.2
     tightest: float = 1e-3
     gradient_floor: float = 1e-9
-    max_damping_increases: int = 4
+    max_damping_increases: int = 7
     damping_growth: float = 4.0
     damping_decay: float = 4.0
-    min_damping: float = 0.05
+    min_damping: float = 0.002
 
 
 class TruncatedNewton:

@@ -1,10 +1,10 @@
 """Padding: a layer of hexes under the boundary, a set, or around hexes that no movement of nodes can mend."""
 
 from hexmend.aliases import exports
+from hexmend.padding.inserted_layer import Sheet
 from hexmend.padding.padded_mesh import padded_mesh
 from hexmend.padding.padding import AROUND, Padding, pad
 from hexmend.padding.regions import around_sheet, region_sheet, set_sheet, whole_sheet
-from hexmend.padding.sheet import Sheet
 
 __all__ = [
     "AROUND",

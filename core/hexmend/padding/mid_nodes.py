@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.second_order import MID_EDGES
-from hexmend.padding.sheet import INNER, LATERAL, OUTER, Sheet
+from hexmend.padding.inserted_layer import INNER, LATERAL, OUTER, Sheet
 
 #: Column in `mid_nodes` of the mid-node between two corners, -1 where there is no edge, (8, 8).
 COLUMN = np.full((8, 8), -1)

@@ -16,9 +16,9 @@ from hexmend.io import read
 from hexmend.iteration import Iteration, Result
 from hexmend.locking.visibility import nodes_without_space
 from hexmend.mesh.mesh import Mesh
+from hexmend.padding.inserted_layer import Sheet
 from hexmend.padding.padded_mesh import padded_mesh
 from hexmend.padding.regions import around_sheet, set_sheet, whole_sheet
-from hexmend.padding.sheet import Sheet
 from hexmend.quality import Summary, locked_hexes, measure, summarise
 from hexmend.run import smooth
 from hexmend.terminal_text import count_phrase
@@ -151,9 +151,7 @@ def pad(
     """
     _check_choices(name, around, rings, thickness)
     mesh = mesh if isinstance(mesh, Mesh) else read(mesh)
-    before = summarise(mesh)
-    sheet = _sheet(mesh, name, around, rings)
-    padded = padded_mesh(sheet, thickness)
+    before, padded = summarise(mesh), padded_mesh(_sheet(mesh, name, around, rings), thickness)
     layer, settings = np.arange(mesh.n_hexes, padded.n_hexes), {} if thickness is None else {"target": "given-shape"}
     padding = Padding(padded, layer, before, summarise(padded), settings=settings)
     return padding.mended(smooth(padded, watch=watch, **settings)) if mend else padding

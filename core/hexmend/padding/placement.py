@@ -8,7 +8,7 @@ from hexmend.boundary.normals import unit_vectors
 from hexmend.locking.visibility import inward_direction
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.materials import Materials
-from hexmend.padding.sheet import Sheet
+from hexmend.padding.inserted_layer import Sheet
 
 #: Thickness of a layer by default, in lengths of the edges behind it.
 DEFAULT_THICKNESS = 1 / 3

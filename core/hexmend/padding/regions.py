@@ -10,7 +10,7 @@ from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
 from hexmend.mesh.rules.two_dimensional import EMPTY, WEDGE
-from hexmend.padding.sheet import CrossingError, Sheet
+from hexmend.padding.inserted_layer import CrossingError, Sheet
 
 
 def whole_sheet(mesh: Mesh) -> Sheet:

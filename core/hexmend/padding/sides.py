@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hexmend.mesh.hexahedron import FACES
-from hexmend.padding.sheet import LATERAL, OUTER, Sheet
+from hexmend.padding.inserted_layer import LATERAL, OUTER, Sheet
 
 #: Largest number of hexes around an edge that are passed.
 _MAX_AROUND = 256

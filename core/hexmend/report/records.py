@@ -34,7 +34,7 @@ def record(result: Result) -> dict[str, Any]:
         "history": [{column: row[column] for column in HISTORY} for row in result.history],
     }
     if result.surface is not None:
-        report["surface"] = result.surface.to_dict()
+        report["surface"] = result.surface.to_dict() | {"left": result.departures.to_dict()}
     if result.materials:
         report["materials"] = {name: volume.to_dict() for name, volume in result.materials.items()}
     if result.layers:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
 from hexmend.aliases import reads_old_names
-from hexmend.boundary import SurfaceChange, surface_change
+from hexmend.boundary import Departures, SurfaceChange, departures, surface_change
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, Layers
 from hexmend.mesh.element_target import Target
@@ -241,6 +241,7 @@ class Run(Iterator[Iteration]):
             history=tuple(self.history),
             stages=tuple(one.result() for one in self._stage_runs),
             surface=self._surface_change(mesh),
+            departures=self._departures(mesh),
             materials=volumes,
             active=self._stage_run.active if self._kept_last else None,
             layers=walls,
@@ -249,9 +250,19 @@ class Run(Iterator[Iteration]):
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
         """Return the change of the boundary from the mesh as given; None if no method let it slide."""
-        by_rule = self.mesh.node_rules.slides is not None
-        sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides or by_rule), None)
+        sliding = self._sliding_smoother
         return None if sliding is None else surface_change(self.mesh, mesh, sliding.feature_angle)
+
+    def _departures(self, mesh: Mesh) -> Departures | None:
+        """Return the nodes that have left their corner, curve or patch; None if no method let the boundary slide."""
+        sliding = self._sliding_smoother
+        return None if sliding is None else departures(self.mesh, mesh, sliding.feature_angle, sliding.slides)
+
+    @property
+    def _sliding_smoother(self) -> Smoother | None:
+        """The first method that let the boundary slide."""
+        by_rule = self.mesh.node_rules.slides is not None
+        return next((one.smoother for one in self._stage_runs if one.smoother.slides or by_rule), None)
 
     @property
     def _target_q(self) -> tuple[float, ...] | None:

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, TypeAlias, TypeVar
 import numpy as np
 
 from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
-from hexmend.boundary.features import FEATURE_ANGLE
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
 from hexmend.layers import Layers
@@ -47,8 +47,8 @@ class Smoother(Parametrised, ABC):
     #: True for a method whose steps keep the linear motion of a mesh; those of others are constrained afterwards, by
     #: `hexmend.smoothers.constrained_steps`.
     keeps_linear_motion: ClassVar[bool] = False
-    #: Dihedral angle, in degrees, beyond which an edge of the boundary is a feature; a parameter of methods that slide.
-    feature_angle = FEATURE_ANGLE
+    #: Dihedral angle, in degrees or auto, beyond which an edge of the boundary is a feature; of methods that slide.
+    feature_angle: ClassVar[FeatureAngle] = FEATURE_ANGLE
     #: Bytes per hex that its run needs at most in addition to the open mesh, topology included: measured by `hexmend
     #: bench --only memory`, with a fifth added. See `hexmend.run.memory`.
     bytes_per_hex: ClassVar[int] = 1000

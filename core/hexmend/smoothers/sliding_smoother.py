@@ -9,12 +9,15 @@ from typing import TypeVar
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.boundary.features import FEATURE_ANGLE
+from hexmend.boundary.feature_edges.features import AUTO, FEATURE_ANGLE
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Smoother
 
 T = TypeVar("T")
+
+#: Surface tolerance in mean edge lengths that auto begins with.
+AUTO_TOLERANCE = 0.3
 
 #: Surface tolerance without a limit: nodes slide, wherever the boundary between them goes.
 UNLIMITED = "unlimited"
@@ -31,17 +34,26 @@ class SlidingSmoother(Smoother):
         "fixed", choices=("fixed", "slide"), help="Keep boundary nodes fixed, or let them slide on the surface (5.2.1)."
     )
     feature_angle: float = parameter(
-        FEATURE_ANGLE, low=1, high=180, unit="degrees", help="Edges with a larger dihedral angle are features."
+        FEATURE_ANGLE,
+        low=1,
+        high=180,
+        unit="degrees",
+        help="Edges with a larger dihedral angle are features; auto: chains of edges that stand out from the bends of "
+        "the surface around them.",
+        automatic=AUTO,
     )
 
     surface_tolerance: float = parameter(
-        0.3,
+        AUTO,
         low=0,
         high=10,
         unit="mean edge length",
         help="Largest distance between boundary and surface: with 0 nodes slide only where the surface is flat; "
-        "with unlimited, faces between sliding nodes may cut across curved parts by any distance.",
+        "with unlimited, faces between sliding nodes may cut across curved parts by any distance; auto: 0.3, in mend "
+        "as much as it takes, up to 1, that no hex is inverted.",
         no_limit=UNLIMITED,
+        automatic=AUTO,
+        percent_of="diagonal",
     )
 
     @property
@@ -63,7 +75,28 @@ class SlidingSmoother(Smoother):
 
     def absolute_tolerance(self, mesh: Mesh) -> float:
         """Distance from the surface that the boundary may have, in the mesh's unit of length."""
-        return np.inf if self.surface_tolerance == UNLIMITED else self.surface_tolerance * mesh.mean_edge_length
+        return absolute_tolerance(mesh, self.surface_tolerance)
+
+
+def absolute_tolerance(mesh: Mesh, tolerance: float | str) -> float:
+    """Convert a surface tolerance to the mesh's unit of length.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    tolerance : float or str
+        In mean edge lengths, in per cent of the boundary's diagonal such as "0.5%", "auto" or "unlimited".
+
+    Returns
+    -------
+    float
+    """
+    if tolerance == UNLIMITED:
+        return np.inf
+    if isinstance(tolerance, str) and tolerance.endswith("%"):
+        boundary = mesh.surface_points[mesh.topology.boundary]
+        return float(tolerance[:-1]) / 100 * (float(np.linalg.norm(np.ptp(boundary, axis=0))) if boundary.size else 0.0)
+    return (AUTO_TOLERANCE if tolerance == AUTO else float(tolerance)) * mesh.mean_edge_length
 
 
 class Sweeps:

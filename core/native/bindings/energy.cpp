@@ -1,5 +1,6 @@
 #include "bindings/arrays.hpp"
 #include "energy/assembly.hpp"
+#include "energy/floor_barrier.hpp"
 #include "energy/objective.hpp"
 
 namespace hexmend {
@@ -13,7 +14,41 @@ template <class Real> void bind_assemble(nb::module_ m) {
           "1, 9): blocks above the diagonal, by rows, and an unused one. diagonal (k, 6): xx xy xz yy yz zz.");
 }
 
+template <class Real> void bind_assemble_floors(nb::module_ m) {
+    m.def("assemble", &assemble_floors<Real>, "points"_a, "floors"_a, "omitted"_a, "shares"_a, "off_diagonal"_a,
+          "diagonal"_a, "target"_a.none() = nb::none(), ReleaseGil(),
+          "Add the second derivatives of the barrier to off_diagonal and diagonal; see `assembly.assemble`.");
+}
+
 }  // namespace
+
+void bind_floor_barrier(nb::module_ m) {
+    m.doc() = "Barrier of floors: of the scaled Jacobians at the corners of hexes, and of their qualities.";
+    nb::class_<Floors>(m, "Floors", "Floors of the hexes of a mesh, with the weight and the bands of their barrier.")
+        .def(
+            "__init__",
+            [](Floors *self, std::span<const double> jacobians, std::span<const double> qualities,
+               OmittedCorners ignored, double jacobian_band, double quality_band, double weight) {
+                new (self) Floors{jacobians, qualities, ignored, jacobian_band, quality_band, weight};
+            },
+            "jacobians"_a, "qualities"_a, "ignored"_a, "jacobian_band"_a, "quality_band"_a, "weight"_a,
+            nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+            "Floors jacobians (m,) of the scaled Jacobians and qualities (m,) of q(H), -inf where there is none; bit "
+            "t\n"
+            "of ignored (m,) uint8: corner t has no floor. The barrier begins a band above the floor. Arrays are not\n"
+            "copied.");
+    m.def("qualities", &floor_qualities, "points"_a, "hexes"_a, "omitted"_a, "values"_a, "target"_a.none() = nb::none(),
+          ReleaseGil(),
+          "q(H) of every hex, with a target that of S W^-1, omitted corners as perfect; writes values (m,).");
+    m.def("values", &floor_values, "points"_a, "hexes"_a, "floors"_a, "omitted"_a, "values"_a,
+          "target"_a.none() = nb::none(), ReleaseGil(),
+          "The barrier of every hex; writes values (m,); inf for a hex at or below a floor.");
+    m.def("add_gradient", &add_floor_gradient, "points"_a, "hexes"_a, "floors"_a, "omitted"_a, "shares"_a,
+          "target"_a.none() = nb::none(), ReleaseGil(),
+          "Add the derivatives of the barrier by the corners of every hex to shares (m, 8, 3).");
+    bind_assemble_floors<float>(m);
+    bind_assemble_floors<double>(m);
+}
 
 void bind_assembly(nb::module_ m) {
     m.doc() = "Assembly of the Hessian of a mesh's energy.";

@@ -44,18 +44,19 @@ struct HessianSums {
 // Let s and c be the columns of S and C that belong to a node (for the apex: minus their sum) and p = mixed s + half c.
 // The block of two nodes is c p' + p c' plus the terms of d2 sigma and (V, W).
 //
-// With a target the columns of S W^-1 that belong to a node are scaled once more, by its derivative.
-template <bool soft, int t, class Scales>
+// With a target the columns of S W^-1 that belong to a node are scaled once more, by its derivative. With `Inverse` it
+// is q(T) = 1/eta(T) instead.
+template <bool soft, int t, class Scales, class Function = Itself>
 __attribute__((noinline)) void add_tetrahedron(const Corners<Lanes> &x, const Scales &scales, double delta,
-                                               Bits counted, HessianSums &sums) {
+                                               Bits counted, HessianSums &sums, Function function = {}) {
     constexpr auto &n = CORNER_TETRAHEDRA[t];
     const auto by = scales.template columns<t>();
     auto edges = x.edges<t>();
     const auto &s = scale(edges, by);
     auto c = cofactors(s);
-    auto d = derivatives<soft>(edges, by, s, c, delta, counted);
+    auto d = function(derivatives<soft>(edges, by, s, c, delta, counted));
     sums.eta += counted ? d.eta : broadcast<Lanes>(1.0);
-    sums.g.scatter<t>(scale(gradient(d, s, c), by));
+    sums.g.scatter<t>(scale(gradient<Lanes>(d, s, c), by));
     M3<Lanes> p{d.mixed * s.u + d.half * c.u, d.mixed * s.v + d.half * c.v, d.mixed * s.w + d.half * c.w};
     if constexpr (Scales::scaled) c = scale(c, by), p = scale(p, by);
     V3<Lanes> ca = -(c.u + c.v + c.w), pa = -(p.u + p.v + p.w);
@@ -71,6 +72,17 @@ __attribute__((noinline)) void add_tetrahedron(const Corners<Lanes> &x, const Sc
     sums.pair<n[1], n[2]>(c.u, p.u, c.v, p.v, Lanes{}, w);
     sums.pair<n[1], n[3]>(c.u, p.u, c.w, p.w, Lanes{}, -v);
     sums.pair<n[2], n[3]>(c.v, p.v, c.w, p.w, Lanes{}, u);
+    if constexpr (Function::has_squares) {  // d.squares times s s'
+        const auto &[su, sv, sw] = scale(s, by);
+        V3<Lanes> none{};
+        V3<Lanes> qu = d.squares * su, qv = d.squares * sv, qw = d.squares * sw, apex = -(su + sv + sw);
+        sums.pair<n[0], n[1]>(apex, none, none, qu, Lanes{}, none);
+        sums.pair<n[0], n[2]>(apex, none, none, qv, Lanes{}, none);
+        sums.pair<n[0], n[3]>(apex, none, none, qw, Lanes{}, none);
+        sums.pair<n[1], n[2]>(su, none, none, qv, Lanes{}, none);
+        sums.pair<n[1], n[3]>(su, none, none, qw, Lanes{}, none);
+        sums.pair<n[2], n[3]>(sv, none, none, qw, Lanes{}, none);
+    }
 }
 
 // Transpose eight vectors into eight consecutive numbers for each lane, at out[lane][row].
@@ -109,12 +121,12 @@ inline Lanes clamp(Lanes value) {
     return min(broadcast<Lanes>(SINGLE_LIMIT), max(broadcast<Lanes>(-SINGLE_LIMIT), value));
 }
 
-// Write the second derivatives of eta(H)^p, first * values + second * g g', clamped, for each hex of the block.
+// Write first * values + second * g g', clamped, for each hex of the block: the second derivatives of a function of
+// eta(H) with these derivatives.
 //
 // Translating a hex does not change its energy: the blocks of each corner sum to zero, which gives the diagonal ones.
-template <class Real> void weigh_hessian(const HessianSums &sums, ObjectiveNorm norm, Real (*out)[HEX_STRIDE]) {
+template <class Real> void weigh_hessian(const HessianSums &sums, Lanes first, Lanes second, Real (*out)[HEX_STRIDE]) {
     Lanes g[24], h[24], own[48] = {}, rows[8];
-    auto [first, second] = LanePowerDerivatives<Lanes>(sums.eta * 0.125 - norm.offset, norm.p);
     std::memcpy(g, &sums.g, sizeof g);
     for (int k = 0; k < 24; ++k) h[k] = second * g[k];
     int row = 0;
@@ -134,6 +146,12 @@ template <class Real> void weigh_hessian(const HessianSums &sums, ObjectiveNorm 
             });
     for (Lanes value : own) next(clamp(value));
     while (row % 8) next(Lanes{});
+}
+
+// Of eta(H)^p.
+template <class Real> void weigh_hessian(const HessianSums &sums, ObjectiveNorm norm, Real (*out)[HEX_STRIDE]) {
+    LanePowerDerivatives<Lanes> by(sums.eta * 0.125 - norm.offset, norm.p);
+    weigh_hessian<Real>(sums, by.first, by.second, out);
 }
 
 }  // namespace hexmend

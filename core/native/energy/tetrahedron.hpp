@@ -111,6 +111,29 @@ template <class T> struct Derivatives {
     T eta, k, c, mixed, half;
 };
 
+// Functions of eta whose derivatives are wanted in its place: eta itself.
+struct Itself {
+    static constexpr bool has_squares = false;
+    template <class T> Derivatives<T> operator()(const Derivatives<T> &d) const { return d; }
+};
+
+// Derivatives of q(T)/8 in the same form, with `squares` (S, V)(S, W) in the second.
+template <class T> struct InverseDerivatives : Derivatives<T> {
+    T squares;
+};
+
+// q = 1/eta: q' = -q^2 eta', q'' = -q^2 eta'' + 2 q^3 eta' eta'^T, where the derivatives given are those of eta/8.
+struct Inverse {
+    static constexpr bool has_squares = true;
+    template <class T> InverseDerivatives<T> operator()(const Derivatives<T> &d) const {
+        T q = d.eta > 0.0 ? 1.0 / d.eta : broadcast<T>(0.0);  // 0 where it is not counted
+        T square = q * q, outer = 16.0 * square * q;
+        return {{q, -square * d.k, -square * d.c, -square * d.mixed - outer * d.k * d.c,
+                 -square * d.half + 0.5 * outer * d.c * d.c},
+                outer * d.k * d.k};
+    }
+};
+
 // Of a tetrahedron with these edges; S = edges W^-1 and its cofactors.
 template <bool soft, class T, class Scales>
 inline Derivatives<T> derivatives(const M3<T> &edges, const Scales &scales, const M3<T> &s, const M3<T> &cof,

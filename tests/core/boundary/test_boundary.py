@@ -133,13 +133,13 @@ def dented(length):
 
 def test_a_short_groove_in_a_patch_is_a_roughness():
     (flat, _), (short, groove) = dented(-1), dented(3)
-    np.testing.assert_array_equal(boundary_of(short).node_class, boundary_of(flat).node_class)
-    assert (boundary_of(short, whisker=0).node_class[groove] < NodeClass.PATCH).all()
+    np.testing.assert_array_equal(boundary_of(short, 40).node_class, boundary_of(flat, 40).node_class)
+    assert (boundary_of(short, 40, whisker=0).node_class[groove] < NodeClass.PATCH).all()
 
 
 def test_a_long_groove_ends_in_corners():
     mesh, groove = dented(9)
-    boundary = boundary_of(mesh)
+    boundary = boundary_of(mesh, 40)
     check(mesh, boundary)
     assert boundary.node_class[groove].tolist() == [NodeClass.CORNER, *8 * [NodeClass.CURVE], NodeClass.CORNER]
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import NodeClass, SlidingBoundary, boundary_of
-from hexmend.boundary.corner_detection import bend_corners
+from hexmend.boundary.feature_edges.corner_detection import bend_corners
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid

@@ -47,4 +47,4 @@ def test_only_mend_has_goals_and_the_option_lists_them():
     with_goals = [name for name, method in METHODS.items() if "goal" in {one.name for one in declared(method)}]
     assert with_goals == ["mend"]
     (goal,) = (one for one in declared(METHODS["mend"]) if one.name == "goal")
-    assert goal.choices == ("shape", "scaled-jacobian", "time-step")
+    assert goal.choices == ("balanced", "shape", "scaled-jacobian", "time-step")

@@ -10,8 +10,8 @@ from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES, MID_NODE_WEIGHTS
 from hexmend.padding import around_sheet, padded_mesh, whole_sheet
+from hexmend.padding.inserted_layer import CrossingError
 from hexmend.padding.mid_nodes import CENTRES, SIDE_COLUMNS
-from hexmend.padding.sheet import CrossingError
 from hexmend.quality.material_volumes import material_volumes
 from tests.core.grids import grid, scrambled
 from tests.core.padding.conforming import area_of_sides, check_layer, sides_where, sorted_rows

@@ -28,8 +28,9 @@ def values(one):
         return st.text(st.characters(codec="utf-8"))
     if one.type is int:
         return st.integers(one.low, one.high)
+    words = [word for word in (one.no_limit, one.automatic, "0.5%" * bool(one.percent_of)) if word]
     numbers = st.floats(one.low, one.high)
-    return numbers | st.just(one.no_limit) if one.no_limit else numbers
+    return numbers | st.sampled_from(words) if words else numbers
 
 
 def made(cls):
@@ -150,12 +151,13 @@ def test_the_recipe_of_the_docs_is_one():
 
 def test_a_recipe_that_version_0_1_wrote_is_read_with_its_values():
     recipe = read_recipe(Path(__file__).parent / "data" / "recipe-0.1.toml")
+    then = {"feature_angle": 40.0, "surface_tolerance": 0.3}
     assert recipe == Recipe.of(
-        METHODS["general"](max_size_ratio=2.5, q_target=0.8),
-        METHODS["getme-sequential"](rejection_penalty=0.02),
-        METHODS["local-patch"](max_backtracks=40, backtrack_factor=0.6, initial_step=0.5),
-        METHODS["global-nr"](max_backtracks=30),
-        METHODS["mend"](initial_epsilon=0.05, max_p=8.0, boundary="slide"),
+        METHODS["general"](**then, max_size_ratio=2.5, q_target=0.8),
+        METHODS["getme-sequential"](**then, rejection_penalty=0.02),
+        METHODS["local-patch"](**then, max_backtracks=40, backtrack_factor=0.6, initial_step=0.5),
+        METHODS["global-nr"](**then, max_backtracks=30),
+        METHODS["mend"](**then, goal="shape", p=2.0, initial_epsilon=0.05, max_p=8.0, boundary="slide"),
         title="Written by 0.1",
     )
     assert from_toml(to_toml(recipe)) == recipe

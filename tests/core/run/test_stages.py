@@ -25,7 +25,7 @@ def mesh():
 
 
 def test_the_stages_are_what_the_methods_do_one_after_another(mesh):
-    recipe = Recipe.of(stage("getme", 5), stage("local-sd", 3), stage("mend", 6))
+    recipe = Recipe.of(stage("getme", 5), stage("local-sd", 3), stage("mend", 6, goal="shape"))
     run = iterate(mesh, recipe)
     whole = [it.points for it in run]
     alone = []

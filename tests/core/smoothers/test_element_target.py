@@ -95,7 +95,7 @@ def test_mend_untangles_thin_layers_whose_size_counts():
 
 def test_the_ideal_target_loses_the_layers():
     made, _ = layered()
-    result = smooth(made, METHODS["mend"](target="ideal"))
+    result = smooth(made, METHODS["mend"](goal="shape", target="ideal"))
     assert edge_lengths(result.mesh)[:32, 2].min() > 2 * edge_lengths(made)[:32, 2].max()
 
 
@@ -132,7 +132,7 @@ def test_the_kept_iterate_is_the_best_against_the_target():
 
 def test_the_recorded_objective_is_that_against_the_target():
     mesh = shaken(as_given(stretched(3)), 0.05)
-    first = next(iter(iterate(mesh, METHODS["mend"](), StoppingCriteria(max_iterations=3))))
+    first = next(iter(iterate(mesh, METHODS["mend"](goal="shape"), StoppingCriteria(max_iterations=3))))
     against = measure_against_target(mesh, first.points, first.quality)
     assert first.objective == pytest.approx(np.square(against.eta).sum())
     assert first.quality.q == pytest.approx(measure(first.points, mesh.hexes).q)
@@ -189,8 +189,8 @@ def test_mend_keeps_an_iterate_that_is_a_little_worse_in_its_worst_corner_but_be
     start = replace(start, eta=start.eta + 1)
     worse = replace(start, q=0.97 * start.q, scaled_jacobian=0.97 * start.scaled_jacobian, eta=0.5 * start.eta)
     harmful = replace(worse, q=0.5 * start.q, scaled_jacobian=0.5 * start.scaled_jacobian)
-    mend = METHODS["mend"]()
+    mend = METHODS["mend"](goal="shape")
     assert mend.rank(start, worse) < mend.rank(start, harmful)
     assert mend.rank(start, worse) <= mend.rank(start, start)
-    guarded = METHODS["mend"](guard=True)
+    guarded = METHODS["mend"](goal="shape", guard=True)
     assert guarded.rank(start, worse) > guarded.rank(start, start)

@@ -76,7 +76,7 @@ def test_its_own_boundary_as_the_surface_is_the_same_as_none():
 def test_edges_of_the_boundary_that_the_surface_does_not_have_are_smooth():
     coarse, target = cylinder(8, 2), skin_of(cylinder(64, 8))  # whose sides meet at 45 degrees
     mesh = coarse.sliding_on(target)
-    before, after = SlidingBoundary(coarse), SlidingBoundary(mesh)
+    before, after = SlidingBoundary(coarse, 40), SlidingBoundary(mesh, 40)
     height = coarse.points[:, 2]
     side = (before.node_class == NodeClass.CURVE) & (height > 0.1) & (height < 0.9)
     assert side.any()

@@ -200,8 +200,9 @@ def test_the_surface_is_recorded():
     change = surface_change(mesh, result.mesh)
     assert result.surface == change
     surface = record(result)["surface"]
-    assert list(surface) == ["max", "mean", "max_percent_of_diagonal", "volume_change", "moved"]
-    assert surface == change.to_dict()
+    assert list(surface) == ["max", "mean", "max_percent_of_diagonal", "volume_change", "moved", "left"]
+    assert surface == change.to_dict() | {"left": result.departures.to_dict()}
+    assert not result.departures.nodes.size
     assert "surface" not in record(smooth(mesh, "local-nr", StoppingCriteria(max_iterations=2)))
 
 

@@ -56,7 +56,7 @@ def test_missing_programs_are_named(monkeypatch):
 def test_programs_are_measured_by_their_results(program):
     program(
         "import hexmend as hx\nmesh = hx.read(sys.argv[1])\n"
-        "hx.write(sys.argv[2], hx.smooth(mesh, 'mend', hx.StoppingCriteria(max_iterations=1000)).mesh)"
+        "hx.write(sys.argv[2], hx.smooth(mesh, 'mend', hx.StoppingCriteria(max_iterations=1000), goal='shape').mesh)"
     )
     found, lines = rows()
     ours, others = found[HEX], found["hexsmoothing"]

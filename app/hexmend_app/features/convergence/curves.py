@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from hexmend.iteration.figures import objective_changes
 from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS
 from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.mesh.run_record import balances
 from hexmend_app.theme.palette import RUN_COLOURS, Role
 from hexmend_app.translation import tr
 
@@ -41,7 +43,8 @@ class Columns:
         if self._known == 0 < newest:
             self._rows[0, _RECORDED.index("largest_move")] = np.nan  # nothing has moved at the start
         self._known = newest
-        self._changes = objective_changes(rows[:newest])
+        known = rows[:newest]
+        self._changes = sorted({*objective_changes(known), *_balance_starts(known)})
 
     def __len__(self) -> int:
         return self._known
@@ -60,7 +63,7 @@ class Columns:
         return self._rows[: self._known, _RECORDED.index(key)]
 
     def breaks(self, key: str) -> list[int]:
-        """Return the iterations at which the definition of a quantity changes: a new objective in another stage."""
+        """Return the iterations from which on a quantity is another one, or a stage begins that may raise it."""
         return self._changes if key == "objective" else []
 
     def reports(self, key: str) -> bool:
@@ -158,6 +161,12 @@ def thinned(x: np.ndarray, y: np.ndarray, most: int = 2000) -> tuple[np.ndarray,
     starts = np.arange(0, len(x), -(-2 * len(x) // most))
     ends = np.stack([np.fmin.reduceat(y, starts), np.fmax.reduceat(y, starts)], axis=1)
     return np.repeat(x[starts], 2), ends.ravel()
+
+
+def _balance_starts(rows: Sequence[Mapping[str, Any]]) -> list[int]:
+    """Return the iterations at which a stage begins that raises the least scaled Jacobian and q(H)."""
+    raising = [balances(row) for row in rows]
+    return [at for at in range(1, len(raising)) if raising[at] and not raising[at - 1]]
 
 
 def _number(value: object) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from hexmend_app.features.convergence.charts import Chart
 from hexmend_app.features.convergence.curves import Curve
 from hexmend_app.state.mesh.history import RecordedIteration, RunRecord
+from hexmend_app.state.mesh.run_record import balances
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted, figure
 
@@ -86,8 +87,11 @@ def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
             text = figure(int(value)) if quantity.whole else _significant(float(value))
         else:
             text = "infinite" if quantity.key == "objective" else tr("not reported")
-        formula = curve.record.rows[number].get("objective_formula") if quantity.key == "objective" else None
+        row = curve.record.rows[number] if quantity.key == "objective" else {}
+        formula = row.get("objective_formula")
         values.append(f"{tr(quantity.title)} {formula} {text}" if formula else f"{tr(quantity.title)} {text}")
+        if balances(row):
+            values.append(tr("may rise while the minima are raised"))
     stored = curve.stored()
     nearest = int(stored[np.abs(stored - number).argmin()])
     thinned = "" if nearest == number else tr(" (nearest stored: {nearest})", nearest=nearest)

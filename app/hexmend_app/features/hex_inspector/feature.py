@@ -13,7 +13,7 @@ from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_file import write_worst
 from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings
 from hexmend_app.state.session.user_events import FileExported
-from hexmend_app.state.tasks.boundary_classifier import WHISKER
+from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_list
 from hexmend_app.widgets.wording import counted
@@ -29,6 +29,7 @@ _BOUNDARY_CLASSES = {
     NodeClass.PATCH: "on a patch",
     WHISKER: "on a whisker",
 }
+_LEFT = {NodeClass.CORNER: "its corner", NodeClass.CURVE: "its curve", NodeClass.PATCH: "its patch"}
 
 #: Panels that show or use the selection as well: while one of them is in front, a click in the view leaves it there.
 _SELECTION_PANELS = ("node", "tags")
@@ -220,7 +221,16 @@ class FeatureHexInspector(Feature):
     def _boundary_class(self, node: int | None) -> str:
         """Describe the class of a boundary node; "" for other nodes and while the classes are unknown."""
         classes = self.session.boundary_classifier.of(self._document.now.mesh)
-        return "" if node is None or classes is None else tr(_BOUNDARY_CLASSES.get(int(classes.kinds[node]), ""))
+        if node is None or classes is None:
+            return ""
+        if classes.kinds[node] == LEFT:
+            left = classes.departures
+            return tr(
+                "{distance} mean edge lengths off {place}",
+                distance=f"{left.distance[node] / left.edge_length:.2g}",
+                place=tr(_LEFT[left.node_class[node]]),
+            )
+        return tr(_BOUNDARY_CLASSES.get(int(classes.kinds[node]), ""))
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))

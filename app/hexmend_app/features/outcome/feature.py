@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from hexmend.advice import Advice, Suggestion
 from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.translation import tr
+
+#: Rings of hexes around the inverted ones whose nodes are unpinned where the part of the mesh was too small.
+_RINGS = 2
 
 _RUNNING = "A run is in progress. When it ends, the reason and suggestions are shown here."
 
@@ -126,5 +131,15 @@ class FeatureOutcome(Feature):
                 timeline.go(record, number)
         if suggestion.unpin.size:
             self.session.commands.pin(suggestion.unpin, False)
+        if suggestion.widen:
+            self.session.commands.pin(self._nodes_around_inverted(), False)
+        if suggestion.rules is not None:
+            self.session.run_setup.set_rules(suggestion.rules)
         stage = Stage(suggestion.smoother, suggestion.stop)
         self.session.run_setup.choose(stage, tr("Selected: {title}. Press Run to start.", title=suggestion.title))
+
+    def _nodes_around_inverted(self) -> np.ndarray:
+        """Return the nodes of the hexes that are still inverted, and of rings of hexes around them, (k,) int64."""
+        mesh, advice = self.session.document.now.mesh, self._shown
+        inverted = np.concatenate([advice.locked, advice.unlocked])
+        return np.unique(mesh.hexes[mesh.topology.hexes_around(inverted, _RINGS)])

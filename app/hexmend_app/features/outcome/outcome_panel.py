@@ -212,5 +212,9 @@ def _selection_help(suggestion: Suggestion) -> str:
         effects.append(tr("go back to the mesh before the run"))
     if suggestion.unpin.size:
         effects.append(f"unpin {counted(int(suggestion.unpin.size), 'node')}")
+    if suggestion.widen:
+        effects.append(tr("unpin the nodes around the inverted hexes"))
+    if suggestion.rules is not None:
+        effects.append(tr("change the rules of motion"))
     effects.append(tr("set the method and its parameters"))
     return tr("{effects}. Run (F5) starts it.", effects=", ".join(effects).capitalize())

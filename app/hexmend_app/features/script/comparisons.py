@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from hexmend.iteration import Outcome
+from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.quality import summarise
 from hexmend.smoothers import METHODS
 from hexmend.study import compare
@@ -57,6 +58,11 @@ class Comparisons:
         rows = self._comparison.to_data().rows
         return f"{self.name()}.rows[{next(k for k, other in enumerate(rows) if other is row)}]"
 
+    def mesh(self, row: Row) -> str:
+        """Return the script's expression for the mesh of a row, without the rules of motion of the comparison."""
+        mesh, data = f"{self.row(row)}.mesh", self._comparison.to_data()
+        return f"{self._mesh(data.initial)}.with_points({mesh}.points)" if data.rules else mesh
+
     def row_of(self, state: State) -> Row | None:
         """Return the row of the method that produced a state, or None."""
         return next((result.row for result in self._comparison.results if result.state is state), None)
@@ -64,6 +70,8 @@ class Comparisons:
     def _compare(self, data: ComparisonData) -> str:
         """Return the source that repeats the comparison; interrupted methods are limited to their iterations."""
         base, stop = self._mesh(data.initial), replace(data.stop, max_seconds=0.0)
+        if data.rules:
+            base = call(self._lines.use(with_more_rules), [base, self._lines.source(data.rules)])
         function = self._lines.use(compare.compare)
         methods = [source_of(METHODS[row.method](**row.parameters)) for row in data.rows]
         if not data.interrupted and not any(row.outcome in _BY_CLOCK for row in data.rows):

@@ -118,7 +118,7 @@ class Names:
         if (source := self._contents.mesh(state)) is not None:
             self.add_state("From the session", state, source)
         elif (row := self.comparisons.row_of(state)) is not None:
-            self._states[state] = f"{self.comparisons.row(row)}.mesh"
+            self._states[state] = self.comparisons.mesh(row)
         elif state in self._paths:
             self.add_state("The mesh as read", state, read_from(self._paths[state]))
         elif moment is not None and self._can_create(state):

@@ -15,11 +15,13 @@ from hexmend_app.codec.checks import check_count
 from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.smooth.run_buttons import STATES, RunState
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
+from hexmend_app.state.mesh.run_record import balances
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.worker import IterationFrame
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_short_of_memory
 from hexmend_app.widgets.error_report import report_of
+from hexmend_app.widgets.wording import figure
 
 #: Actions whose keys are shown on the panel's buttons.
 _BUTTONS = ("run", "step", "stop", "reset")
@@ -183,7 +185,7 @@ class FeatureSmooth(Feature):
             return None, None, tr("Preparing the method.")
         if phase in (Phase.RUNNING, Phase.PAUSED):
             row = record.rows[-1]
-            return row["iteration"], row["seconds"], self._stage(row)
+            return row["iteration"], row["seconds"], " ".join(filter(None, (self._stage(row), _balance_text(row))))
         moment, reason = self.session.timeline.shown_iteration, self.session.run_setup.reason
         if moment is None or (not moment.number and moment.record.result != 0):
             return None, None, reason or self._text_without_step()
@@ -260,3 +262,14 @@ class FeatureSmooth(Feature):
         elif hit.nodes:
             around = (self.session.document.now.mesh.hexes == hit.nodes[0]).any(axis=1)
             self.session.selection.choose(int(around.argmax()), hit.nodes[0])
+
+
+def _balance_text(row: dict) -> str:
+    """Describe an iteration that raises the minima, while the objective may rise; "" for others."""
+    if not balances(row):
+        return ""
+    return tr(
+        "Raising the minima: scaled Jacobian {jacobian}, q(H) {quality}. The objective may rise.",
+        jacobian=figure(row["least"]),
+        quality=figure(row["least_q"]),
+    )

@@ -82,7 +82,7 @@ class StageForm(QObject):
         return next((form for form in (self.parameters, self.stop) if form.problems()), None)
 
     def _show_method(self, name: str, values: Mapping[str, Any] | None = None) -> None:
-        """Show a method with its last values, updated by `values`."""
+        """Show a method with its last values, updated by `values`; choices, such as the goal, are above numbers."""
         method = METHODS[name]
         self._name = name
         self.method.setCurrentIndex(self.method.findData(name))
@@ -90,7 +90,7 @@ class StageForm(QObject):
             tr("{help}\nSource: {source}", help=method.help, source=method.source) if method.source else method.help
         )
         with QSignalBlocker(self.parameters):
-            self.parameters.set_declarations(declared(method))
+            self.parameters.set_declarations(sorted(declared(method), key=lambda one: one.choices is None))
             self.parameters.set_values(self._setup.values_of(name) | dict(values or {}))
 
     def _on_method(self) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hexmend.boundary.features import FEATURE_ANGLE
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.picture.layer_switch import ordered_layers

@@ -22,14 +22,14 @@ from hexmend_app.scene.layers.optional.structure import (
     SHARP,
     VALENCES,
 )  # fmt: skip
-from hexmend_app.state.tasks.boundary_classifier import PIN, WHISKER, BoundaryClasses
+from hexmend_app.state.tasks.boundary_classifier import LEFT, PIN, WHISKER, BoundaryClasses
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted
 
 #: Texts of the classes of boundary nodes.
 _KIND_TEXT = {
     NodeClass.CORNER: "corners", NodeClass.CURVE: "on curves", NodeClass.PATCH: "on patches",
-    WHISKER: "on whiskers", PIN: "pinned",
+    WHISKER: "on whiskers", PIN: "pinned", LEFT: "moved off",
 }  # fmt: skip
 
 
@@ -124,6 +124,8 @@ class StructurePanel(QWidget):
             entries = [
                 (KINDS[kind], False, f"{count:,} {tr(_KIND_TEXT[kind])}") for kind, count in counts.items() if count
             ]
+            if classes.departures is not None and counts[LEFT]:
+                entries.append((None, False, tr("up to {most:.2g} edge lengths", most=classes.departures.max)))
         self.layers["kinds"].set_entries(entries, error)
         self._show_locked()
 

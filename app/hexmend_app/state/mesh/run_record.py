@@ -5,6 +5,7 @@ The times of a case, at which a solver has moved the mesh, are recorded in the s
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -177,3 +178,8 @@ class RecordedIteration:
         if self.record.holds_times:
             return f"{self.record.name}, {self.record.label(self.number)}"
         return f"{self.record.name} {self.number}" if self.number else f"before {self.record.name}"
+
+
+def balances(row: Mapping[str, Any]) -> bool:
+    """Return True if an iteration raises the least scaled Jacobian and q(H); the objective may rise meanwhile."""
+    return "least" in row and "least_q" in row

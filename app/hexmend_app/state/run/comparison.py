@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from hexmend.quality import measure
+from hexmend.errors import HexmendError
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
+from hexmend.mesh.rules.resolution import with_more_rules
+from hexmend.quality import measure, summarise
 from hexmend.run import Run, StoppingCriteria
 from hexmend.smoothers import Smoother
 from hexmend.study import compare
 from hexmend.study.table_row import Row, run_one
+from hexmend_app.codec.codec import since
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.tasks.task import Task
 
@@ -38,12 +43,13 @@ class MethodResult:
 
 @dataclass(frozen=True, eq=False)
 class ComparisonData:
-    """Data of a comparison in a session file: initial state, limits, number of methods requested, results."""
+    """Data of a comparison in a session file: initial state, limits, number of methods requested, results, rules."""
 
     initial: State | None
     stop: StoppingCriteria
     asked: int
     results: tuple[MethodResult, ...]
+    rules: MotionRules = field(default=MotionRules(), metadata=since(8))
 
     def __post_init__(self) -> None:
         if self.results and self.initial is None:
@@ -79,21 +85,26 @@ class ComparisonProgress:
 class _ComparisonTask:
     """Runs methods one after another on one mesh in a thread; their results are in `done`."""
 
-    def __init__(self, state: State, smoothers: Sequence[Smoother], stop: StoppingCriteria):
+    def __init__(self, state: State, smoothers: Sequence[Smoother], stop: StoppingCriteria, rules: MotionRules):
         self.task = Task("smoother comparison", self._run, yields=True)
         self.done: list[MethodResult] = []
         self.progress = ComparisonProgress(smoothers[0].name, 0, len(smoothers))
-        self._inputs = (state, smoothers, stop)
+        self._inputs = (state, smoothers, stop, rules)
 
     def _run(self, task: Task) -> None:
         """Run the methods in the thread; if one fails, its row says so and the others continue."""
-        state, smoothers, stop = self._inputs
+        state, smoothers, stop, rules = self._inputs
+        try:
+            mesh = with_more_rules(state.mesh, rules) if rules else state.mesh
+        except HexmendError as error:
+            self.done += [_failure(smoother, error) for smoother in smoothers]
+            return
         for at, smoother in enumerate(smoothers):
             if task.cancelled.is_set():
                 break
             self.progress = ComparisonProgress(smoother.name, at, len(smoothers))
-            row, _ = run_one(state.mesh, smoother, stop, self._on_iteration)
-            self.done.append(_result_of(row))
+            row, _ = run_one(mesh, smoother, stop, self._on_iteration)
+            self.done.append(_result_of(row, state.mesh))
 
     def _on_iteration(self, run: Run) -> bool:
         last = run.last
@@ -101,10 +112,18 @@ class _ComparisonTask:
         return not self.task.cancelled.is_set()
 
 
-def _result_of(row: Row) -> MethodResult:
+def _result_of(row: Row, initial: Mesh) -> MethodResult:
+    """Return the result of a row; its mesh has the rules of motion of the initial mesh, not those of the run."""
     if row.mesh is None:
         return MethodResult(row, None)
-    return MethodResult(row, State(row.mesh, measure(row.mesh.points, row.mesh.hexes), row.after))
+    mesh = initial.with_points(row.mesh.points)
+    figures = measure(mesh.points, mesh.hexes)
+    return MethodResult(replace(row, mesh=mesh), State(mesh, figures, summarise(mesh, figures)))
+
+
+def _failure(smoother: Smoother, error: HexmendError) -> MethodResult:
+    """Return the result of a method that could not start."""
+    return MethodResult(Row(smoother.name, smoother.values(), "failed", f"Failed: {error}"), None)
 
 
 class Comparison(QObject):
@@ -132,7 +151,7 @@ class Comparison(QObject):
         super().__init__(parent)
         self._document = document
         self._work: _ComparisonTask | None = None
-        self._stop = StoppingCriteria()
+        self._stop, self._rules = StoppingCriteria(), MotionRules()
         self._asked = 0
         self.initial: State | None = None
         self.results: tuple[MethodResult, ...] = ()
@@ -166,13 +185,22 @@ class Comparison(QObject):
         """True if the user ended the comparison before the last method had finished."""
         return not self.busy and self.to_data().interrupted
 
-    def start(self, smoothers: Sequence[Smoother], stop: StoppingCriteria) -> None:
-        """Run methods on the current mesh, one after another; the results of the previous comparison are discarded."""
+    def start(self, smoothers: Sequence[Smoother], stop: StoppingCriteria, rules: MotionRules | None = None) -> None:
+        """Run methods on the current mesh, one after another; the results of the previous comparison are discarded.
+
+        Parameters
+        ----------
+        smoothers : sequence of Smoother
+        stop : StoppingCriteria
+            Limits of each method.
+        rules : MotionRules, optional
+            Rules of motion of all methods, in addition to those of the mesh; the results have none.
+        """
         if self.busy or not self._document.is_open or not smoothers:
             return
         self.initial, self.results = self._document.now, ()
-        self._stop, self._asked = stop, len(smoothers)
-        self._work = _ComparisonTask(self.initial, tuple(smoothers), stop)
+        self._stop, self._asked, self._rules = stop, len(smoothers), rules or MotionRules()
+        self._work = _ComparisonTask(self.initial, tuple(smoothers), stop, self._rules)
         self._work.task.start()
         self._timer.start()
         self.changed.emit()
@@ -189,12 +217,13 @@ class Comparison(QObject):
 
     def to_data(self) -> ComparisonData:
         """Return the data of the finished methods for a session file."""
-        return ComparisonData(self.initial, self._stop, self._asked, self.results)
+        return ComparisonData(self.initial, self._stop, self._asked, self.results, self._rules)
 
     def restore(self, data: ComparisonData) -> None:
         """Restore the comparison of a session file."""
         self.close()
         self.initial, self._stop, self._asked, self.results = data.initial, data.stop, data.asked, data.results
+        self._rules = data.rules
         self.changed.emit()
 
     def close(self) -> None:
@@ -206,7 +235,8 @@ class Comparison(QObject):
 
     def _clear(self) -> None:
         self.close()
-        self.initial, self.results, self._asked, self._stop = None, (), 0, StoppingCriteria()
+        self.initial, self.results, self._asked = None, (), 0
+        self._stop, self._rules = StoppingCriteria(), MotionRules()
         self.changed.emit()
 
     def _update(self) -> None:

@@ -29,6 +29,8 @@ _WITHOUT_FEATURES = 4
 _WITHOUT_TABLES = 5
 #: The last version in which a layer coloured by material.
 _WITH_MATERIAL_LAYER = 6
+#: The last version in which suggestions had no rules of motion.
+_WITHOUT_SUGGESTED_RULES = 7
 
 
 def migrate(window: Any, version: int) -> Any:
@@ -41,6 +43,8 @@ def migrate(window: Any, version: int) -> Any:
     """
     if version <= _ZERO_FOR_NO_LIMIT:
         window = migrate_surface_tolerance(window)
+    if version <= _WITHOUT_SUGGESTED_RULES:
+        window = _with_suggested_rules(window)
     if version <= _WITHOUT_FEATURES:
         window = _with_features(window)
     if version <= _WITHOUT_TABLES:
@@ -122,3 +126,16 @@ def _cut(clip: dict[str, Any] | None) -> dict[str, Any]:
         return {**cut, "box": {end: former[end] for end in ("low", "high")}}
     planes = [{"normal": plane["normal"], "point": plane["origin"]} for plane in former["planes"]]
     return {**cut, "planes": planes}
+
+
+def _with_suggested_rules(window: Any) -> Any:
+    """Give the suggestions of runs the fields that they lacked; data of another form are left to the codec."""
+    try:
+        runs = [record["advice"] for record in window["history"]["records"]]
+        suggestions = [one for advice in runs if advice is not None for one in advice["suggestions"]]
+        for suggestion in suggestions:
+            suggestion.setdefault("rules", None)
+            suggestion.setdefault("widen", False)
+    except (KeyError, TypeError, AttributeError):
+        pass
+    return window

@@ -8,14 +8,17 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.boundary import NodeClass, boundary_of, boundary_with_kept_corners, freed_by_sliding
+from hexmend.boundary.departures import Departures, departures
+from hexmend.boundary.feature_edges.features import FeatureAngle
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes
 from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.tasks.latest_task import LatestTask
 from hexmend_app.state.tasks.task import Task
 
-#: Node classes in addition to `NodeClass`: nodes of a chain of sharp edges that ends inside a patch, and pinned nodes.
-WHISKER, PIN = 4, 5
+#: Node classes in addition to `NodeClass`: nodes of a chain of sharp edges that ends inside a patch, pinned nodes, and
+#: nodes that have left their corner, curve or patch within the tolerance.
+WHISKER, PIN, LEFT = 4, 5, 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,40 +29,58 @@ class BoundaryClasses:
     ----------
     mesh : Mesh
     kinds : (n,) uint8
-        Class of each node: `hexmend.boundary.NodeClass`, `WHISKER` or `PIN`.
+        Class of each node: `hexmend.boundary.NodeClass`, `WHISKER`, `PIN` or `LEFT`.
     locked, freed : int
         Numbers of hexes that are inverted by fixed nodes alone, and of those that sliding can free.
+    departures : Departures, optional
+        Distances of nodes from the corner, curve or patch of the original boundary; None if the boundary has not moved.
     """
 
     mesh: Mesh
     kinds: np.ndarray
     locked: int
     freed: int
+    departures: Departures | None = None
 
     def count(self, kind: int) -> int:
         """Return the number of nodes of a class."""
         return int(np.count_nonzero(self.kinds == kind))
 
 
-def node_classes(mesh: Mesh, degrees: float) -> np.ndarray:
-    """Return the class of each node, (n,) uint8: `hexmend.boundary.NodeClass`, `WHISKER` or `PIN`.
+def departures_from_surface(mesh: Mesh, degrees: FeatureAngle) -> Departures | None:
+    """Find the nodes that have left the corner, curve or patch of the original boundary.
+
+    Returns None if no node of the boundary has moved. Parameters as of `node_classes`.
+    """
+    boundary, original = mesh.topology.boundary, mesh.surface_points
+    if np.array_equal(mesh.points[boundary], original[boundary]):
+        return None
+    return departures(mesh.with_points(original), mesh, degrees)
+
+
+def node_classes(mesh: Mesh, degrees: FeatureAngle, left: Departures | None = None) -> np.ndarray:
+    """Return the class of each node, (n,) uint8: `hexmend.boundary.NodeClass`, `WHISKER`, `PIN` or `LEFT`.
 
     Parameters
     ----------
     mesh : Mesh
-    degrees : float
-        Angle between two faces beyond which their edge is a feature.
+    degrees : float or "auto"
+        Angle between two faces beyond which their edge is a feature; see `hexmend.boundary.feature_edges.features`.
+    left : Departures, optional
+        Nodes that have left the original boundary.
     """
     boundary = boundary_with_kept_corners(mesh, degrees)
     sharp = np.zeros(mesh.n_nodes, dtype=bool)
     sharp[boundary_of(mesh.with_points(mesh.surface_points), degrees, whisker=0).segments] = True
     kinds = np.where(sharp & (boundary.node_class == NodeClass.PATCH), WHISKER, boundary.node_class).astype(np.uint8)
+    if left is not None:
+        kinds[left.nodes] = LEFT
     if mesh.pinned is not None:
         kinds[mesh.pinned & (kinds != NodeClass.INSIDE)] = PIN
     return kinds
 
 
-def classify_boundary(mesh: Mesh, figures: ElementQuality, degrees: float) -> BoundaryClasses:
+def classify_boundary(mesh: Mesh, figures: ElementQuality, degrees: FeatureAngle) -> BoundaryClasses:
     """Classify the nodes of a boundary, and count its locked hexes.
 
     Parameters
@@ -67,14 +88,14 @@ def classify_boundary(mesh: Mesh, figures: ElementQuality, degrees: float) -> Bo
     mesh : Mesh
     figures : ElementQuality
         Quality of the mesh.
-    degrees : float
+    degrees : float or "auto"
         See `node_classes`.
     """
     locked = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
     freed = freed_by_sliding(mesh, locked, degrees)
-    return BoundaryClasses(
-        mesh, node_classes(mesh, degrees), int(np.count_nonzero(locked)), int(np.count_nonzero(freed))
-    )
+    left = departures_from_surface(mesh, degrees)
+    counts = int(np.count_nonzero(locked)), int(np.count_nonzero(freed))
+    return BoundaryClasses(mesh, node_classes(mesh, degrees, left), *counts, left)
 
 
 class BoundaryClassifier(LatestTask):
@@ -114,7 +135,7 @@ class BoundaryClassifier(LatestTask):
         """True while a classification is in progress."""
         return self._task is not None
 
-    def ask(self, mesh: Mesh, figures: ElementQuality, degrees: float) -> None:
+    def ask(self, mesh: Mesh, figures: ElementQuality, degrees: FeatureAngle) -> None:
         """Request the classes of a mesh's boundary, unless this was the last request.
 
         Parameters
@@ -122,7 +143,7 @@ class BoundaryClassifier(LatestTask):
         mesh : Mesh
         figures : ElementQuality
             Quality of the mesh.
-        degrees : float
+        degrees : float or "auto"
             See `node_classes`.
         """
         request = mesh, figures, degrees
@@ -133,7 +154,7 @@ class BoundaryClassifier(LatestTask):
         """Discard the result: another mesh is open."""
         self.classes = self.error = self._latest = None
 
-    def _make_task(self, request: tuple[Mesh, ElementQuality, float]) -> Task:
+    def _make_task(self, request: tuple[Mesh, ElementQuality, FeatureAngle]) -> Task:
         self.error = None
         return Task(f"classifying the boundary of {request[0].name}", lambda _: classify_boundary(*request))
 

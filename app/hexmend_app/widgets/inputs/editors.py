@@ -7,6 +7,7 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QWidget
 
 from hexmend.parameters import Parameter
+from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.wording import name_in_words
 
@@ -40,8 +41,9 @@ class ChoiceEditor(QComboBox):
     def __init__(self, declaration: Parameter, parent: QWidget | None = None):
         super().__init__(parent)
         self._declaration = declaration
-        for choice in declaration.choices or ():
-            self.addItem(name_in_words(choice), choice)
+        choices = declaration.choices or ()
+        for choice, title in zip(choices, declaration.titles or map(name_in_words, choices), strict=True):
+            self.addItem(tr(title), choice)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.set_value(declaration.default)
         self.activated.connect(self.changed)

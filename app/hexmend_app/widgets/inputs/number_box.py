@@ -70,7 +70,7 @@ class NumberBox(QAbstractSpinBox):
         self.setMinimumWidth(width + self.fontMetrics().horizontalAdvance("0.00000") + 34)
 
     def value(self) -> float | int | str:
-        """Return the last valid value: a number, or the declared word for no limit."""
+        """Return the last valid value: a number, a declared word or a percentage."""
         return self._value
 
     def set_value(self, value: float | int | str) -> None:
@@ -119,7 +119,8 @@ class NumberBox(QAbstractSpinBox):
     def stepBy(self, steps: int) -> None:
         """Step an integer by one, another number by one in its leading digit; stop at the bounds.
 
-        The step after the upper bound is the declared word for no limit, if there is one.
+        The step after the upper bound is the declared word for no limit, that below the lower one the word for an
+        automatic value, if there is one.
         """
         value = self._value
         for _ in range(abs(steps)):
@@ -134,25 +135,44 @@ class NumberBox(QAbstractSpinBox):
         low = -math.inf if self._declaration.low is None else self._declaration.low
         high = math.inf if self._declaration.high is None else self._declaration.high
         if isinstance(value, str):
-            return value if sign > 0 else high
+            return self._next_to_word(value, sign)
         if sign > 0 and value >= high and self._declaration.no_limit:
             return self._declaration.no_limit
+        if sign < 0 and value <= low and self._declaration.automatic:
+            return self._declaration.automatic
         if self._declaration.type is int:
             return int(min(max(value + sign, low), high))
-        magnitude = abs(value) or abs(self._declaration.default) or 0.1
+        default = self._declaration.default
+        magnitude = abs(value) or (0.0 if isinstance(default, str) else abs(default)) or 0.1
         exponent = math.floor(math.log10(magnitude) + 1e-9)
         if value * sign < 0 and math.isclose(abs(value), 10.0**exponent):
             exponent -= 1  # the value below 1 is 0.9, not 0
         stepped = round(value + sign * 10.0**exponent, 12 - exponent)
         return min(max(stepped, low), high)
 
+    def _next_to_word(self, value: str, sign: int) -> float | str:
+        """Return the next value up or down from a word or percentage: auto is below all numbers, no limit above."""
+        declaration = self._declaration
+        if value == declaration.automatic:
+            return declaration.low if sign > 0 and declaration.low is not None else value
+        if value == declaration.no_limit:
+            return value if sign > 0 else math.inf if declaration.high is None else declaration.high
+        number = float(value[:-1])
+        exponent = math.floor(math.log10(number or 0.1) + 1e-9)
+        return f"{min(max(round(number + sign * 10.0**exponent, 12 - exponent), 0.0), 100.0):.12g}%"
+
     def stepEnabled(self) -> QAbstractSpinBox.StepEnabledFlag:
         """Return the enabled arrows."""
         flags = QAbstractSpinBox.StepEnabledFlag.StepNone
-        unlimited, high, low = isinstance(self._value, str), self._declaration.high, self._declaration.low
-        if not unlimited and (high is None or self._value < high or self._declaration.no_limit):
+        value, declaration = self._value, self._declaration
+        if isinstance(value, str):
+            up, down = value != declaration.no_limit, value != declaration.automatic
+        else:
+            up = declaration.high is None or value < declaration.high or bool(declaration.no_limit)
+            down = declaration.low is None or value > declaration.low or bool(declaration.automatic)
+        if up:
             flags |= QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
-        if unlimited or low is None or self._value > low:
+        if down:
             flags |= QAbstractSpinBox.StepEnabledFlag.StepDownEnabled
         return flags
 

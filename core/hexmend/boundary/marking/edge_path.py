@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.boundary.edges import SurfaceEdges
-from hexmend.boundary.features import dihedral_angles
+from hexmend.boundary.feature_edges.features import dihedral_angles
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 

@@ -54,8 +54,9 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--surface-tolerance",
         metavar="X",
-        help="largest distance of the boundary from the surface in mean edge lengths: 0 to stay on it, or the word "
-        "unlimited; the same as --set surface_tolerance=X",
+        help="largest distance of the boundary from the surface in mean edge lengths, or in per cent of the diagonal "
+        "such as 0.5%%: 0 to stay on it, or one of the words auto (default) and unlimited; the same as "
+        "--set surface_tolerance=X",
     )
 
 
@@ -121,8 +122,11 @@ def _add_boundary(parser: argparse.ArgumentParser) -> None:
     """Declare the short forms of `--set boundary=...` and `--set goal=...`."""
     text = "keep the nodes of the boundary fixed (default) or let them slide on the surface"
     parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
-    text = "optimum of shape (default), greatest least scaled Jacobian, or greatest smallest explicit time step"
-    parser.add_argument("--goal", choices=("shape", "scaled-jacobian", "time-step"), help=text)
+    text = (
+        "the best shape that lowers no figure (balanced, the default), the optimum of shape, the greatest least scaled "
+        "Jacobian, or the greatest smallest explicit time step"
+    )
+    parser.add_argument("--goal", choices=("balanced", "shape", "scaled-jacobian", "time-step"), help=text)
 
 
 def _add_target(parser: argparse.ArgumentParser) -> None:

@@ -123,6 +123,15 @@ class MaxMinOptimiser:
         other.envelope = self.envelope
         return other
 
+    def improve_to(self, points: np.ndarray) -> None:
+        """Go on from other points (n, 3), if their least is higher."""
+        before = self.corners.active_minimum, self.corners.values.copy()
+        self.corners.update(points, np.arange(self.mesh.n_hexes))
+        if self.corners.active_minimum > before[0]:
+            self.points = points
+        else:
+            self.corners.values[:] = before[1]
+
     def steps(self, target: float = np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
         """Raise the least until no step does any more, or it has reached `target`.
 
@@ -198,11 +207,15 @@ class MaxMinOptimiser:
         nodes = holding[envelope.slides(holding) & ~sliding.confined[holding]]
         if not nodes.size and active.least <= 0:
             nodes = holding[sliding.releasable[holding] & ~mesh.free[holding]]
-            fixed = mesh.fixed.copy()
-            fixed[nodes] = False
-            self.corners.set_mesh(mesh.with_fixed(fixed))
-        envelope.release(nodes)
+        self.release_nodes(nodes)
         return nodes.size > 0
+
+    def release_nodes(self, nodes: np.ndarray) -> None:
+        """Let nodes (k,) of the boundary leave the surface, corners too."""
+        fixed = self.mesh.fixed.copy()
+        fixed[nodes] = False
+        self.corners.set_mesh(self.mesh.with_fixed(fixed))
+        self.envelope.release(nodes)
 
     def _begin(self) -> None:
         self._radius, self._max_corners = self.config.initial_radius, self.config.initial_corners

@@ -36,6 +36,10 @@ class MaxMinConfig:
         Initial limit on the distance of released nodes from the surface, in mean edge lengths.
     off_surface_factor : float
         Multiple of `acceptable` at which the phase off the surface ends; the return to the band loses part of it.
+    trial_iterations : int
+        Iterations from the more promising of two starts, before the better of them goes on alone.
+    untangling_iterations : int
+        Iterations by which programs untangle a mesh whose boundary slides, before the barrier does.
     """
 
     barrier_safe: float = 0.02
@@ -46,9 +50,13 @@ class MaxMinConfig:
     surface_share: float = 1 / 3
     off_surface_limit: float = 1.5
     off_surface_factor: float = 1.2
+    trial_iterations: int = 10
+    untangling_iterations: int = 10
 
 
 MAXMIN = MaxMinConfig()
+#: No corner limits the least.
+NO_CORNERS = ActiveCorners(np.inf, np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64))
 
 
 def maximise_minimum(

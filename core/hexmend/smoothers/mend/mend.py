@@ -1,30 +1,17 @@
-"""Mend: untangling, the optimum of shape, and the least scaled Jacobian, each a stage in a module of its own."""
+"""Mend: untangling, the optimum of shape, and the least scaled Jacobian; see `hexmend.smoothers.mend.stages`."""
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.boundary import SlidingBoundary
-from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
-from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.maxmin.slp import MaxMinOptimiser
-from hexmend.parameters import parameter
-from hexmend.quality import ElementQuality, measure
+from hexmend.quality import ElementQuality
 from hexmend.quality.corner_heights import least_heights
 from hexmend.smoothers.base import Steps, method, objective_of_sound
-from hexmend.smoothers.base_optimiser import ObjectiveSmoother
-from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
-from hexmend.smoothers.mend.maxmin import MAXMIN, active_set, maximise_minimum
-from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
-from hexmend.smoothers.mend.newton_steps import NewtonConfig
-from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface
-from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
-from hexmend.smoothers.mend.time_step import maximise_time_step
-from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
+from hexmend.smoothers.mend.mend_settings import MendSettings
+from hexmend.smoothers.mend.stages import Stages
 
 #: Share by which least q and least scaled Jacobian may both fall where a mesh has a target.
 _TARGET_FALL = 0.05
@@ -32,150 +19,31 @@ _TARGET_FALL = 0.05
 
 @method
 @dataclass(frozen=True)
-class Mend(ObjectiveSmoother):
+class Mend(MendSettings):
     """Untangle with a barrier that hardens step by step, then optimise, by truncated Newton steps of all free nodes."""
 
     name = "mend"
     title = "Mend"
-    help = "Untangles as far as the fixed nodes allow, then finds the optimum of shape or of the worst corner."
+    help = (
+        "Untangles as far as the fixed nodes allow, then finds the best shape in which no figure is lower than before."
+    )
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     bytes_per_hex = 2200
     keeps_linear_motion = True
 
-    goal: str = parameter(
-        "shape",
-        choices=("shape", "scaled-jacobian", "time-step"),
-        help="shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian; time-step: or the "
-        "smallest explicit time step, the least height of a hex.",
-    )
-    max_p: float = parameter(
-        1.0, low=1, high=32, help="If higher than p, p is doubled at the optimum up to this value, for the worst hexes."
-    )
-    initial_epsilon: float = parameter(
-        0.03,
-        low=1e-6,
-        high=1,
-        unit="mean edge length³",
-        help="e of the first delta, δ² = e (e − worst determinant); it falls until no hex is inverted.",
-    )
-    guard: bool = parameter(
-        False, help="Keep the best iterate that lowers neither the least q(H) nor the least scaled Jacobian."
-    )
-    solver_iterations: int = parameter(
-        200, low=1, high=10**6, help="Iteration limit of conjugate gradients for a Newton step."
-    )
-
-    @property
-    def norm(self) -> ObjectiveNorm:
-        """The highest p and the offset: the objective at whose optimum a run ends.
-
-        Steps with a lower p record the objective with that p instead. Steps that raise the least scaled Jacobian do not
-        minimise an energy: they record this one, for comparison, and it may rise.
-        """
-        return ObjectiveNorm(max(self.p, self.max_p), self.offset)
-
-    @property
-    def maximises_jacobian(self) -> bool:
-        """The least scaled Jacobian is the goal."""
-        return self.goal == "scaled-jacobian"
-
-    @property
-    def maximises_minimum(self) -> bool:
-        """The least value of a measure of corners is the goal."""
-        return self.goal != "shape"
-
     def steps(self, mesh: Mesh) -> Steps:
-        if mesh.linear_motion is not None:
-            mesh = mesh.with_points(mesh.constrained(mesh.points))
-        yield Step(mesh.points)
-        slides, norm = self.slides_on(mesh), ObjectiveNorm(self.p, self.offset)
-        intermediate = slides or self.maximises_minimum
-        quality = measure(mesh.points, mesh.hexes)
-        locked_at_start = locked_corners(mesh, quality)
-        if slides and mesh.target is not None:  # the boundary begins on the surface
-            mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
-            quality = measure(mesh.points, mesh.hexes)
-        energy = energy_of(mesh, norm)
-        shape = yield from self._shape(mesh, energy, quality, intermediate or mesh.linear_motion is not None)
-        if not intermediate:
-            return shape.outcome
-        fixed_optimum, sliding, max_deviation = shape.points, None, 0.0  # the optimum with the boundary fixed
-        candidates = [mesh.points, fixed_optimum]
-        if slides:
-            max_deviation = self.absolute_tolerance(mesh)
-            sliding = SlidingBoundary(mesh, self.feature_angle, MAXMIN.surface_share * max_deviation, self.slides)
-            mesh = sliding.mesh
-            optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
-            yield from maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
-            freed = mesh.with_points(optimiser.points)
-            quality = measure(freed.points, mesh.hexes)
-            shape = yield from self._shape(freed, energy_of(mesh, norm, sliding), quality, intermediate)
-            candidates += [freed.points, shape.points]
-        result = yield from self._maxmin_stage(mesh, candidates, fixed_optimum, sliding, max_deviation)
-        if self.goal == "time-step":
-            result = yield from maximise_time_step(mesh, candidates, sliding, result)
-        points = shape.points if result is None else result.optimiser.points
-        outcome = shape.outcome if result is None else Outcome.NO_IMPROVEMENT
-        active, sentences, quality = None, [], None
-        if self.maximises_minimum:
-            active = active_set(result.optimiser, result.active)
-            sentences.append(limit_message(result.optimiser, result.active))
-        if slides:
-            quality = measure(points, mesh.hexes)
-            sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
-        decision = " ".join(filter(None, sentences))
-        if decision or outcome is Outcome.NO_IMPROVEMENT:
-            yield Step(points, decision=decision, intermediate=True, quality=quality, active=active)
-        return outcome
-
-    def _shape(
-        self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, intermediate: bool
-    ) -> Generator[Step, None, ShapeOptimum]:
-        """Untangle a mesh whose hexes have this quality, then go to the optimum of shape."""
-        newton, locked = NewtonConfig(self.solver_iterations), locked_corners(mesh, quality)
-        energy = energy.with_objective(energy.norm, locked)
-        config = UntanglingConfig(self.initial_epsilon, newton=newton)
-        untangled = yield from untangle(mesh, energy.without_size(), quality, locked, config)
-        points, omitted = untangled.points, untangled.omitted
-        if omitted.any() and not self.slides_on(mesh):
-            decision = omission_message(omitted, locked)
-            yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
-        energy = energy.with_objective(energy.norm, omitted)
-        config = ShapeOptimumConfig(newton=newton)
-        return (yield from optimise_shape(energy, points, self.max_p, intermediate, config))
-
-    def _maxmin_stage(
-        self,
-        mesh: Mesh,
-        candidates: Sequence[np.ndarray],
-        fixed_optimum: np.ndarray,
-        sliding: SlidingBoundary | None,
-        max_deviation: float,
-    ) -> Generator[Step, None, MaxMinResult | None]:
-        """Raise the least scaled Jacobian from the best of some points (n, 3), where it is the goal or not sound.
-
-        None where shape is the goal and the least is sound. Steps off the surface begin with `fixed_optimum`, one of
-        the points; `max_deviation` is the distance that the boundary may have from it, in the mesh's unit of length.
-        """
-        optimisers = (MaxMinOptimiser(mesh, points, sliding) for points in candidates)
-        best = max(optimisers, key=lambda optimiser: optimiser.corners.active_minimum)
-        if not self.maximises_jacobian and not best.corners.active_minimum < MAXMIN.barrier_safe:
-            return None
-        target = np.inf if self.maximises_jacobian else MAXMIN.barrier_safe
-        wanted = min(target, MAXMIN.acceptable)
-        result = MaxMinResult(best, (yield from maximise_minimum(best, target, groups=MAXMIN.max_groups)))
-        if 0 < max_deviation < np.inf and best.corners.movable_minimum < wanted:
-            optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
-            result = yield from improve_off_surface(optimiser, max_deviation, result)
-        return result
+        return Stages(self).steps(mesh)
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
         Inverted hexes come first, then whether a guarded figure is lower than at the start, then whether the objective
         of the sound hexes, with the highest p that was asked for, is higher. With a target a fall counts from
-        `_TARGET_FALL` on: as given, a mesh may have better corners than hexes of the lengths that are asked for.
+        `_TARGET_FALL` on: as given, a mesh may have better corners than hexes of the lengths that are asked for. The
+        goal balanced guards the figures of all hexes but those that are inverted at the start and still are.
         """
+        if self.balances:
+            return now.n_inverted, self._lowers(start, now)
         share = 1 - _TARGET_FALL if now.against_target and not self.guard else 1.0
         fallen = (
             now.q.min() < share * start.q.min(),
@@ -189,11 +57,26 @@ class Mend(ObjectiveSmoother):
         before, after = (objective_of_sound(of, self.norm) for of in (start, now))
         return now.n_inverted, harmed, after > before
 
+    def _lowers(self, start: ElementQuality, now: ElementQuality) -> bool:
+        """Return True if q min, the least scaled Jacobian or, of a sound mesh, q mean is lower than at the start."""
+        share = 1 - _TARGET_FALL if now.against_target else 1.0
+        judged = ~(start.inverted & now.inverted)
+        pairs = [(one.q[judged], one.scaled_jacobian[judged]) for one in (start, now)]
+        (q, jacobian), (new_q, new_jacobian) = pairs
+        if not q.size:
+            return False
+        mean_counts = not start.inverted[judged].any()
+        return (
+            new_q.min() < share * q.min()
+            or new_jacobian.min() < share * jacobian.min()
+            or (mean_counts and new_q.mean() < q.mean())
+        )
+
     def rank_by_points(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
         return (-least_heights(points, hexes).min(),) if self.goal == "time-step" else ()
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
-        if self.maximises_minimum or "inverted" in worse:
+        if self.balances or self.maximises_minimum or "inverted" in worse:
             return ""
         if "scaled_jacobian" in worse:
             return "With goal=scaled-jacobian the least scaled Jacobian rises instead; with guard=true neither falls."

@@ -19,6 +19,37 @@ class MaxMinResult:
     active: ActiveCorners
 
 
+def raise_within_tolerance(
+    optimiser: MaxMinOptimiser, max_deviation: float, config: MaxMinConfig = MAXMIN
+) -> Generator[Step, None, MaxMinResult]:
+    """Raise the least of a mesh of which some nodes have left the surface already.
+
+    Parameters
+    ----------
+    optimiser : MaxMinOptimiser
+        Where this begins.
+    max_deviation : float
+        Distance from the surface that the boundary may have, in the mesh's unit of length; where it is further away,
+        that distance.
+    config : MaxMinConfig
+
+    Yields
+    ------
+    Step
+
+    Returns
+    -------
+    MaxMinResult
+    """
+    envelope = optimiser.envelope
+    envelope.limit_to(max(max_deviation, envelope.largest_deviation(optimiser.points)))
+    with envelope.relaxed(envelope.max_deviation):  # quads at released nodes may go round an edge of the surface
+        active = yield from maximise_minimum(
+            optimiser, release_below=config.acceptable, groups=config.max_groups, config=config
+        )
+    return MaxMinResult(optimiser, active)
+
+
 def improve_off_surface(
     optimiser: MaxMinOptimiser, max_deviation: float, on_surface: MaxMinResult, config: MaxMinConfig = MAXMIN
 ) -> Generator[Step, None, MaxMinResult]:

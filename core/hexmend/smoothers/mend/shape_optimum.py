@@ -33,6 +33,9 @@ class ShapeOptimumConfig:
     min_fall, min_fall_omitting : float
         Share of the objective by which it must fall in these steps; the second while corners are omitted, which only
         a later stage can repair.
+    negligible_move, negligible_fall : float
+        Where another stage follows, this one ends when no node moves further than the first, in mean edge lengths, and
+        the objective falls by less than the second, as a share of it.
     rounding : float
         Slope, as a share of the energy, up to which it counts as zero.
     newton : NewtonConfig
@@ -45,6 +48,8 @@ class ShapeOptimumConfig:
     window: int = 5
     min_fall: float = 2e-3
     min_fall_omitting: float = 2e-2
+    negligible_move: float = 1e-4
+    negligible_fall: float = 1e-3
     rounding: float = 1e-10
     newton: NewtonConfig = NEWTON
 
@@ -112,6 +117,9 @@ def _minimise(
         yield Step(points, diagnostics, intermediate=p_will_rise or intermediate, norm=energy.norm)
         if p_will_rise and move < config.converged:
             break
+        settled = len(values) > 1 and values[-2] - values[-1] < config.negligible_fall * values[-1]
+        if intermediate and settled and move < config.negligible_move:
+            return ShapeOptimum(points, Outcome.CONVERGED)
     if p_will_rise:
         return ShapeOptimum(points, None)
     # At the optimum a step would gain less than rounding; slope and value are 0 where all hexes are cubes.

@@ -14,7 +14,8 @@ from typing import Any
 from hexmend.study.bench.section import BenchSection
 
 #: Published lowest scaled Jacobian and distance of the surfaces in per cent of the diagonal, by file:
-#: HexOpt (bunny, CAD4, impeller), edge-cone rectification (block, cap, hanger) and HybridOctree (bone).
+#: HexOpt (bunny, CAD4, impeller), edge-cone rectification (block, cap, hanger), HybridOctree (bone), and two more;
+#: None where nothing is published.
 PUBLISHED = {
     "bunny.vtk": (0.0698, 1.84),
     "CAD4.vtk": (0.1200, 0.0),
@@ -23,6 +24,13 @@ PUBLISHED = {
     "cap_in.mesh": (0.1062, 1.06),
     "hanger_stresstest_in.mesh": (0.7162, 0.24),
     "bone.vtk": (0.6100, None),
+    "mid2FemPer.vtk": (0.4800, 0.70),
+    "dragon_in.mesh": (0.1018, 2.79),
+    "fertility_1.mesh": (None, None),
+    "kitten_2.mesh": (None, None),
+    "spring.mesh": (None, None),
+    "rockerarm_2.mesh": (None, None),
+    "fancy_ring.mesh": (None, None),
 }
 
 
@@ -68,7 +76,7 @@ def _lines(figures: dict[str, Any]) -> list[str]:
             row["boundary"],
             "{:,} → {:,}".format(*row["inverted"]),
             "{:.4f} → {:.4f}".format(*row["scaled_jacobian_min"]),
-            f"{lowest:.4f}",
+            "–" if lowest is None else f"{lowest:.4f}",
             "{:.4f} → {:.4f}".format(*row["q_min"]),
             "{:.4f} → {:.4f}".format(*row["q_mean"]),
             f"{row['distance_percent']:.3f}" if slides else "–",

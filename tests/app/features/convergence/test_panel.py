@@ -174,6 +174,18 @@ def test_the_curve_of_the_objective_has_a_gap_where_a_stage_changes_it(panel):
     assert np.isnan(y[5])
 
 
+def test_the_objective_has_a_gap_where_the_minima_begin_to_rise_and_tooltips_say_so(panel):
+    balanced = record("mend", 9)
+    for row in balanced.rows[5:8]:
+        row |= {"least": 0.2, "least_q": 0.4}
+    one = curve(balanced, stored=range(9))
+    x, _ = one.drawn("objective", by_time=False)
+    assert np.flatnonzero(np.isnan(x)).tolist() == [5]
+    text = "objective 200.000, may rise while the minima are raised"
+    assert describe(CHARTS["objective"], [one], 5, by_time=False) == f"mend 5: {text}"
+    assert "may rise" not in describe(CHARTS["objective"], [one], 4, by_time=False)
+
+
 def test_tooltips_give_values_and_the_nearest_stored_iteration(panel):
     text = describe(CHARTS["quality"], BOTH, 9.8, by_time=False)
     assert text.splitlines() == [

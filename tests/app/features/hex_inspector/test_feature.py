@@ -16,6 +16,8 @@ from hexmend.quality import METRICS
 from hexmend.run import StoppingCriteria
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.shell.palette.command_palette import CommandPalette
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.tasks.boundary_classifier import node_classes
 from hexmend_app.theme.palette import KEPT
 from tests.app.driving import LEFT, choose, click, drag, key, open_and_wait
 from tests.core.boundary.solids import slid
@@ -180,6 +182,28 @@ def test_the_class_of_a_boundary_node_is_shown(window, qtbot):
     window.refresh()
     labels = window.features["hex_inspector"].panel.findChildren(QLabel)
     assert any(f"Node {node:,}: boundary, a corner, " in label.text() for label in labels)
+
+
+def test_the_distance_of_a_node_that_was_moved_off_its_corner_is_shown(window, qtbot):
+    session = window.session
+    mesh = session.document.now.mesh
+    node = int(np.flatnonzero(node_classes(mesh, "auto") == NodeClass.CORNER)[0])
+    points = mesh.points.copy()
+    points[node] += 0.01 * mesh.mean_edge_length
+    session.commands.adopt_positions("move", State.of(mesh.with_points(points)))
+    window.show_panel("show")
+    window.refresh()
+    moved = session.document.now.mesh
+    qtbot.waitUntil(lambda: session.boundary_classifier.classes.mesh is moved, timeout=PATIENCE)
+    window.refresh()
+    kinds = window.features["structure"].panel.layers["kinds"].entries
+    legend = [label.text() for label in kinds.findChildren(QLabel)]
+    assert "1 moved off" in legend
+    assert "up to 0.017 edge lengths" in legend
+    session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
+    window.refresh()
+    labels = window.features["hex_inspector"].panel.findChildren(QLabel)
+    assert any(f"Node {node:,}: boundary, 0.017 mean edge lengths off its corner, " in label.text() for label in labels)
 
 
 def test_commands_are_found_by_name_in_the_palette(window, qtbot):

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
+from hexmend import io
+from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
@@ -44,9 +46,9 @@ def run(window, qtbot, method="local-sd", stop=SHORT, **values):
     window.refresh()
 
 
-def compared(window, qtbot, *methods):
+def compared(window, qtbot, *methods, rules=None):
     comparison = window.session.comparison
-    comparison.start([METHODS[name]() for name in methods], SHORT)
+    comparison.start([METHODS[name]() for name in methods], SHORT, rules)
     qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)
     window.refresh()
 
@@ -152,6 +154,20 @@ def test_a_comparison_table_and_an_adopted_result(window, qtbot, script, tmp_pat
     assert rows == rows_again
     assert [row["method"] for row in rows] == ["initial", "laplacian", "getme"]
     assert script.text.count("hx.compare(") == 1
+
+
+def test_a_comparison_with_rules_of_motion_is_repeated_with_them(window, qtbot, script, tmp_path):
+    free = np.flatnonzero(window.session.document.now.mesh.free)[:3]
+    mesh = window.session.document.now.mesh.replace(node_sets={"bolt": free})
+    io.write(tmp_path / "sets.vtu", mesh)
+    open_and_wait(qtbot, window, tmp_path / "sets.vtu")
+    script.restart()
+    compared(window, qtbot, "laplacian", rules=MotionRules(fix=("bolt",)))
+    window.session.commands.adopt_positions("Laplacian", window.session.comparison.of("laplacian").state)
+    save_and_wait(window.session, tmp_path / "out.vtu")
+    ((after, after_again),) = again(script, tmp_path, tmp_path / "out.vtu")
+    assert after == after_again
+    assert np.array_equal(io.read(tmp_path / "out.vtu").points[free], mesh.points[free])
 
 
 def test_a_cancelled_comparison_ends_at_the_same_iterations(window, qtbot, script, tmp_path):

@@ -31,7 +31,7 @@ from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
-from hexmend_app.state.tasks.boundary_classifier import WHISKER
+from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER
 from tests.core.grids import grid
 from tests.core.mesh.test_structure import tetrahedron
 
@@ -197,6 +197,14 @@ def test_boundary_nodes_have_the_colour_of_their_class(draw):
     pinned[np.flatnonzero((mesh.points[:, 2] == 3) & (mesh.points[:, 0] == 1))] = True
     assert count(draw(mesh.replace(pinned=pinned), Structure.of("kinds")), PINNED) > 20
     assert count(draw(mesh, Structure.of("kinds", "fixed")), BOUNDARY) == 0
+
+
+def test_nodes_that_were_moved_off_the_boundary_have_a_colour_of_their_own(draw):
+    mesh = grid(3).keeping_surface()
+    points = mesh.points.copy()
+    points[(points == [3, 3, 3]).all(axis=1)] += 0.2
+    assert count(draw(mesh.with_points(points), Structure.of("kinds")), KINDS[LEFT]) > 10
+    assert count(draw(grid(3), Structure.of("kinds")), KINDS[LEFT]) == 0
 
 
 def test_given_classes_are_drawn(draw):

@@ -7,6 +7,7 @@ from hexmend.boundary import NodeClass, boundary_of
 from hexmend.quality import measure
 from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.tasks.boundary_classifier import (
+    LEFT,
     PIN,
     WHISKER,
     BoundaryClassifier,
@@ -55,6 +56,31 @@ def test_locked_hexes_are_counted_with_those_that_sliding_frees():
     classes = classify_boundary(mesh, measure(mesh.points, mesh.hexes), 40.0)
     assert 0 < classes.freed < classes.locked
     assert classify_boundary(MESH, FIGURES, 40.0).locked == 0
+
+
+def lifted():
+    """Return a grid of which a node of an edge and one of a face have been lifted off, and their numbers."""
+    mesh = MESH.keeping_surface()
+    points = mesh.points.copy()
+    nodes = [int(np.flatnonzero((points == place).all(axis=1))[0]) for place in ([2, 0, 4], [2, 2, 4])]
+    points[nodes, 2] += 0.25
+    return mesh.with_points(points), nodes
+
+
+def test_nodes_that_have_left_their_curve_or_patch_are_a_class_with_distances():
+    mesh, nodes = lifted()
+    classes = classify_boundary(mesh, measure(mesh.points, mesh.hexes), 40.0)
+    assert np.flatnonzero(classes.kinds == LEFT).tolist() == sorted(nodes)
+    assert classes.count(LEFT) == 2
+    np.testing.assert_allclose(classes.departures.distance[nodes], 0.25)
+    assert classify_boundary(MESH, FIGURES, 40.0).departures is None
+
+
+def test_pinned_nodes_stay_a_class_of_their_own():
+    mesh, nodes = lifted()
+    pinned = mesh.replace(pinned=np.isin(np.arange(mesh.n_nodes), nodes[:1]))
+    classes = classify_boundary(pinned, measure(mesh.points, mesh.hexes), 40.0)
+    assert classes.kinds[nodes].tolist() == [PIN, LEFT]
 
 
 def test_only_the_latest_request_is_answered(classifier, qtbot):

@@ -46,3 +46,25 @@ def test_the_step_after_the_upper_bound_is_no_limit(qapp):
     box.lineEdit().selectAll()
     QTest.keyClicks(box.lineEdit(), "none")
     assert "or unlimited" in box.problem
+
+
+def test_a_number_left_to_the_program_is_below_all_numbers(qapp):
+    declaration = Parameter(
+        "room", float, "auto", 0.0, 10.0, None, "", "", "unlimited", automatic="auto", percent_of="diagonal"
+    )
+    box = NumberBox(declaration)
+    assert box.value() == box.text() == "auto"
+    box.stepBy(-1)
+    assert box.value() == "auto"
+    box.stepBy(1)
+    assert box.value() == 0.0
+    box.stepBy(-1)
+    assert box.value() == "auto"
+    box.lineEdit().selectAll()
+    QTest.keyClicks(box.lineEdit(), "0.5 %")
+    assert (box.value(), box.problem) == ("0.5%", "")
+    box.stepBy(1)
+    assert box.value() == box.text() == "0.6%"
+    box.lineEdit().selectAll()
+    QTest.keyClicks(box.lineEdit(), "101%")
+    assert "a percentage such as 0.5%" in box.problem

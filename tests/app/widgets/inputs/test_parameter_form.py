@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QApplication, QLabel, QToolButton, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parametrised, declared, parameter
+from hexmend.smoothers import METHODS
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 from tests.app.driving import named
@@ -262,3 +263,18 @@ def test_a_text_with_suggestions_can_be_chosen_and_written(shown):
     editor.setCurrentIndex(editor.findText("ideal"))
     editor.activated.emit(editor.currentIndex())
     assert (form.values(), changes[-1]) == ({"target": "ideal"}, "ideal")
+
+
+def test_choices_have_their_declared_titles_and_a_word_stands_for_a_number(shown):
+    form = shown(ParameterForm(declared(METHODS["mend"])))
+    goal, p = form.editor("goal"), form.editor("p")
+    assert goal.currentText() == "Balanced"
+    assert [goal.itemData(at) for at in range(goal.count())][:2] == ["balanced", "shape"]
+    assert goal.itemText(2) == "Least scaled Jacobian"
+    assert p.value() == "auto"
+    assert p.lineEdit().text() == "auto"
+    type_into(p, "2")
+    assert form.values()["p"] == 2
+    type_into(p, "auto")
+    assert form.values()["p"] == "auto"
+    assert form.problems() == {}

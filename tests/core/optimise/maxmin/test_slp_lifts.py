@@ -59,7 +59,7 @@ def test_nothing_is_lifted_off_a_surface_without_room():
 def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
     mesh = read(real_mesh("bunny.vtk"))
     room = 0.4 * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh)
+    sliding = SlidingBoundary(mesh, 40.0)
     raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     raising.envelope.limit_to(1.5 * mesh.mean_edge_length)
     for _ in range(5):

@@ -17,6 +17,7 @@ from hexmend.smoothers.mend.inversion import locked_corners
 from tests.core.grids import grid, scrambled
 
 Mend = METHODS["mend"]
+SHAPE = Mend(goal="shape")
 
 
 def with_locked_corner(mesh):
@@ -42,10 +43,10 @@ def test_corner_determinants_are_those_that_measure_judges_by(seed):
 @pytest.mark.parametrize(("name", "size"), [("cube", 512), ("five-side", 920), ("bridge-sharp", 500), ("plane", 2500)])
 @pytest.mark.parametrize("scramble", [0.6, 1.5, 5.0])
 def test_scrambled_gallery_meshes_end_untangled_at_the_optimum(name, size, scramble):
-    sound = smooth(make(name, size=size), "mend")
+    sound = smooth(make(name, size=size), SHAPE)
     tangled = make(name, size=size, scramble=scramble, seed=7)
     assert measure(tangled.points, tangled.hexes).n_inverted > 20
-    result = smooth(tangled, "mend", StoppingCriteria(max_iterations=1000))
+    result = smooth(tangled, SHAPE, StoppingCriteria(max_iterations=1000))
     assert result.outcome is Outcome.CONVERGED
     assert result.after.inverted == 0
     assert result.after.objective == pytest.approx(sound.after.objective, rel=1e-5, abs=1e-9)
@@ -53,7 +54,7 @@ def test_scrambled_gallery_meshes_end_untangled_at_the_optimum(name, size, scram
 
 @pytest.mark.parametrize("p", [1.0, 2.0, 4.0])
 @pytest.mark.parametrize("offset", [0.0, 1.0])
-@pytest.mark.parametrize("how", [{}, {"boundary": "slide"}, {"max_p": 16.0}], ids=str)
+@pytest.mark.parametrize("how", [{}, {"boundary": "slide"}, {"goal": "shape", "max_p": 16.0}], ids=str)
 @pytest.mark.parametrize("scramble", [0.0, 0.3])
 def test_a_mesh_of_cubes_ends_as_converged(p, offset, how, scramble):
     result = smooth(make("cube", size=27, scramble=scramble), Mend(p=p, offset=offset, **how))
@@ -90,7 +91,7 @@ def test_local_sweeps_leave_the_nodes_of_hexes_that_are_left_out(seed):
 )
 def test_wherever_it_is_stopped_the_mesh_is_no_worse(seed, amplitude, iterations, p, guard):
     mesh = scrambled(grid(4), amplitude, seed)
-    result = smooth(mesh, Mend(p=p, guard=guard), StoppingCriteria(max_iterations=iterations))
+    result = smooth(mesh, Mend(goal="shape", p=p, guard=guard), StoppingCriteria(max_iterations=iterations))
     before, after = (measure(one.points, mesh.hexes) for one in (mesh, result.mesh))
     assert after.n_inverted <= before.n_inverted
     assert result.after.inverted == after.n_inverted
@@ -127,19 +128,21 @@ def test_steps_of_untangling_soften_the_barrier_less_and_less():
 
 def test_higher_p_lifts_the_worst_hex():
     mesh = make("bridge-sharp", size=864)
-    plain, raised = (smooth(mesh, Mend(max_p=p), StoppingCriteria(max_iterations=500)) for p in (1.0, 16.0))
+    plain, raised = (
+        smooth(mesh, Mend(goal="shape", max_p=p), StoppingCriteria(max_iterations=500)) for p in (1.0, 16.0)
+    )
     assert raised.outcome is Outcome.CONVERGED
     assert raised.after.q_min > plain.after.q_min + 0.01
     assert raised.after.q_mean < plain.after.q_mean
     again = smooth(
-        plain.mesh, Mend(max_p=16.0), StoppingCriteria(max_iterations=500)
+        plain.mesh, Mend(goal="shape", max_p=16.0), StoppingCriteria(max_iterations=500)
     )  # from the optimum of the lower p
     assert again.after.q_min == pytest.approx(raised.after.q_min, rel=1e-3)
 
 
 def test_a_mesh_at_its_optimum_stays_there():
-    best = smooth(make("five-side", size=300), "mend", StoppingCriteria(tolerance=1e-8)).mesh
-    again = smooth(best, "mend")
+    best = smooth(make("five-side", size=300), SHAPE, StoppingCriteria(tolerance=1e-8)).mesh
+    again = smooth(best, SHAPE)
     assert again.outcome is Outcome.CONVERGED
     assert again.iterations <= 2
     np.testing.assert_allclose(again.mesh.points, best.points, atol=1e-5)

@@ -26,10 +26,10 @@ def test_what_is_advised_is_a_text_whatever_got_worse(name):
 def test_mend_advises_its_other_goal_or_its_guard_only_where_they_help():
     mend = METHODS["mend"]
     for words in WORSE:
-        advice = mend().regression_hint(words)
+        advice = mend(goal="shape").regression_hint(words)
         assert ("goal=scaled-jacobian" in advice) == ("scaled_jacobian" in words and "inverted" not in words)
         assert ("guard=true" in advice) == (bool(words) and "inverted" not in words)
-        assert mend(goal="scaled-jacobian").regression_hint(words) == ""
+        assert mend(goal="scaled-jacobian").regression_hint(words) == mend().regression_hint(words) == ""
 
 
 def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():

@@ -6,7 +6,7 @@ import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.boundary import NodeClass
-from hexmend.boundary.features import FEATURE_ANGLE
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
 from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import Structure as MeshStructure
@@ -18,7 +18,7 @@ from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.marks import Marks
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.state.tasks.boundary_classifier import PIN, WHISKER, node_classes
+from hexmend_app.state.tasks.boundary_classifier import LEFT, PIN, WHISKER, departures_from_surface, node_classes
 
 #: Colours of edges by their number of hexes, from the palette of Okabe and Ito; OTHER is for all other numbers.
 VALENCES: dict[int, str] = {3: "#56b4e9", 5: "#e69f00", 6: "#f0e442"}
@@ -32,7 +32,7 @@ BOUNDARY, PINNED, FREE, LOCKED = "#9aa5b4", "#e69f00", "#ffffff", "#f0e442"
 #: Colours of boundary nodes by class.
 KINDS: dict[int, str] = {
     NodeClass.CORNER: "#d55e00", NodeClass.CURVE: "#56b4e9", NodeClass.PATCH: "#009e73",
-    WHISKER: "#cc79a7", PIN: PINNED,
+    WHISKER: "#cc79a7", PIN: PINNED, LEFT: "#9b30ff",
 }  # fmt: skip
 
 #: Maximum number of marks of one kind that are drawn in full. More are drawn thinner, and paler inside the mesh, to
@@ -185,7 +185,8 @@ class StructureLayers:
             return
         places = self._faces.places(points)
         if switches.is_on("kinds") and self._kinds is None:
-            self._kinds = node_classes(self._mesh, FEATURE_ANGLE)
+            mesh = self._mesh.with_points(points)
+            self._kinds = node_classes(mesh, FEATURE_ANGLE, departures_from_surface(mesh, FEATURE_ANGLE))
         kinds = node_marks(self._mesh, points, figures, switches, self._kinds)[self._faces.nodes]
         marked = (kinds > 0) & points_kept_by_cut(self._look, places)
         for marks, nodes in ((self.nodes, marked & (kinds != _LOCKED)), (self._locked, marked & (kinds == _LOCKED))):

@@ -74,11 +74,12 @@ for _switch in (
         "Boundary nodes by how they may move on a sliding boundary (boundary = slide), classified by the feature angle "
         "of the method. Pinned nodes and corners are fixed; other nodes slide along their curve or on their patch. If "
         "necessary, Mend moves nodes off the surface within its tolerance, including corners found by the angle alone. "
-        "A whisker is a sharp edge that ends inside a patch; its nodes slide on the patch. Shift+P pins the selected "
-        "node.",
+        "A whisker is a sharp edge that ends inside a patch; its nodes slide on the patch. Nodes that a run moved "
+        "off their corner, curve or patch have a colour of their own; all others are kept exactly on it. Shift+P pins "
+        "the selected node.",
         "None: the mesh has no boundary.",
         action="&Kinds of boundary nodes",
-        action_help="Show boundary nodes by how they may move on a sliding boundary.",
+        action_help="Show boundary nodes by how they may move on a sliding boundary, and those that have left it.",
         keys="J",
         order=70,
         offered_early=True,

@@ -93,7 +93,7 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, wr
         if summary is not None:
             print(f"Second order, {time}: {summary.phrase}.")
     if result.surface is not None:
-        print(result.surface.sentence)
+        print(result.surface_sentence)
     print(written)
 
 

@@ -12,7 +12,7 @@ from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.numbering import find_ids
-from hexmend.io.base.unread import some_names, unread_note
+from hexmend.io.coordinates.unread import some_names, unread_note
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
 from hexmend.io.formats.abaqus.model import Instance, Part

@@ -11,7 +11,7 @@ from typing import NoReturn
 import numpy as np
 
 from hexmend.io.base.cursor import quoted
-from hexmend.io.base.unread import some_names, unread_note
+from hexmend.io.coordinates.unread import some_names, unread_note
 from hexmend.io.formats.abaqus.content import to_mesh
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.elements import kind_of

@@ -13,7 +13,7 @@ from hexmend.io.base.cursor import quoted
 from hexmend.io.base.fixed_marks import FIXED
 from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.base.unread import unread_note
+from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.exodus.columns import join_columns
 from hexmend.io.formats.exodus.elements import FACE_OF_SIDE, ORDER, PINS_PROPERTY, kinds_of
 from hexmend.io.formats.exodus.ids import id_lines

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from hexmend.io.base.unread import unread_note
+from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
 from hexmend.io.formats.exodus.store import ExodusStore
 

@@ -15,7 +15,7 @@ from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import find_ids
-from hexmend.io.base.unread import unread_note
+from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.gmsh.element_types import KIND_OF_TYPE, ORDER
 from hexmend.io.formats.gmsh.physical_groups import PHYSICAL_NAMES, group_numbers, unnamed_group
 from hexmend.io.formats.gmsh.sections import DataSection, ElementBlock, Sections

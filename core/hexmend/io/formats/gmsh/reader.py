@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
-from hexmend.io.base.unread import some_names, unread_note
+from hexmend.io.coordinates.unread import some_names, unread_note
 from hexmend.io.formats.gmsh import periodic, version_1, version_2, version_4
 from hexmend.io.formats.gmsh.content import to_mesh
 from hexmend.io.formats.gmsh.data import DATA, read_data

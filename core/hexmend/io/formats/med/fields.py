@@ -17,7 +17,7 @@ from hexmend.io.base.hdf5 import text_of
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.base.unique_names import make_unique
-from hexmend.io.base.unread import some_names, unread_note
+from hexmend.io.coordinates.unread import some_names, unread_note
 from hexmend.io.formats.med.arrays import read_array
 from hexmend.io.formats.med.elements import GEOMETRY_BITS
 

@@ -14,7 +14,7 @@ from hexmend.io.base import hdf5
 from hexmend.io.base.cell_kinds import node_count, to_vtk_order
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.base.unread import unread_note
+from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.med.arrays import max_bytes, read_array, read_integers
 from hexmend.io.formats.med.elements import KIND_OF_TYPE, ORDER, TYPE_OF_KIND
 from hexmend.io.formats.med.fields import read_fields

@@ -13,7 +13,7 @@ from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.base.numbering import find_ids
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.base.unread import some_names, unread_note
+from hexmend.io.coordinates.unread import some_names, unread_note
 from hexmend.io.formats.nastran.bulk import BulkData
 from hexmend.io.formats.nastran.card_blocks import CardBlock, natural_numbers
 from hexmend.io.formats.nastran.cards import KINDS_OF_CARD, ORDER, element_layout

@@ -20,7 +20,7 @@ from hexmend.io.files import check_readable, reading
 from hexmend.mesh.mesh import Mesh
 
 #: Version that is written; earlier ones can be read.
-VERSION = 7
+VERSION = 8
 #: Largest number of meshes in a session.
 MAX_MESHES = 10_000
 

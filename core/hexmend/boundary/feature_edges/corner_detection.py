@@ -6,20 +6,20 @@ import numpy as np
 
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of
 from hexmend.boundary.edges import edge_keys
-from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners
 from hexmend.boundary.skin_faces import skin_faces
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants
 
 
-def boundary_with_kept_corners(mesh: Mesh, feature_angle: float = FEATURE_ANGLE) -> Boundary:
+def boundary_with_kept_corners(mesh: Mesh, feature_angle: FeatureAngle = FEATURE_ANGLE) -> Boundary:
     """Classify the original boundary of a mesh for sliding, with `bend_corners` as corners.
 
     Parameters
     ----------
     mesh : Mesh
         Its `surface_points` define the original boundary.
-    feature_angle : float
+    feature_angle : float or "auto"
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
 
     Returns

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import numpy as np
 
 from hexmend.boundary.edges import SurfaceEdges, chains, segment_pairs
+from hexmend.boundary.feature_edges.prominence import LEAST_ANGLE, is_low, standing_corners, surrounding_angles
 from hexmend.boundary.skin_faces import edges_between_sets, lone_set_nodes
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.components import components
 
-#: Default dihedral angle, in degrees, beyond which an edge is a feature.
-FEATURE_ANGLE = 40.0
+#: Dihedral angle beyond which an edge is a feature: `AUTO` where it has to stand out from the surface around it.
+FeatureAngle: TypeAlias = float | str
+AUTO = "auto"
+#: Default of the feature angle.
+FEATURE_ANGLE: FeatureAngle = AUTO
 #: Dangling chains and isolated groups of feature edges count as roughness of a patch if the sum of their dihedral
 #: angles is less than this multiple of the feature angle.
 WHISKER_FACTOR = 10.0
@@ -19,7 +25,12 @@ _MIN_AREA_RATIO = 1e-6
 
 
 def feature_edges(
-    points: np.ndarray, edges: SurfaceEdges, feature_angle: float, given: np.ndarray, kept: np.ndarray, whisker: float
+    points: np.ndarray,
+    edges: SurfaceEdges,
+    feature_angle: FeatureAngle,
+    given: np.ndarray,
+    kept: np.ndarray,
+    whisker: float,
 ) -> np.ndarray:
     """Find the feature edges of a surface.
 
@@ -27,8 +38,9 @@ def feature_edges(
     ----------
     points : (n, 3) float64
     edges : SurfaceEdges
-    feature_angle : float
-        Dihedral angle beyond which an edge is a feature.
+    feature_angle : float or "auto"
+        Dihedral angle beyond which an edge is a feature; auto: chains of edges that stand out from the surface around
+        them, see `hexmend.boundary.feature_edges.prominence`.
     given : (e,) bool
         Edges that are features whatever their angle.
     kept : (n,) bool
@@ -41,20 +53,30 @@ def feature_edges(
     (e,) bool
     """
     certain = given | (edges.count != 2)
-    angle = dihedral_angles(points, edges)
-    feature = certain | (angle > feature_angle)
-    weight = np.where(certain, np.inf, angle / max(feature_angle, np.finfo(float).tiny))
+    angle, least = dihedral_angles(points, edges), angle_in_degrees(feature_angle)
+    feature = certain | (angle > least)
+    weight = np.where(certain, np.inf, angle / max(least, np.finfo(float).tiny))
+    around = np.zeros(angle.size)
+    if feature_angle == AUTO:
+        sharp = np.flatnonzero(feature)
+        around[sharp] = surrounding_angles(edges, angle, sharp)
     while True:
         chosen = np.flatnonzero(feature)
         segments = edges.nodes[chosen]
         valence = np.bincount(segments.ravel(), minlength=edges.n)
-        ends = ((valence == 1) & ~kept)[segments].any(axis=1)
-        rough = _below_weight(chains(segments, valence != 2), weight[chosen], ends, whisker)
+        ends, chain = ((valence == 1) & ~kept)[segments].any(axis=1), chains(segments, valence != 2)
+        rough = _below_weight(chain, weight[chosen], ends, whisker)
+        rough |= is_low(chain, np.where(certain, np.inf, angle)[chosen], around[chosen])
         whole = components(edges.n, segments)[segments[:, 0]]
         rough |= _below_weight(whole, weight[chosen], np.ones(len(chosen), dtype=bool), whisker)
         if not rough.any():
             return feature
         feature[chosen[rough]] = False
+
+
+def angle_in_degrees(feature_angle: FeatureAngle) -> float:
+    """Return the dihedral angle beyond which an edge may be a feature."""
+    return LEAST_ANGLE if feature_angle == AUTO else float(feature_angle)
 
 
 def _below_weight(group: np.ndarray, weight: np.ndarray, counts: np.ndarray, least: float) -> np.ndarray:
@@ -92,6 +114,26 @@ def turning_angles(points: np.ndarray, segments: np.ndarray, between: np.ndarray
     angle = np.zeros(len(points))
     angle[node] = np.degrees(np.arctan2(across, np.einsum("ij,ij->i", before, after)))
     return angle
+
+
+def curve_corners(points: np.ndarray, segments: np.ndarray, between: np.ndarray, turn: FeatureAngle) -> np.ndarray:
+    """Find the nodes at which curves turn by more than `turn` or, if it is auto, by more than beside them.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    segments : (s, 2) int32
+    between : (n,) bool
+        True for nodes at which exactly two segments meet.
+    turn : float or "auto"
+        In degrees.
+
+    Returns
+    -------
+    (n,) bool
+    """
+    turns = turning_angles(points, segments, between)
+    return standing_corners(segments, turns, between) if turn == AUTO else turns > turn
 
 
 def marked_edges(mesh: Mesh) -> np.ndarray:

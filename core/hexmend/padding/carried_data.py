@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.padding.sheet import Sheet
+from hexmend.padding.inserted_layer import Sheet
 
 
 class Numbering:

@@ -1,0 +1,1 @@
+"""Feature edges and corners of a surface."""

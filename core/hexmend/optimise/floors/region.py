@@ -1,0 +1,47 @@
+"""Part of a mesh around some of its hexes, whose nodes alone are moved."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.arrays import index_of, mask
+from hexmend.energy import MeshEnergy
+from hexmend.mesh.mesh import Mesh
+
+
+class Region:
+    """The free nodes of some hexes, with all hexes at these nodes; other nodes stay.
+
+    Parameters
+    ----------
+    energy : MeshEnergy
+        Of the whole mesh; no constraints on its nodes.
+    hexes : (k,) int
+        Hexes whose free nodes move.
+
+    Attributes
+    ----------
+    energy : MeshEnergy
+        Of the part, at positions in the whole mesh's mean edge length.
+    hexes : (j,) int64
+        Hexes of the part, ascending.
+    """
+
+    def __init__(self, energy: MeshEnergy, hexes: np.ndarray):
+        mesh = energy.mesh
+        moves = mask(mesh.hexes[hexes], mesh.n_nodes) & mesh.free
+        self.hexes = attached = np.flatnonzero(moves[mesh.hexes].any(axis=1))
+        self._nodes = np.flatnonzero(mask(mesh.hexes[attached], mesh.n_nodes))
+        number = index_of(self._nodes, mesh.n_nodes)
+        part = Mesh(mesh.points[self._nodes], number[mesh.hexes[attached]]).with_fixed(~moves[self._nodes])
+        self.energy = energy.on_part(part, attached)
+
+    def inside(self, x: np.ndarray) -> np.ndarray:
+        """Return the positions of the part's nodes, of those of the whole mesh, (n, 3)."""
+        return x[self._nodes]
+
+    def merged(self, x: np.ndarray, part: np.ndarray) -> np.ndarray:
+        """Return x (n, 3) with the positions of the part's nodes."""
+        merged = x.copy()
+        merged[self._nodes] = part
+        return merged

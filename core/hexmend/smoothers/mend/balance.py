@@ -1,0 +1,208 @@
+"""Stage of mend for the goal balanced: the best shape above floors of the scaled Jacobian and of q(H)."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hexmend.energy import MeshEnergy
+from hexmend.energy.sliding_energy import SlidingEnergy
+from hexmend.iteration import Step
+from hexmend.optimise.floors.central_path import PATH, CentralPath, CentralPathConfig, Least
+from hexmend.quality import measure
+
+_PATIENT = replace(
+    PATH,
+    jacobian_gap=0.01,
+    quality_gap=0.01,
+    max_hexes=0.2,
+    few_hexes=20_000,
+    min_gain=1e-3,
+    window=4,
+    max_floors=50,
+)
+_CAREFUL = replace(_PATIENT, jacobian_gap=5e-3, quality_gap=5e-3, min_gain=2e-4, max_floors=20)
+
+
+@dataclass(frozen=True)
+class BalanceConfig:
+    """Settings of the stage.
+
+    Parameters
+    ----------
+    kept_share : tuple of float
+        Shares of the highest least scaled Jacobian that are tried as its floor, until the mean of q(H) is no lower than
+        at the start.
+    quality_margin : float
+        Share by which the least q(H) is raised above its floor at first.
+    margin : float
+        Least distance of a floor from the value above it, as a share.
+    weights : tuple of float
+        Of the barrier while the energy falls above the floors.
+    returns : tuple of float
+        Shares of the way from the given mesh to the result that are tried where the mean of q(H) is lower all the same.
+    sound : float
+        Least scaled Jacobian from which on nothing is to be gained.
+    path : CentralPathConfig
+        Of the first rise.
+    patient : CentralPathConfig
+        Of the rise after it, where figures of the given mesh are not reached yet.
+    careful : CentralPathConfig
+        Of the rise from the given mesh, where they cannot be reached otherwise.
+    """
+
+    kept_share: tuple[float, ...] = (0.96, 0.9, 0.75, 0.5, 0.0)
+    quality_margin: float = 2e-3
+    margin: float = 1e-4
+    weights: tuple[float, ...] = (1.0, 0.1, 0.01)
+    returns: tuple[float, ...] = (0.5, 0.25, 0.125, 0.0625)
+    sound: float = 0.99
+    path: CentralPathConfig = PATH
+    patient: CentralPathConfig = _PATIENT
+    careful: CentralPathConfig = _CAREFUL
+
+
+BALANCE = BalanceConfig()
+
+
+@dataclass(frozen=True)
+class Floors:
+    """Least values that a result must have: those at the start, where they were sound, or at the optimum of shape.
+
+    Parameters
+    ----------
+    jacobian, quality : float
+        Of the scaled Jacobians and of q(H) of what can be moved; -inf: none.
+    mean : float
+        Of q(H) of all hexes.
+    """
+
+    jacobian: float
+    quality: float
+    mean: float
+
+
+@dataclass(frozen=True, eq=False)
+class Balanced:
+    """Result of the stage: points (n, 3), and a sentence about the floors, "" where nothing was to be gained."""
+
+    points: np.ndarray
+    message: str
+
+
+def floors_of(energy: MeshEnergy, points: np.ndarray) -> Floors:
+    """Compute the floors that a mesh with these points (n, 3) sets; none if what can be moved is inverted."""
+    least, quality = CentralPath(energy, points).least, measure(points, energy.mesh.hexes)
+    if not least.jacobian > 0:
+        return Floors(-np.inf, -np.inf, -np.inf)
+    return Floors(least.jacobian, least.quality, float(quality.q.mean()))
+
+
+def balance(
+    energy: MeshEnergy, points: np.ndarray, given: np.ndarray, config: BalanceConfig = BALANCE
+) -> Generator[Step, None, Balanced]:
+    """Raise the least scaled Jacobian and the least q(H), then improve the shape above floors just below them.
+
+    Parameters
+    ----------
+    energy : MeshEnergy
+        With p = 1; corners that are inverted are omitted.
+    points : (n, 3) float64
+        The optimum of shape.
+    given : (n, 3) float64
+        The points of the given mesh, whose figures the result is not to lower.
+    config : BalanceConfig
+
+    Yields
+    ------
+    Step
+        After each floor.
+
+    Returns
+    -------
+    Balanced
+    """
+    path, start = CentralPath(energy, points, config.path), floors_of(energy, given)
+    shape = path.least
+    if not shape.jacobian < config.sound:
+        return Balanced(points, "")
+    floor = Least(max(start.jacobian, shape.jacobian), max(start.quality, shape.quality))
+    target = Least(np.inf, floor.quality * (1 + config.quality_margin))
+    yield from _steps(path, path.rise(target))
+    if not _is_above(path.least, floor, config.margin):  # on with all hexes, until the floors are reached
+        target = Least(floor.jacobian * (1 + config.quality_margin), target.quality)
+        yield from _steps(path, path.rise(target, config.patient))
+    if not _is_above(path.least, floor, config.margin) and start.jacobian > 0:  # another way: from the given mesh
+        floor = Least(start.jacobian, start.quality)
+        path.move_to(energy.to_edge_units(given))
+        target = Least(floor.jacobian * (1 + config.quality_margin), floor.quality * (1 + config.quality_margin))
+        yield from _steps(path, path.rise(target, config.careful))
+    top, highest = path.least, path.x
+    for share in config.kept_share:
+        path.move_to(highest)
+        floors = Least(
+            min(max(share * top.jacobian, floor.jacobian), _below(top.jacobian, config.margin)),
+            min(floor.quality, _below(top.quality, config.margin)),
+        )
+        yield from _steps(path, path.minimise_above(floors, config.weights))
+        if not measure(path.points, energy.mesh.hexes).q.mean() < start.mean:
+            break
+    else:
+        yield from _return_towards(path, energy.to_edge_units(given), start, config.returns)
+    message = (
+        f"The least scaled Jacobian of the corners that can be moved can be {top.jacobian:.4f}; it is kept at "
+        f"{path.least.jacobian:.4f} at least, and the least q(H) at {path.least.quality:.4f}."
+    )
+    return Balanced(path.points, message)
+
+
+def _return_towards(path: CentralPath, given: np.ndarray, start: Floors, shares: tuple[float, ...]) -> Iterator[Step]:
+    """Go back towards the given mesh, x (n, 3), until the mean of q(H) is no lower than there, above the floors.
+
+    The worst hexes gain on the first part of the way, where the others lose little. Positions on a surface do not allow
+    it.
+    """
+    if isinstance(path.energy, SlidingEnergy):
+        return
+    far = path.x
+    for share in shares:
+        path.move_to(given + share * (far - given))
+        least = path.least
+        if (
+            least.jacobian >= start.jacobian
+            and least.quality >= start.quality
+            and not measure(path.points, path.energy.mesh.hexes).q.mean() < start.mean
+        ):
+            yield from _steps(path, iter([least]))
+            return
+    path.move_to(far)
+
+
+def _is_above(least: Least, floor: Least, margin: float) -> bool:
+    """Return True if floors can be kept: both values are above them by a margin."""
+    return _below(least.jacobian, margin) >= floor.jacobian and _below(least.quality, margin) >= floor.quality
+
+
+def raise_jacobian(
+    energy: MeshEnergy, points: np.ndarray, config: BalanceConfig = BALANCE
+) -> Generator[Step, None, np.ndarray]:
+    """Raise the least scaled Jacobian of what can be moved from points (n, 3) on; returns the points reached."""
+    path = CentralPath(energy, points, config.path)
+    target = Least(np.inf, -np.inf)
+    yield from _steps(path, path.rise(target))
+    if not energy.faceted:
+        yield from _steps(path, path.rise(target, config.patient))
+    return path.points
+
+
+def _below(value: float, margin: float) -> float:
+    return value - margin * abs(value)
+
+
+def _steps(path: CentralPath, stages: Iterator[Least]) -> Iterator[Step]:
+    """Convert what a path yields to steps of the smoother."""
+    for least in stages:
+        diagnostics = {"least": least.jacobian, "least_q": least.quality, "solver_iterations": path.solver_iterations}
+        yield Step(path.points, diagnostics, intermediate=True)

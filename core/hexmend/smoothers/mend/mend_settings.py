@@ -1,0 +1,95 @@
+"""Parameters of mend, and what follows from them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hexmend.boundary.feature_edges.features import AUTO
+from hexmend.energy import ObjectiveNorm
+from hexmend.parameters import parameter
+from hexmend.smoothers.base_optimiser import ObjectiveSmoother
+
+
+@dataclass(frozen=True)
+class MendSettings(ObjectiveSmoother):
+    """Method with the parameters of mend."""
+
+    goal: str = parameter(
+        "balanced",
+        choices=("balanced", "shape", "scaled-jacobian", "time-step"),
+        titles=("Balanced", "Best mean shape", "Least scaled Jacobian", "Longest time step"),
+        help="balanced: the best mean shape above floors of the least scaled Jacobian and q(H), which rise first; "
+        "shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian; time-step: or the "
+        "smallest explicit time step, the least height of a hex.",
+    )
+    p: float = parameter(
+        AUTO,
+        low=1,
+        high=32,
+        help="Exponent of the objective (3.3): the higher, the more the worst hexes count; auto: 1 with goal balanced, "
+        "else 2.",
+        automatic=AUTO,
+    )
+    max_p: float = parameter(
+        1.0,
+        low=1,
+        high=32,
+        help="If higher than p, p is doubled at the optimum up to this value, for the worst hexes; not with goal "
+        "balanced.",
+    )
+    initial_epsilon: float = parameter(
+        0.03,
+        low=1e-6,
+        high=1,
+        unit="mean edge length³",
+        help="e of the first delta, δ² = e (e − worst determinant); it falls until no hex is inverted.",
+    )
+    guard: bool = parameter(
+        False, help="Keep the best iterate that lowers neither the least q(H) nor the least scaled Jacobian."
+    )
+    solver_iterations: int = parameter(
+        200, low=1, high=10**6, help="Iteration limit of conjugate gradients for a Newton step."
+    )
+
+    @property
+    def norm(self) -> ObjectiveNorm:
+        """The highest p and the offset: the objective at whose optimum a run ends.
+
+        Steps with a lower p record the objective with that p instead. Steps that raise the least scaled Jacobian do not
+        minimise an energy: they record this one, for comparison, and it may rise.
+        """
+        return ObjectiveNorm(max(self.first_norm.p, self.p_limit), self.offset)
+
+    @property
+    def first_norm(self) -> ObjectiveNorm:
+        """The objective that is minimised first."""
+        automatic = 1.0 if self.balances else 2.0
+        return ObjectiveNorm(automatic if self.p == AUTO else self.p, self.offset)
+
+    @property
+    def p_limit(self) -> float:
+        """Value up to which p is doubled."""
+        return 1.0 if self.balances else self.max_p
+
+    @property
+    def balances(self) -> bool:
+        """The best shape above floors is the goal."""
+        return self.goal == "balanced"
+
+    @property
+    def maximises_jacobian(self) -> bool:
+        """The least scaled Jacobian is the goal."""
+        return self.goal == "scaled-jacobian"
+
+    @property
+    def maximises_minimum(self) -> bool:
+        """The least value of a measure of corners is the goal."""
+        return self.goal in ("scaled-jacobian", "time-step")
+
+    @property
+    def ignored_parameters(self) -> str:
+        ignored = [
+            name for name, value in (("max_p", self.max_p > 1), ("guard", self.guard)) if value and self.balances
+        ]
+        own = f"{' and '.join(ignored)} {'has' if len(ignored) == 1 else 'have'} no effect with goal = balanced."
+        return " ".join(filter(None, [super().ignored_parameters, own if ignored else ""]))

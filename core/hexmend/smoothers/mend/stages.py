@@ -1,0 +1,210 @@
+"""Stages of mend, one after another: untangling, the optimum of shape, sliding, and what its goal asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+from itertools import islice
+
+import numpy as np
+
+from hexmend.boundary import SlidingBoundary
+from hexmend.boundary.feature_edges.features import AUTO
+from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
+from hexmend.iteration import Outcome, Step
+from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.quality import ElementQuality, measure
+from hexmend.smoothers.base import Steps
+from hexmend.smoothers.mend.balance import balance, raise_jacobian
+from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
+from hexmend.smoothers.mend.maxmin import MAXMIN, NO_CORNERS, active_set, maximise_minimum
+from hexmend.smoothers.mend.mend_settings import MendSettings
+from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
+from hexmend.smoothers.mend.newton_steps import NewtonConfig
+from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface, raise_within_tolerance
+from hexmend.smoothers.mend.release import RELEASE, infeasible, untangle_released
+from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
+from hexmend.smoothers.mend.starts import raise_from_better
+from hexmend.smoothers.mend.time_step import maximise_time_step
+from hexmend.smoothers.mend.untangling import Untangled, UntanglingConfig, untangle
+
+
+class Stages:
+    """Stages of a run of mend.
+
+    Parameters
+    ----------
+    settings : MendSettings
+        The method with its parameters.
+    """
+
+    def __init__(self, settings: MendSettings):
+        self.settings, self.goal = settings, settings.goal
+
+    def steps(self, mesh: Mesh) -> Steps:
+        if mesh.linear_motion is not None:
+            mesh = mesh.with_points(mesh.constrained(mesh.points))
+        yield Step(mesh.points)
+        slides = self.settings.slides_on(mesh)
+        intermediate = slides or self.goal != "shape"
+        given, quality = mesh.points, measure(mesh.points, mesh.hexes)
+        locked_at_start = locked_corners(mesh, quality)
+        if slides and mesh.target is not None:  # the boundary begins on the surface
+            mesh = mesh.keeping_surface().with_points(self.settings.sliding(mesh).mesh.points)
+            quality = measure(mesh.points, mesh.hexes)
+        energy = energy_of(mesh, self.settings.first_norm)
+        shape = yield from self._shape(mesh, energy, quality, intermediate or mesh.linear_motion is not None)
+        if not intermediate:
+            return shape.outcome
+        fixed_optimum, sliding, fixed = shape.points, None, None  # the optimum with the boundary fixed
+        candidates = [mesh.points, fixed_optimum]
+        if slides:
+            if not measure(fixed_optimum, mesh.hexes).n_inverted:  # sliding ends no lower than the fixed boundary
+                fixed = yield from self._maxmin_stage(mesh, candidates, None)
+                if self.settings.balances:
+                    energy = self._sound_energy(mesh, fixed_optimum, None)
+                    given = (yield from balance(energy, fixed_optimum, given)).points
+            max_deviation = MAXMIN.surface_share * self.settings.absolute_tolerance(mesh)
+            sliding = SlidingBoundary(mesh, self.settings.feature_angle, max_deviation, self.settings.slides)
+            mesh = sliding.mesh
+            optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
+            steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
+            yield from islice(steps, MAXMIN.untangling_iterations)
+            shape = yield from self._sliding_shape(sliding, optimiser.points)
+            candidates += [optimiser.points, shape.points]
+        result = None
+        if sliding is not None:
+            result = yield from self._untangle_off_surface(sliding, candidates)
+        if result is None:
+            result = yield from self._maxmin_stage(mesh, candidates, sliding, fixed)
+        if sliding is not None:
+            result = yield from self._raise_off_surface(sliding, fixed_optimum, result)
+        if self.goal == "time-step":
+            result = yield from maximise_time_step(mesh, candidates, sliding, result)
+        points = shape.points if result is None else result.optimiser.points
+        outcome = shape.outcome if result is None else Outcome.NO_IMPROVEMENT
+        active, sentences, quality = None, [], None
+        if self.settings.balances and (result is None or not result.optimiser.envelope.released.any()):
+            energy = self._sound_energy(mesh, points, sliding)
+            balanced = yield from balance(energy, points, given)
+            points = balanced.points
+            sentences.append(balanced.message)
+        if self.settings.maximises_minimum:
+            active = active_set(result.optimiser, result.active)
+            sentences.append(limit_message(result.optimiser, result.active))
+        if slides:
+            quality = measure(points, mesh.hexes)
+            sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
+        decision = " ".join(filter(None, sentences))
+        if decision or outcome is Outcome.NO_IMPROVEMENT:
+            yield Step(points, decision=decision, intermediate=True, quality=quality, active=active)
+        return outcome
+
+    def _shape(
+        self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, intermediate: bool
+    ) -> Generator[Step, None, ShapeOptimum]:
+        """Untangle a mesh whose hexes have this quality, then go to the optimum of shape."""
+        newton, locked = NewtonConfig(self.settings.solver_iterations), locked_corners(mesh, quality)
+        energy = energy.with_objective(energy.norm, locked)
+        untangled = yield from self._untangle(mesh, energy, quality, locked)
+        points, omitted = untangled.points, untangled.omitted
+        if omitted.any() and not self.settings.slides_on(mesh):
+            decision = omission_message(omitted, locked)
+            yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
+        energy = energy.with_objective(energy.norm, omitted)
+        config = ShapeOptimumConfig(newton=newton)
+        return (yield from optimise_shape(energy, points, self.settings.p_limit, intermediate, config))
+
+    def _sound_energy(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None) -> MeshEnergy:
+        """The energy with p = 1, without the corners that are inverted at these points."""
+        inverted = inverted_corners(points, mesh.hexes, measure(points, mesh.hexes))
+        energy = energy_of(mesh, ObjectiveNorm(1.0, self.settings.offset), sliding)
+        return energy.with_objective(energy.norm, inverted)
+
+    def _sliding_shape(self, sliding: SlidingBoundary, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
+        """Untangle a mesh whose boundary slides, from points (n, 3) on, then go to the optimum of shape."""
+        energy = energy_of(sliding.mesh, self.settings.first_norm, sliding)
+        quality = measure(points, sliding.mesh.hexes)
+        return (yield from self._shape(sliding.mesh.with_points(points), energy, quality, True))
+
+    def _maxmin_stage(
+        self,
+        mesh: Mesh,
+        candidates: Sequence[np.ndarray],
+        sliding: SlidingBoundary | None,
+        fixed: MaxMinResult | None = None,
+    ) -> Generator[Step, None, MaxMinResult | None]:
+        """Raise the least scaled Jacobian from the best of some points (n, 3), where it is the goal or not sound.
+
+        None where shape is the goal and the least is sound. The result is no lower than `fixed`, that with the boundary
+        fixed.
+        """
+        optimisers = (MaxMinOptimiser(mesh, points, sliding) for points in candidates)
+        best = max(optimisers, key=lambda optimiser: optimiser.corners.active_minimum)
+        if not self.settings.maximises_jacobian and not best.corners.active_minimum < MAXMIN.barrier_safe:
+            return None
+        target = np.inf if self.settings.maximises_jacobian else MAXMIN.barrier_safe
+        reached = None if fixed is None else MaxMinOptimiser(mesh, fixed.optimiser.points, sliding)
+
+        def raise_least(optimiser: MaxMinOptimiser) -> Generator[Step, None, ActiveCorners]:
+            groups = MAXMIN.max_groups
+            if self.settings.maximises_jacobian and optimiser.corners.active_minimum > 0:
+                energy = self._sound_energy(mesh, optimiser.points, sliding)
+                optimiser.improve_to((yield from raise_jacobian(energy, optimiser.points)))
+                groups = 1
+            return (yield from maximise_minimum(optimiser, target, groups=groups))
+
+        return (yield from raise_from_better(best, reached, raise_least, MAXMIN.trial_iterations))
+
+    def _untangle_off_surface(
+        self, sliding: SlidingBoundary, candidates: Sequence[np.ndarray]
+    ) -> Generator[Step, None, MaxMinResult | None]:
+        """Let nodes leave the surface where the best of some points (n, 3) on it leave hexes inverted.
+
+        None where no hex is inverted, or nodes must not leave the surface, or none is mended by that.
+        """
+        tolerance, hexes = self.settings.absolute_tolerance(sliding.mesh), sliding.mesh.hexes
+        inverted = [measure(points, hexes).n_inverted for points in candidates]
+        start = candidates[int(np.argmin(inverted))]
+        if not min(inverted) or not 0 < tolerance < np.inf:
+            return None
+        edge, automatic = sliding.mesh.mean_edge_length, self.settings.surface_tolerance == AUTO
+        limits = [share * edge for share in RELEASE.steps] if automatic else [tolerance]
+        points, released = yield from untangle_released(sliding, start, self._untangled, limits)
+        if measure(points, hexes).n_inverted:
+            return None
+        optimiser = MaxMinOptimiser(sliding.mesh, points, sliding)
+        limit = max(tolerance, optimiser.envelope.largest_deviation(points))
+        shape = yield from infeasible(self._sliding_shape(sliding.without_nodes(released, limit), points))
+        optimiser = MaxMinOptimiser(sliding.mesh, shape.points, sliding)
+        optimiser.release_nodes(released)
+        if not self.settings.maximises_jacobian and optimiser.corners.active_minimum >= MAXMIN.barrier_safe:
+            return MaxMinResult(optimiser, NO_CORNERS)
+        return (yield from raise_within_tolerance(optimiser, limit))
+
+    def _raise_off_surface(
+        self, sliding: SlidingBoundary, start: np.ndarray, result: MaxMinResult | None
+    ) -> Generator[Step, None, MaxMinResult | None]:
+        """Let nodes leave the surface, from points `start` (n, 3) on, where the result on it is low."""
+        tolerance, wanted = self.settings.absolute_tolerance(sliding.mesh), MAXMIN.acceptable
+        wanted = wanted if self.settings.maximises_jacobian else min(wanted, MAXMIN.barrier_safe)
+        if result is None or not 0 < tolerance < np.inf or result.optimiser.corners.movable_minimum >= wanted:
+            return result
+        optimiser = MaxMinOptimiser(sliding.mesh, start, sliding)
+        if self.settings.surface_tolerance == AUTO and measure(result.optimiser.points, sliding.mesh.hexes).n_inverted:
+            tolerance = RELEASE.steps[-1] * sliding.mesh.mean_edge_length
+        return (yield from improve_off_surface(optimiser, tolerance, result))
+
+    def _untangle(
+        self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, locked: np.ndarray
+    ) -> Generator[Step, None, Untangled]:
+        config = UntanglingConfig(self.settings.initial_epsilon, newton=NewtonConfig(self.settings.solver_iterations))
+        return (yield from untangle(mesh, energy.without_size(), quality, locked, config))
+
+    def _untangled(self, sliding: SlidingBoundary, points: np.ndarray) -> Generator[Step, None, np.ndarray]:
+        """Untangle a mesh whose boundary slides, from points (n, 3) on."""
+        mesh = sliding.mesh.with_points(points)
+        quality = measure(points, mesh.hexes)
+        locked = locked_corners(mesh, quality)
+        energy = energy_of(mesh, self.settings.first_norm, sliding).with_objective(self.settings.norm, locked)
+        return (yield from self._untangle(mesh, energy, quality, locked)).points

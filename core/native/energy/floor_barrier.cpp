@@ -1,0 +1,285 @@
+#include "energy/floor_barrier.hpp"
+
+#include <memory>
+
+#include "energy/block_scatter.hpp"
+#include "energy/hex_hessian.hpp"
+
+namespace hexmend {
+namespace {
+
+// b(y) with its derivatives by the quantity that y is of, at weight 1.
+struct Barriers {
+    Lanes value{}, first{}, second{};
+    bool any = false;  // some lane is below its band
+};
+
+// Of a value with its floor.
+template <bool derivatives>
+Barriers barrier_of(const Lanes &value, const Lanes &floor, double band, const Bits &counted) {
+    Barriers b;
+    Lanes y = (value - floor) / band;
+    double slope = 1 / band;
+    for (int i = 0; i < LANES; ++i) {
+        if (!counted[i] || y[i] >= 1) continue;
+        b.any = true;
+        double z = y[i];
+        if (!(z > 0)) {
+            b.value[i] = INF;
+            continue;
+        }
+        if constexpr (derivatives) {
+            b.first[i] = slope * (2 - z - 1 / z);
+            b.second[i] = slope * slope * (1 / (z * z) - 1);
+        } else {
+            b.value[i] = -std::log(z) + (z - 1) * (1 - 0.5 * (z - 1));
+        }
+    }
+    return b;
+}
+
+// Scaled Jacobian s of a corner tetrahedron with its derivatives: g is that by the edges, a has the edges over their
+// squares.
+struct CornerJacobian {
+    Lanes s, over_lengths;
+    V3<Lanes> inverse_squares;
+    M3<Lanes> a, g;
+};
+
+inline Lanes scaled_jacobian(const M3<Lanes> &edges) {
+    Lanes lengths = length(edges.u) * length(edges.v) * length(edges.w);
+    return lengths > 0.0 ? determinant(edges) / lengths : broadcast<Lanes>(-1.0);
+}
+
+inline CornerJacobian corner_jacobian(const M3<Lanes> &edges, const Lanes &s) {
+    auto c = cofactors(edges);
+    auto over_square = [](const V3<Lanes> &e) { return square(e) > 0.0 ? 1.0 / square(e) : Lanes{}; };
+    V3<Lanes> inverse{over_square(edges.u), over_square(edges.v), over_square(edges.w)};
+    Lanes over = sqrt(inverse.x * inverse.y * inverse.z);
+    M3<Lanes> a{inverse.x * edges.u, inverse.y * edges.v, inverse.z * edges.w};
+    M3<Lanes> g{over * c.u - s * a.u, over * c.v - s * a.v, over * c.w - s * a.w};
+    return {s, over, inverse, a, g};
+}
+
+// Add first * s'' + second * s' s'^T of corner t.
+//
+// With b the columns of S over their squares, g = s' and L = 1/(|u| |v| |w|), the block of two edges i, j of s'' is
+// L [d cof_i/d e_j] - g_i a_j' - a_i g_j' - s a_i a_j', and for i = j also s (2 a_i a_i' - I/|e_i|^2).
+template <int t>
+__attribute__((noinline)) void add_corner_hessian(const M3<Lanes> &edges, const CornerJacobian &at, const Barriers &by,
+                                                  HessianSums &sums) {
+    constexpr auto &n = CORNER_TETRAHEDRA[t];
+    const auto &[u, v, w] = edges;
+    const auto &[gu, gv, gw] = at.g;
+    const auto &[au, av, aw] = at.a;
+    Lanes half = 0.5 * by.second, none{};
+    V3<Lanes> zero{};
+    auto mixed = [&](const V3<Lanes> &g, const V3<Lanes> &a) { return half * g - by.first * a; };
+    V3<Lanes> pu = mixed(gu, au), pv = mixed(gv, av), pw = mixed(gw, aw);
+    V3<Lanes> g0 = -(gu + gv + gw), a0 = -(au + av + aw), p0 = -(pu + pv + pw);
+    Lanes twist = -by.first * at.over_lengths, own = -by.first * at.s;
+    V3<Lanes> eu = twist * u, ev = twist * v, ew = twist * w;
+    auto twice = [&](const V3<Lanes> &a) -> V3<Lanes> { return own * (a0 + a + a); };
+    sums.pair<n[0], n[1]>(g0, p0, gu, pu, -own * at.inverse_squares.x, ew - ev);
+    sums.pair<n[0], n[2]>(g0, p0, gv, pv, -own * at.inverse_squares.y, eu - ew);
+    sums.pair<n[0], n[3]>(g0, p0, gw, pw, -own * at.inverse_squares.z, ev - eu);
+    sums.pair<n[1], n[2]>(gu, pu, gv, pv, none, ew);
+    sums.pair<n[1], n[3]>(gu, pu, gw, pw, none, -ev);
+    sums.pair<n[2], n[3]>(gv, pv, gw, pw, none, eu);
+    sums.pair<n[0], n[1]>(twice(au), zero, zero, au, none, zero);
+    sums.pair<n[0], n[2]>(twice(av), zero, zero, av, none, zero);
+    sums.pair<n[0], n[3]>(twice(aw), zero, zero, aw, none, zero);
+    sums.pair<n[1], n[2]>(own * au, zero, zero, av, none, zero);
+    sums.pair<n[1], n[3]>(own * au, zero, zero, aw, none, zero);
+    sums.pair<n[2], n[3]>(own * av, zero, zero, aw, none, zero);
+}
+
+// Floors of the hexes in the lanes of a block.
+struct LaneFloors {
+    Lanes jacobian = broadcast<Lanes>(-INF), quality = broadcast<Lanes>(-INF);
+    Bits ignored{};
+
+    template <class Row> LaneFloors(const Floors &floors, int count, const Row &row) {
+        for (int i = 0; i < count; ++i) {
+            auto hex = row(i);
+            jacobian[i] = floors.jacobians[hex], quality[i] = floors.qualities[hex], ignored[i] = floors.ignored[hex];
+        }
+    }
+
+    bool any() const {
+        for (int i = 0; i < LANES; ++i)
+            if (jacobian[i] > -INF || quality[i] > -INF) return true;
+        return false;
+    }
+
+    Bits counted(int t) const { return (ignored & (std::int64_t{1} << t)) == 0; }
+};
+
+template <class Scales> Lanes quality_of(const Corners<Lanes> &x, const Scales &scales, const auto &counted) {
+    Lanes sum{};
+    unroll<8>([&](auto t) { sum += 1.0 / eta<false>(x.edges<t>(), scales.template columns<t>(), 0.0, counted(t)); });
+    return sum * 0.125;
+}
+
+constexpr Bits ALL = Bits{} - 1;
+
+template <class Target>
+void values_of(Points points, Hexes hexes, const Floors &floors, OmittedCorners omitted, std::span<double> values,
+               const Target &target) {
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        LaneFloors block(floors, count, [&](int i) { return first + i; });
+        Lanes sum{};
+        if (block.any()) {
+            auto x = gather_corners<Lanes>(points, hexes, first, count);
+            unroll<8>([&](auto t) {
+                auto s = scaled_jacobian(x.edges<t>());
+                sum += barrier_of<false>(s, block.jacobian, floors.jacobian_band, block.counted(t)).value;
+            });
+            CornerMask<Lanes> counted(omitted, first, count);
+            auto quality = quality_of(x, scales_of<Lanes>(target, first, count), counted);
+            sum += barrier_of<false>(quality, block.quality, floors.quality_band, ALL).value;
+        }
+        store(floors.weight * sum, first, count, values);
+    });
+}
+
+template <class Target>
+void gradient_of(Points points, Hexes hexes, const Floors &floors, OmittedCorners omitted, CornerVectors shares,
+                 const Target &target) {
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        LaneFloors block(floors, count, [&](int i) { return first + i; });
+        if (!block.any()) return;
+        auto x = gather_corners<Lanes>(points, hexes, first, count);
+        auto scales = scales_of<Lanes>(target, first, count);
+        CornerMask<Lanes> counted(omitted, first, count);
+        Corners<Lanes> total;
+        bool some = false;
+        auto by = barrier_of<true>(quality_of(x, scales, counted), block.quality, floors.quality_band, ALL);
+        if (by.any) {
+            some = true;
+            unroll<8>([&](auto t) {
+                auto edges = x.edges<t>();
+                auto columns = scales.template columns<t>();
+                const auto &s = scale(edges, columns);
+                auto cof = cofactors(s);
+                auto d = Inverse{}(derivatives<false>(edges, columns, s, cof, 0.0, counted(t)));
+                total.scatter<t>(scale(gradient<Lanes>(d, s, cof), columns));
+            });
+            for (auto &corner : total.at) corner = by.first * corner;
+        }
+        unroll<8>([&](auto t) {
+            auto edges = x.edges<t>();
+            auto s = scaled_jacobian(edges);
+            auto here = barrier_of<true>(s, block.jacobian, floors.jacobian_band, block.counted(t));
+            if (!here.any) return;
+            some = true;
+            auto g = corner_jacobian(edges, s).g;
+            total.template scatter<t>(M3<Lanes>{here.first * g.u, here.first * g.v, here.first * g.w});
+        });
+        if (!some) return;
+        for (auto &corner : total.at) corner = broadcast<Lanes>(floors.weight) * corner;
+        std::array<double, 24> rows[LANES];
+        store(total, 0, LANES, std::span<std::array<double, 24>>(rows));
+        for (int i = 0; i < count; ++i)
+            for (int k = 0; k < 24; ++k) shares[first + i][k] += rows[i][k];
+    });
+}
+
+template <class Real, class Target>
+void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, const HexShares &shared,
+                 std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
+                 const Target &target) {
+    parallel(static_cast<std::int64_t>(shared.bounds.size()) - 1, [&](std::int64_t share) {
+        auto low = shared.bounds[share], high = shared.bounds[share + 1];
+        auto sums = std::make_unique<HessianSums>();
+        auto values = std::make_unique<Real[][HEX_STRIDE]>(LANES);
+        for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
+            int count = std::min(LANES, shared.start[share + 1] - first);
+            LaneFloors block(floors, count, [&](int i) { return shared.numbers[first + i]; });
+            if (!block.any()) continue;
+            auto x = gather_corners<Lanes>(points, shared.hexes, first, count);
+            auto scales =
+                scales_of<Lanes>(target, [&](int i) { return shared.numbers[first + (i < count ? i : count - 1)]; });
+            std::uint8_t bits[LANES] = {};
+            for (int i = 0; i < count; ++i) bits[i] = omitted[shared.numbers[first + i]];
+            CornerMask<Lanes> counted(bits, 0, count);
+            *sums = HessianSums{};
+            auto by = barrier_of<true>(quality_of(x, scales, counted), block.quality, floors.quality_band, ALL);
+            bool some = by.any;
+            if (by.any) {
+                unroll<8>([&](auto t) { add_tetrahedron<false, t>(x, scales, 0.0, counted(t), *sums, Inverse{}); });
+                for (auto &entry : sums->at) entry = by.first * entry;
+            }
+            unroll<8>([&](auto t) {
+                auto edges = x.edges<t>();
+                auto s = scaled_jacobian(edges);
+                auto here = barrier_of<true>(s, block.jacobian, floors.jacobian_band, block.counted(t));
+                if (!here.any) return;
+                some = true;
+                add_corner_hessian<t>(edges, corner_jacobian(edges, s), here, *sums);
+            });
+            if (!some) continue;
+            auto weight = broadcast<Lanes>(floors.weight);
+            weigh_hessian<Real>(*sums, weight, floors.weight * by.second, values.get());
+            for (int i = 0; i < count; ++i)
+                scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off_diagonal,
+                              diagonal);
+        }
+    });
+}
+
+void expect_floors(const Floors &floors, std::size_t hexes, const TargetMatrices *target) {
+    expect(floors.jacobians.size() == hexes && floors.qualities.size() == hexes && floors.ignored.size() == hexes,
+           "jacobians, qualities and ignored: one for each hex is expected");
+    expect_rows(target, hexes);
+}
+
+}  // namespace
+
+void floor_qualities(Points points, Hexes hexes, OmittedCorners omitted, std::span<double> values,
+                     const TargetMatrices *target) {
+    expect(omitted.size() == hexes.size() && values.size() == hexes.size(),
+           "omitted and values: one for each hex is expected");
+    expect_rows(target, hexes.size());
+    with_target(target, [&](const auto &w) {
+        for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+            auto x = gather_corners<Lanes>(points, hexes, first, count);
+            CornerMask<Lanes> counted(omitted, first, count);
+            store(quality_of(x, scales_of<Lanes>(w, first, count), counted), first, count, values);
+        });
+    });
+}
+
+void floor_values(Points points, Hexes hexes, const Floors &floors, OmittedCorners omitted, std::span<double> values,
+                  const TargetMatrices *target) {
+    expect(omitted.size() == hexes.size() && values.size() == hexes.size(),
+           "omitted and values: one for each hex is expected");
+    expect_floors(floors, hexes.size(), target);
+    with_target(target, [&](const auto &w) { values_of(points, hexes, floors, omitted, values, w); });
+}
+
+void add_floor_gradient(Points points, Hexes hexes, const Floors &floors, OmittedCorners omitted, CornerVectors shares,
+                        const TargetMatrices *target) {
+    expect(omitted.size() == hexes.size() && shares.size() == hexes.size(),
+           "omitted and shares: one for each hex is expected");
+    expect_floors(floors, hexes.size(), target);
+    with_target(target, [&](const auto &w) { gradient_of(points, hexes, floors, omitted, shares, w); });
+}
+
+template <class Real>
+void assemble_floors(Points points, const Floors &floors, OmittedCorners omitted, const HexShares &shared,
+                     std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
+                     const TargetMatrices *matrices) {
+    expect_floors(floors, omitted.size(), matrices);
+    with_target(matrices,
+                [&](const auto &w) { assemble_of<Real>(points, floors, omitted, shared, off_diagonal, diagonal, w); });
+}
+
+#define FOR_REAL(Real)                                                                                  \
+    template void assemble_floors<Real>(Points, const Floors &, OmittedCorners, const HexShares &,      \
+                                        std::span<std::array<Real, 9>>, std::span<std::array<Real, 6>>, \
+                                        const TargetMatrices *);
+FOR_REAL(float)
+FOR_REAL(double)
+
+}  // namespace hexmend

@@ -1,0 +1,201 @@
+"""Goal balanced: of a sound mesh no figure falls, tangled ones are untangled, and a boundary that slides ends no lower."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.energy import MeshEnergy, ObjectiveNorm
+from hexmend.gallery import make
+from hexmend.io import read
+from hexmend.iteration import Outcome, StoppingCriteria
+from hexmend.optimise.floors.central_path import CentralPath
+from hexmend.quality import measure, summarise
+from hexmend.run import smooth
+from hexmend.smoothers import METHODS
+from hexmend.smoothers.mend.inversion import inverted_corners
+from tests.core.boundary.solids import ball, cylinder, slid, wavy
+from tests.core.grids import grid, scrambled
+from tests.core.smoothers.mend.test_mend import with_locked_corner
+
+Mend = METHODS["mend"]
+FIGURES = "q_min", "q_mean", "scaled_jacobian_min"
+
+#: Small meshes, cheap to draw many of.
+MESHES = {
+    "grid": lambda: grid(3),
+    "wavy": lambda: wavy(grid(3), 0.3),
+    "five-side": lambda: make("five-side", size=60),
+    "bridge-sharp": lambda: make("bridge-sharp", size=60),
+    "plane": lambda: make("plane", size=100),
+    "cylinder": lambda: cylinder(16, 2),
+    "ball": lambda: ball(3),
+}
+
+
+def changes(before, after):
+    """By how much each figure is higher."""
+    return {name: getattr(after, name) - getattr(before, name) for name in FIGURES}
+
+
+def movable_least(mesh, points):
+    """The least values of what can be moved, without the corners that are inverted."""
+    inverted = inverted_corners(points, mesh.hexes, measure(points, mesh.hexes))
+    return CentralPath(MeshEnergy(mesh, ObjectiveNorm(1.0), inverted), points).least
+
+
+def check_nothing_falls(result):
+    assert result.before.inverted == result.after.inverted == 0
+    fallen = {name: change for name, change in changes(result.before, result.after).items() if change < -1e-9}
+    assert not fallen, f"{result.before} became {result.after}"
+
+
+def test_it_is_the_default_and_p_follows_the_goal():
+    assert Mend().goal == "balanced"
+    assert [Mend(goal=goal).norm.p for goal in ("balanced", "shape", "scaled-jacobian")] == [1, 2, 2]
+    assert [Mend(goal=goal, p=4.0).norm.p for goal in ("balanced", "shape")] == [4, 4]
+    assert Mend(goal="shape", max_p=16.0).norm.p == 16
+    assert Mend(max_p=16.0, guard=True).norm.p == 1
+    assert "max_p and guard have no effect with goal = balanced" in Mend(max_p=16.0, guard=True).ignored_parameters
+    assert "guard" not in Mend(goal="shape", guard=True).ignored_parameters
+
+
+@settings(max_examples=25)
+@given(
+    name=st.sampled_from(sorted(MESHES)),
+    amplitude=st.sampled_from([0.0, 0.05, 0.15, 0.25]),
+    iterations=st.sampled_from([3, 10, 300]),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_of_a_sound_mesh_nothing_falls_wherever_it_is_stopped(name, amplitude, iterations, seed):
+    mesh = MESHES[name]()
+    mesh = scrambled(mesh, amplitude * mesh.mean_edge_length, seed)
+    result = smooth(mesh, Mend(), StoppingCriteria(max_iterations=iterations))
+    assert result.after.inverted <= result.before.inverted
+    if result.before.inverted == 0:
+        check_nothing_falls(result)
+
+
+@pytest.mark.parametrize("name", ["five-side", "bridge-sharp", "plane"])
+@pytest.mark.parametrize("first", ["laplacian", "getme", "local-sd"])
+def test_nothing_falls_after_another_method_and_something_rises(name, first):
+    mesh = smooth(make(name, size=300), first).mesh
+    result = smooth(mesh, Mend())
+    if result.before.inverted:
+        assert result.after.inverted == 0
+        return
+    check_nothing_falls(result)
+    assert max(changes(result.before, result.after).values()) > 1e-3
+
+
+def test_a_mean_that_would_fall_is_kept_by_going_back_towards_the_given_mesh():
+    """GETMe leaves a high mean with a hex that is nearly flat: the best shape with a sound least has a lower mean."""
+    mesh = smooth(make("plane", size=300), "getme").mesh
+    shape = smooth(mesh, Mend(goal="shape", p=1.0)).after
+    result = smooth(mesh, Mend())
+    assert shape.q_mean < result.before.q_mean - 0.01
+    check_nothing_falls(result)
+    assert result.after.scaled_jacobian_min > 0.05 > 10 * result.before.scaled_jacobian_min
+    assert result.after.q_min > 2 * result.before.q_min
+
+
+@pytest.mark.parametrize("name", ["five-side", "bridge-sharp", "plane", "cube"])
+def test_a_tangled_mesh_ends_as_good_as_by_the_goals_it_balances(name):
+    mesh = make(name, size=150, scramble=0.8, seed=3)
+    assert summarise(mesh).inverted > 10
+    balanced, raised = (smooth(mesh, Mend(goal=goal)).after for goal in ("balanced", "scaled-jacobian"))
+    shape = smooth(mesh, Mend(goal="shape", p=1.0)).after
+    assert balanced.inverted == 0
+    assert balanced.scaled_jacobian_min >= 0.94 * raised.scaled_jacobian_min
+    assert balanced.scaled_jacobian_min >= shape.scaled_jacobian_min - 1e-9
+    assert balanced.q_min >= min(shape.q_min, raised.q_min) - 1e-9
+    assert balanced.q_mean >= raised.q_mean - 1e-9
+
+
+def test_beside_a_locked_hex_no_figure_of_the_others_falls():
+    mesh = with_locked_corner(make("five-side", size=300))
+    result = smooth(mesh, Mend())
+    locked = measure(mesh.points, mesh.hexes).inverted
+    assert (result.before.inverted, result.after.inverted, result.after.locked_inverted) == (1, 1, 1)
+    before, after = (measure(points, mesh.hexes) for points in (mesh.points, result.mesh.points))
+    for name in ("q", "scaled_jacobian"):
+        old, new = (getattr(one, name)[~locked].min() for one in (before, after))
+        assert new >= old
+    start, end = movable_least(mesh, mesh.points), movable_least(mesh, result.mesh.points)
+    assert end.jacobian > start.jacobian + 0.01
+    assert end.quality > start.quality + 0.01
+    assert "The least scaled Jacobian of the corners that can be moved can be" in result.message
+
+
+def test_figures_of_a_hex_that_stays_inverted_do_not_count_but_those_of_the_others():
+    mesh = with_locked_corner(make("five-side", size=60))
+    start = measure(mesh.points, mesh.hexes)
+    (locked,) = np.flatnonzero(start.inverted)
+    mend = Mend()
+
+    def ranked(name, hexes, factor):
+        values = getattr(start, name).copy()
+        values[hexes] *= factor
+        return mend.rank(start, replace(start, **{name: values}))
+
+    others = np.delete(np.arange(mesh.n_hexes), locked)
+    assert ranked("q", locked, 0.5) == mend.rank(start, start)
+    for name in ("q", "scaled_jacobian"):
+        assert ranked(name, others, 0.99) > mend.rank(start, start)
+        assert ranked(name, others, 1.01) == mend.rank(start, start)
+
+
+def test_a_mesh_that_cannot_gain_stays():
+    result = smooth(grid(3), Mend())
+    assert result.outcome is Outcome.CONVERGED
+    np.testing.assert_allclose(result.mesh.points, grid(3).points, atol=1e-12)
+
+
+def test_the_result_is_said_with_what_was_possible():
+    mesh = make("five-side", size=100)
+    result = smooth(mesh, Mend())
+    least = movable_least(mesh, result.mesh.points)
+    assert "The least scaled Jacobian of the corners that can be moved can be " in result.message
+    assert f"it is kept at {least.jacobian:.4f} at least, and the least q(H) at {least.quality:.4f}." in result.message
+
+
+SLIDING = {
+    "ball": lambda: slid(ball(3), 0.4, 3),
+    "cylinder": lambda: slid(cylinder(16, 2), 0.4, 3),
+    "block": lambda: slid(grid(3), 0.5, 3),
+    "five-side": lambda: make("five-side", size=60),
+}
+
+
+def check_freedom(mesh):
+    """Check that neither least is lower with the boundary sliding than fixed."""
+    fixed, slides = (smooth(mesh, Mend(boundary=boundary)) for boundary in ("fixed", "slide"))
+    assert slides.after.inverted <= fixed.after.inverted
+    if fixed.after.inverted:
+        return
+    for name in ("scaled_jacobian_min", "q_min"):
+        assert getattr(slides.after, name) >= getattr(fixed.after, name) - 1e-9, (fixed.after, slides.after)
+    if not slides.before.inverted:
+        check_nothing_falls(slides)
+
+
+@pytest.mark.parametrize("name", SLIDING)
+def test_a_boundary_that_slides_ends_no_lower_than_a_fixed_one(name):
+    check_freedom(SLIDING[name]())
+
+
+@pytest.mark.parametrize("name", ["pave3.e.vtk", "CAD4.vtk", "hex_5_tangled.vtk", "bunny.vtk"])
+def test_of_real_meshes_nothing_falls(real_mesh, name):
+    result = smooth(read(real_mesh(name)), Mend())
+    assert result.after.inverted == result.after.locked_inverted
+    if result.before.inverted == 0:
+        check_nothing_falls(result)
+        assert result.after.scaled_jacobian_min > result.before.scaled_jacobian_min
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["swivel2_7494.mesh", "impeller.vtk", "cap_out.mesh"])
+def test_of_larger_real_meshes_nothing_falls(real_mesh, name):
+    check_nothing_falls(smooth(read(real_mesh(name)), Mend()))

@@ -1,0 +1,106 @@
+"""Boundary by need: nodes leave it where it holds hexes inverted, only they, and a tolerance is a hard limit."""
+
+import numpy as np
+import pytest
+
+from hexmend.boundary import NodeClass, SlidingBoundary
+from hexmend.gallery import make
+from hexmend.io import read
+from hexmend.mesh.fixing import with_pinned
+from hexmend.run import StoppingCriteria, smooth
+from hexmend.smoothers import METHODS
+from hexmend.smoothers.sliding_smoother import absolute_tolerance
+from tests.core.boundary.solids import ball, cylinder, slid
+from tests.core.grids import grid
+
+Mend = METHODS["mend"]
+SHORT = StoppingCriteria(max_iterations=40)
+
+
+def chamfered(n=3):
+    """Make a block one of whose edges is cut off: there each hex has two faces on one flat piece of the boundary."""
+    mesh = grid(n)
+    points, (x, _, z) = mesh.points.copy(), mesh.points.T
+    edge = np.flatnonzero((x == 0) & (z == n))
+    points[edge] += [0.52, 0, -0.52]
+    return mesh.with_points(points), edge
+
+
+@pytest.mark.parametrize("goal", ["shape", "scaled-jacobian"])
+def test_nodes_that_hold_hexes_inverted_leave_the_boundary_and_only_they(goal):
+    mesh, edge = chamfered()
+    fixed = smooth(mesh, Mend(goal=goal))
+    result = smooth(mesh, Mend(goal=goal, boundary="slide"))
+    assert (fixed.after.inverted, result.after.inverted) == (3, 0)
+    left = result.departures.nodes
+    around = np.union1d(edge, mesh.topology.rings.of(edge))
+    assert left.size > 0
+    assert np.isin(left, around).all()
+    assert result.surface.max <= 0.3 * (1 + 1e-4)
+    assert "nodes have left" in result.surface_sentence or "node has left" in result.surface_sentence
+
+
+def test_a_tolerance_of_0_and_pins_hold_whatever_it_costs():
+    mesh, edge = chamfered()
+    for case in (
+        smooth(mesh, Mend(boundary="slide", surface_tolerance=0), SHORT),
+        smooth(with_pinned(mesh, edge), Mend(boundary="slide"), SHORT),
+    ):
+        assert not np.isin(case.departures.nodes, edge).any()
+    np.testing.assert_array_equal(case.mesh.points[edge], mesh.points[edge])
+
+
+@pytest.mark.parametrize("tolerance", [0.1, "2%"])
+def test_a_tolerance_that_is_given_is_a_hard_limit(tolerance):
+    mesh, _ = chamfered()
+    result = smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance=tolerance), SHORT)
+    limit = absolute_tolerance(mesh, tolerance) / mesh.mean_edge_length
+    assert result.surface.max <= limit * (1 + 1e-4)
+
+
+def test_a_tolerance_in_per_cent_is_that_of_the_diagonal():
+    mesh = grid(3, 4, 12)
+    assert absolute_tolerance(mesh, "10%") == pytest.approx(1.3)
+    assert absolute_tolerance(mesh, 0.5) == pytest.approx(0.5)
+    assert absolute_tolerance(mesh, "unlimited") == np.inf
+
+
+def test_freed_nodes_are_judged_by_nothing_and_the_others_as_before():
+    sliding = SlidingBoundary(grid(3))
+    node = np.flatnonzero(sliding.node_class == NodeClass.PATCH)[:1]
+    freed = sliding.without_nodes(node, 0.5)
+    assert not freed.slides(node).any()
+    assert freed.mesh.free[node].all()
+    assert freed.nodes.size == sliding.nodes.size - 1
+    points = sliding.mesh.points.copy()
+    points[node] = 2 * points[node] - points.mean(axis=0)
+    assert not freed.flipped_quads(sliding.mesh.points, points).size
+    np.testing.assert_array_equal(freed.project(points[freed.nodes]), points[freed.nodes])
+
+
+SMALL = {
+    "ball": lambda: slid(ball(4), 0.5, 3),
+    "cylinder": lambda: slid(cylinder(16, 3), 0.5, 3),
+    "block": lambda: slid(grid(4), 0.6, 3),
+    "bridge-sharp": lambda: make("bridge-sharp", size=60),
+    "five-side": lambda: make("five-side", size=100),
+}
+
+
+def check_freedom(mesh):
+    """Check that the least is no lower with the boundary sliding than fixed."""
+    fixed, slides = (smooth(mesh, Mend(goal="scaled-jacobian", boundary=boundary)) for boundary in ("fixed", "slide"))
+    assert slides.after.inverted <= fixed.after.inverted
+    if not fixed.after.inverted:
+        assert slides.after.scaled_jacobian_min >= fixed.after.scaled_jacobian_min - 1e-9
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_a_boundary_that_slides_ends_no_lower_than_a_fixed_one(name):
+    check_freedom(SMALL[name]())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["mid2FemPer.vtk", "fertility_1.mesh"])
+def test_a_real_boundary_that_slides_ends_no_lower_than_a_fixed_one(real_mesh, name):
+    check_freedom(read(real_mesh(name)))
