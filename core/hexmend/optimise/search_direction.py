@@ -85,7 +85,7 @@ class TruncatedNewtonConfig:
     loosest: float = 0.2
     tightest: float = 1e-3
     gradient_floor: float = 1e-9
-    max_damping_increases: int = 7
+    max_damping_increases: int = 6
     damping_growth: float = 4.0
     damping_decay: float = 4.0
     min_damping: float = 0.002

@@ -148,7 +148,7 @@ class CentralPath:
         Least
             After each floor.
         """
-        config, least = config or self.config, self.least
+        config, least, target = config or self.config, self.least, self._without_values(target)
         floors = Least(
             min(least.jacobian - config.jacobian_gap, target.jacobian),
             min(least.quality - config.quality_gap, target.quality),
@@ -183,9 +183,14 @@ class CentralPath:
         Least
             After the minimum with each weight.
         """
+        floors = self._without_values(floors)
         for weight in weights:
             self._centre(floors, 1.0, weight, self.config)
             yield self.least
+
+    def _without_values(self, floors: Least) -> Least:
+        """Return floors, or targets, without one of q(H) where no hex has that value."""
+        return floors if self.least.quality < np.inf else Least(floors.jacobian, -np.inf)
 
     def _centre(self, floors: Least, scale: float, weight: float, config: CentralPathConfig) -> None:
         """Minimise the energy with the barrier of floors, in the part of the mesh where it acts."""

@@ -198,7 +198,7 @@ def raise_jacobian(
 
 
 def _below(value: float, margin: float) -> float:
-    return value - margin * abs(value)
+    return value - margin * abs(value) if value < np.inf else value
 
 
 def _steps(path: CentralPath, stages: Iterator[Least]) -> Iterator[Step]:

@@ -56,10 +56,10 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     lines = ["| mesh, hexes | | inverted | q min | q mean | scaled Jacobian min | s |", "|:---|:---|" + "---:|" * 5]
     for row in figures["runs"]:
         name = f"{row['mesh'].partition('.')[0]}, {row['given']['hexes']:,}"
-        for what in ("given", *_GOALS):
-            seconds = f"{row[what]['seconds']:.1f}" if what in _GOALS else ""
-            values = " | ".join(f"{row[what][key]:.4f}" for key in _FIGURES)
-            lines.append(f"| {name} | {what} | {row[what]['inverted']:,} | {values} | {seconds} |")
+        for state in ("given", *_GOALS):
+            seconds = f"{row[state]['seconds']:.1f}" if state in _GOALS else ""
+            values = " | ".join(f"{row[state][key]:.4f}" for key in _FIGURES)
+            lines.append(f"| {name} | {state} | {row[state]['inverted']:,} | {values} | {seconds} |")
             name = ""
         if row["hexsmoothing"]:
             values = " | ".join(f"{value:.4f}" for value in row["hexsmoothing"])

@@ -122,3 +122,15 @@ def test_in_a_region_it_reaches_what_it_reaches_with_the_whole_mesh():
     assert of_region.jacobian >= 0.9
     far = np.abs(start - start[node]).max(axis=1) > 3.5 / energy.unit
     np.testing.assert_array_equal(x[far], start[far])
+
+
+def test_where_no_hex_has_a_quality_the_scaled_jacobians_rise_alone():
+    mesh, _ = with_bad_spot(4)
+    energy = MeshEnergy(mesh, ObjectiveNorm(1.0), np.ones(mesh.n_hexes, np.uint8))  # each lacks a corner
+    path = CentralPath(energy, mesh.points)
+    start = path.least
+    assert start.quality == np.inf
+    *_, least = path.rise(Least(np.inf, np.inf))
+    assert least.jacobian > start.jacobian + 0.05
+    *_, kept = path.minimise_above(Least(0.9 * least.jacobian, np.inf), (1.0, 0.1))
+    assert kept.jacobian > 0.9 * least.jacobian
