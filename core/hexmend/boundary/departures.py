@@ -111,4 +111,5 @@ def departures(
     distance[corners] = np.linalg.norm(after.points[corners] - before.points[corners], axis=1)
     x = after.points[sliding.nodes]
     distance[sliding.nodes] = np.linalg.norm(sliding.project(x) - x, axis=1)
+    distance[(after.points == before.points).all(axis=1)] = 0.0  # on another surface they may be far away
     return Departures(node_class, distance, before.mean_edge_length)

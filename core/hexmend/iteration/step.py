@@ -75,6 +75,9 @@ class Step:
         Active corners, which prevent further progress, if the method reports them.
     norm : ObjectiveNorm, optional
         p and offset of the objective that this step lowers, if they differ from the smoother's `norm`.
+    begins : bool
+        True where the run is judged from this step on: no earlier one is its result, as their boundaries are not yet on
+        the surface that was given.
     """
 
     points: np.ndarray
@@ -85,3 +88,4 @@ class Step:
     infeasible: bool = False
     active: ActiveSet | None = None
     norm: ObjectiveNorm | None = None
+    begins: bool = False

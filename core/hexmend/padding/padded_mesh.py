@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.padding.carried_cells import padded_cells
-from hexmend.padding.carried_data import (
+from hexmend.padding.inserted_layer import Sheet
+from hexmend.padding.mid_nodes import padded_mid_nodes
+from hexmend.padding.padded_cells import padded_cells
+from hexmend.padding.padded_data import (
     element_numbering,
     extended_data,
     extended_node_data,
     extended_set,
     padded_node_set,
 )
-from hexmend.padding.inserted_layer import Sheet
-from hexmend.padding.mid_nodes import padded_mid_nodes
 from hexmend.padding.placement import displacements, neighbours_behind
 from hexmend.padding.sides import padded_side_set
 

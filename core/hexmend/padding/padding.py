@@ -27,6 +27,8 @@ from hexmend.terminal_text import count_phrase
 AROUND = ("locked", "inverted")
 #: Nodes that a message names.
 _MAX_NAMED = 5
+#: Share by which the mean thickness may differ from that which was asked for before the message says so.
+_THICKNESS_DIFFERENCE = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +47,8 @@ class Padding:
         The run that mended the mesh; None if it was not mended.
     settings : mapping of str to str
         Settings of the run that mends the mesh.
+    asked_thickness : float or None
+        Thickness of the layer that was asked for, in the mesh's unit of length.
     """
 
     mesh: Mesh
@@ -53,6 +57,7 @@ class Padding:
     after: Summary
     run: Result | None = None
     settings: Mapping[str, str] = field(default_factory=dict)
+    asked_thickness: float | None = None
 
     def mended(self, run: Result) -> Padding:
         """Return the padding with the mesh that a run has mended."""
@@ -75,12 +80,12 @@ class Padding:
     @property
     def message(self) -> str:
         """The layer and what is left inverted, as sentences."""
-        least, mean = self.thickness.min(), self.thickness.mean()
-        words = [
-            f"The layer has {count_phrase(len(self.layer), 'hex', 'hexes')}, {mean:.3g} thick in the mean and "
-            f"{least:.3g} at least."
-        ]
-        left = self.after.inverted
+        left, mean = self.after.inverted, self.thickness.mean()
+        layer = f"The layer has {count_phrase(len(self.layer), 'hex', 'hexes')}, {mean:.3g} thick in the mean"
+        words = [f"{layer}." if left else f"{layer} and {self.thickness.min():.3g} at least."]
+        asked = self.asked_thickness
+        if asked is not None and abs(mean - asked) > _THICKNESS_DIFFERENCE * asked:
+            words.append(f"{asked:g} was asked for: the shape of the mesh leaves room for no other.")
         if left:
             words.append(f"{count_phrase(left, 'hex is', 'hexes are')} inverted.")
             if self.run is None:
@@ -153,7 +158,7 @@ def pad(
     mesh = mesh if isinstance(mesh, Mesh) else read(mesh)
     before, padded = summarise(mesh), padded_mesh(_sheet(mesh, name, around, rings), thickness)
     layer, settings = np.arange(mesh.n_hexes, padded.n_hexes), {} if thickness is None else {"target": "given-shape"}
-    padding = Padding(padded, layer, before, summarise(padded), settings=settings)
+    padding = Padding(padded, layer, before, summarise(padded), settings=settings, asked_thickness=thickness)
     return padding.mended(smooth(padded, watch=watch, **settings)) if mend else padding
 
 

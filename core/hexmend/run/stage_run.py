@@ -135,7 +135,10 @@ class StageRun:
             self.last.number + 1, points, quality, seconds, move, diagnostics, step.norm or self.smoother.norm, judged
         )
         self.decision, self.active = step.decision, step.active or self.active
-        if not step.infeasible:
+        if step.begins:
+            self._origin_quality, self._best = self._judged_quality(now), now
+            self._best_rank = self._rank(now)
+        elif not step.infeasible:
             self._update_best(now)
         small = self._size(moves) < self.stage.stop.tolerance
         if small and not step.intermediate and not self._still_falls(before, now):  # Algorithm A.1

@@ -75,7 +75,7 @@ def test_a_rebuilt_mesh_and_one_without_target_have_none(mesh):
 
 
 def test_a_target_of_other_hexes_is_refused(mesh):
-    with pytest.raises(MeshError, match="target is for 1 hexes: the mesh has 8"):
+    with pytest.raises(MeshError, match="target is for 1 hex: the mesh has 8"):
         mesh.with_element_target(Target(np.ones((1, 3))))
 
 

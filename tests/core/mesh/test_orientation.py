@@ -13,6 +13,7 @@ from hexmend.mesh.orientation import (
     with_consistent_orientation,
 )
 from hexmend.quality import corner_determinants
+from hexmend.terminal_text import count_phrase
 from tests.core.grids import grid
 
 
@@ -64,7 +65,9 @@ def test_whole_parts_are_turned_and_a_note_counts_them(which):
     back = with_consistent_orientation(wrong)
     assert (corner_determinants(back.points, back.hexes) > 0).all()
     assert len(back.notes) == 1
-    assert back.notes[0].startswith("All hexes" if len(which) == 9 else f"{len(which)} hexes, which make whole parts,")
+    assert back.notes[0].startswith(
+        "All hexes" if len(which) == 9 else f"{count_phrase(len(which), 'hex', 'hexes')}, which make"
+    )
 
 
 @pytest.mark.parametrize("which", [[], [0], [0, 1, 2, 3, 4, 5, 6]])

@@ -9,6 +9,7 @@ import numpy as np
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend.quality.corner_heights import least_heights
+from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.base import Steps, method, objective_of_sound
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.stages import Stages
@@ -61,15 +62,15 @@ class Mend(MendSettings):
         """Return True if q min, the least scaled Jacobian or, of a sound mesh, q mean is lower than at the start."""
         share = 1 - _TARGET_FALL if now.against_target else 1.0
         judged = ~(start.inverted & now.inverted)
+        if not judged.any():
+            return False
         pairs = [(one.q[judged], one.scaled_jacobian[judged]) for one in (start, now)]
         (q, jacobian), (new_q, new_jacobian) = pairs
-        if not q.size:
-            return False
         mean_counts = not start.inverted[judged].any()
         return (
-            new_q.min() < share * q.min()
-            or new_jacobian.min() < share * jacobian.min()
-            or (mean_counts and new_q.mean() < q.mean())
+            new_q.min() < share * q.min() - WORSE_BY
+            or new_jacobian.min() < share * jacobian.min() - WORSE_BY
+            or (mean_counts and new_q.mean() < q.mean() - WORSE_BY)
         )
 
     def rank_by_points(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:

@@ -34,8 +34,8 @@ class ShapeOptimumConfig:
         Share of the objective by which it must fall in these steps; the second while corners are omitted, which only
         a later stage can repair.
     negligible_move, negligible_fall : float
-        Where another stage follows, this one ends when no node moves further than the first, in mean edge lengths, and
-        the objective falls by less than the second, as a share of it.
+        Where another stage follows, this one ends when no node moves further than the first, in mean edge lengths or in
+        lengths of its target, and the objective falls by less than the second, as a share of it.
     rounding : float
         Slope, as a share of the energy, up to which it counts as zero.
     newton : NewtonConfig
@@ -111,14 +111,17 @@ def _minimise(
         judged = energy.faceted and len(values) > config.window
         if judged and values[-config.window] - values[-1] < min_fall * values[-1]:
             return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)
-        move = largest_norm(descent.x - energy.to_edge_units(points))
+        moves = descent.x - energy.to_edge_units(points)
+        move = relative_move = largest_norm(moves)
+        if energy.node_lengths is not None:
+            relative_move = largest_norm(moves[energy.nodes] / energy.node_lengths)
         x, points, full_step = descent.x, energy.to_mesh_units(descent.x), descent.backtracks == 0
         diagnostics = descent.diagnostics(0.0) | {"p": energy.norm.p}
         yield Step(points, diagnostics, intermediate=p_will_rise or intermediate, norm=energy.norm)
         if p_will_rise and move < config.converged:
             break
-        settled = len(values) > 1 and values[-2] - values[-1] < config.negligible_fall * values[-1]
-        if intermediate and settled and move < config.negligible_move:
+        crawls = len(values) > 1 and values[-2] - values[-1] < config.negligible_fall * values[-1]
+        if intermediate and crawls and relative_move < config.negligible_move:
             return ShapeOptimum(points, Outcome.CONVERGED)
     if p_will_rise:
         return ShapeOptimum(points, None)

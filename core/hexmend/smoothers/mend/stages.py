@@ -51,7 +51,8 @@ class Stages:
         locked_at_start = locked_corners(mesh, quality)
         if slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.settings.sliding(mesh).mesh.points)
-            quality = measure(mesh.points, mesh.hexes)
+            given, quality = mesh.points, measure(mesh.points, mesh.hexes)
+            yield Step(mesh.points, intermediate=True, quality=quality, begins=True)
         energy = energy_of(mesh, self.settings.first_norm)
         shape = yield from self._shape(mesh, energy, quality, intermediate or mesh.linear_motion is not None)
         if not intermediate:

@@ -35,6 +35,12 @@ UNTOLD = {
     "script": "writes the script",
     "copy_camera": "copies",
     "copy_command": "copies",
+    "key_figures": "lays out the view",
+    "colour_by_material": "needs a mesh of several materials",
+    "mark_curve": "is tested with curves",
+    "unmark_*": "is tested with curves",
+    "slide_on_*": "is tested with target surfaces",
+    "show_target": "is tested with target surfaces",
     "cameras": "shows a dialog, from which a camera is looked through",
     "console": "shows a panel",
     "doctor": "shows a panel",
@@ -46,7 +52,7 @@ UNTOLD = {
 
 #: Actions in the order in which each can be done after those before it, by what has to be prepared.
 TOLD = {
-    "look": ("edges", "shading", "neutral", "colour_by_material", "cut", "face", "roll_left", "roll_right", "view_x", "view_y", "view_z",
+    "look": ("edges", "shading", "neutral", "cut", "face", "roll_left", "roll_right", "view_x", "view_y", "view_z",
              "view_minus_x", "view_minus_y", "view_minus_z", "view_iso", "view_back", "view_forward", "parallel", "up_x",
              "up_y", "up_z", "paste_camera", "fit", "keep_camera"),
     "structure": ("show_irregular", "show_boundary", "show_sharp", "show_fixed", "show_free", "show_locked",

@@ -6,9 +6,9 @@ import numpy as np
 
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import EDGES, FACES
-from hexmend.padding.carried_data import Numbering, extended_data, extended_set
 from hexmend.padding.inserted_layer import LATERAL, Sheet
 from hexmend.padding.mid_nodes import CENTRES, COLUMN
+from hexmend.padding.padded_data import Numbering, extended_data, extended_set
 from hexmend.padding.sides import extensions
 
 
