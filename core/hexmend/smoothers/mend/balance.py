@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hexmend.energy import MeshEnergy
+from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.energy.sliding_energy import SlidingEnergy
 from hexmend.iteration import Step
 from hexmend.optimise.floors.central_path import PATH, CentralPath, CentralPathConfig, Least
@@ -45,6 +45,8 @@ class BalanceConfig:
         Shares of the way from the given mesh to the result that are tried where the mean of q(H) is lower all the same.
     sound : float
         Least scaled Jacobian from which on nothing is to be gained.
+    target_fall : float
+        Share by which the least values may fall where a mesh has a target.
     path : CentralPathConfig
         Of the first rise.
     patient : CentralPathConfig
@@ -59,6 +61,7 @@ class BalanceConfig:
     weights: tuple[float, ...] = (1.0, 0.1, 0.01)
     returns: tuple[float, ...] = (0.5, 0.25, 0.125, 0.0625)
     sound: float = 0.99
+    target_fall: float = 0.05
     path: CentralPathConfig = PATH
     patient: CentralPathConfig = _PATIENT
     careful: CentralPathConfig = _CAREFUL
@@ -128,17 +131,22 @@ def balance(
     shape = path.least
     if not shape.jacobian < config.sound:
         return Balanced(points, "")
+    if energy.target is not None:  # the lengths that are wanted come first: raising corners would change them
+        share = 1 - config.target_fall
+        if shape.jacobian >= share * start.jacobian and shape.quality >= share * start.quality:
+            return Balanced(points, "")
     floor = Least(max(start.jacobian, shape.jacobian), max(start.quality, shape.quality))
-    target = Least(np.inf, floor.quality * (1 + config.quality_margin))
-    yield from _steps(path, path.rise(target))
+    top_jacobian = np.inf if energy.target is None else floor.jacobian * (1 + config.quality_margin)
+    target = Least(top_jacobian, floor.quality * (1 + config.quality_margin))
+    yield from _steps(path, path.rise(target), energy.norm)
     if not _is_above(path.least, floor, config.margin):  # on with all hexes, until the floors are reached
         target = Least(floor.jacobian * (1 + config.quality_margin), target.quality)
-        yield from _steps(path, path.rise(target, config.patient))
+        yield from _steps(path, path.rise(target, config.patient), energy.norm)
     if not _is_above(path.least, floor, config.margin) and start.jacobian > 0:  # another way: from the given mesh
         floor = Least(start.jacobian, start.quality)
         path.move_to(energy.to_edge_units(given))
         target = Least(floor.jacobian * (1 + config.quality_margin), floor.quality * (1 + config.quality_margin))
-        yield from _steps(path, path.rise(target, config.careful))
+        yield from _steps(path, path.rise(target, config.careful), energy.norm)
     top, highest = path.least, path.x
     for share in config.kept_share:
         path.move_to(highest)
@@ -146,7 +154,7 @@ def balance(
             min(max(share * top.jacobian, floor.jacobian), _below(top.jacobian, config.margin)),
             min(floor.quality, _below(top.quality, config.margin)),
         )
-        yield from _steps(path, path.minimise_above(floors, config.weights))
+        yield from _steps(path, path.minimise_above(floors, config.weights), energy.norm)
         if not measure(path.points, energy.mesh.hexes).q.mean() < start.mean:
             break
     else:
@@ -175,7 +183,7 @@ def _return_towards(path: CentralPath, given: np.ndarray, start: Floors, shares:
             and least.quality >= start.quality
             and not measure(path.points, path.energy.mesh.hexes).q.mean() < start.mean
         ):
-            yield from _steps(path, iter([least]))
+            yield from _steps(path, iter([least]), path.energy.norm)
             return
     path.move_to(far)
 
@@ -201,8 +209,8 @@ def _below(value: float, margin: float) -> float:
     return value - margin * abs(value) if value < np.inf else value
 
 
-def _steps(path: CentralPath, stages: Iterator[Least]) -> Iterator[Step]:
+def _steps(path: CentralPath, stages: Iterator[Least], norm: ObjectiveNorm | None = None) -> Iterator[Step]:
     """Convert what a path yields to steps of the smoother."""
     for least in stages:
         diagnostics = {"least": least.jacobian, "least_q": least.quality, "solver_iterations": path.solver_iterations}
-        yield Step(path.points, diagnostics, intermediate=True)
+        yield Step(path.points, diagnostics, intermediate=True, norm=norm)

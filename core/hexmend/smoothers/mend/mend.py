@@ -11,11 +11,9 @@ from hexmend.quality import ElementQuality
 from hexmend.quality.corner_heights import least_heights
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.base import Steps, method, objective_of_sound
+from hexmend.smoothers.mend.balance import BALANCE
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.stages import Stages
-
-#: Share by which least q and least scaled Jacobian may both fall where a mesh has a target.
-_TARGET_FALL = 0.05
 
 
 @method
@@ -40,12 +38,13 @@ class Mend(MendSettings):
 
         Inverted hexes come first, then whether a guarded figure is lower than at the start, then whether the objective
         of the sound hexes, with the highest p that was asked for, is higher. With a target a fall counts from
-        `_TARGET_FALL` on: as given, a mesh may have better corners than hexes of the lengths that are asked for. The
-        goal balanced guards the figures of all hexes but those that are inverted at the start and still are.
+        `BalanceConfig.target_fall` on: as given, a mesh may have better corners than hexes of the lengths that are
+        asked for. The goal balanced guards the figures of all hexes but those that are inverted at the start and still
+        are.
         """
         if self.balances:
             return now.n_inverted, self._lowers(start, now)
-        share = 1 - _TARGET_FALL if now.against_target and not self.guard else 1.0
+        share = 1 - BALANCE.target_fall if now.against_target and not self.guard else 1.0
         fallen = (
             now.q.min() < share * start.q.min(),
             now.scaled_jacobian.min() < share * start.scaled_jacobian.min(),
@@ -60,7 +59,7 @@ class Mend(MendSettings):
 
     def _lowers(self, start: ElementQuality, now: ElementQuality) -> bool:
         """Return True if q min, the least scaled Jacobian or, of a sound mesh, q mean is lower than at the start."""
-        share = 1 - _TARGET_FALL if now.against_target else 1.0
+        share = 1 - BALANCE.target_fall if now.against_target else 1.0
         judged = ~(start.inverted & now.inverted)
         if not judged.any():
             return False

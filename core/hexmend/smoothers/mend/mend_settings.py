@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from hexmend.boundary.feature_edges.features import AUTO
 from hexmend.energy import ObjectiveNorm
+from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 
@@ -26,8 +27,8 @@ class MendSettings(ObjectiveSmoother):
         AUTO,
         low=1,
         high=32,
-        help="Exponent of the objective (3.3): the higher, the more the worst hexes count; auto: 1 with goal balanced, "
-        "else 2.",
+        help="Exponent of the objective (3.3): the higher, the more the worst hexes count; auto: 1 with goal balanced "
+        "and no target, else 2.",
         automatic=AUTO,
     )
     max_p: float = parameter(
@@ -65,6 +66,10 @@ class MendSettings(ObjectiveSmoother):
         """The objective that is minimised first."""
         automatic = 1.0 if self.balances else 2.0
         return ObjectiveNorm(automatic if self.p == AUTO else self.p, self.offset)
+
+    def first_norm_on(self, mesh: Mesh) -> ObjectiveNorm:
+        """The objective that is minimised first on a mesh; with a target p is 2 by default: layers keep heights."""
+        return ObjectiveNorm(2.0, self.offset) if self.p == AUTO and mesh.element_target else self.first_norm
 
     @property
     def p_limit(self) -> float:

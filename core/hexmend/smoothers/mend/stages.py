@@ -53,7 +53,7 @@ class Stages:
             mesh = mesh.keeping_surface().with_points(self.settings.sliding(mesh).mesh.points)
             given, quality = mesh.points, measure(mesh.points, mesh.hexes)
             yield Step(mesh.points, intermediate=True, quality=quality, begins=True)
-        energy = energy_of(mesh, self.settings.first_norm)
+        energy = energy_of(mesh, self.settings.first_norm_on(mesh))
         shape = yield from self._shape(mesh, energy, quality, intermediate or mesh.linear_motion is not None)
         if not intermediate:
             return shape.outcome
@@ -117,14 +117,15 @@ class Stages:
         return (yield from optimise_shape(energy, points, self.settings.p_limit, intermediate, config))
 
     def _sound_energy(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None) -> MeshEnergy:
-        """The energy with p = 1, without the corners that are inverted at these points."""
+        """The energy that floors are added to, without the corners that are inverted at these points."""
         inverted = inverted_corners(points, mesh.hexes, measure(points, mesh.hexes))
-        energy = energy_of(mesh, ObjectiveNorm(1.0, self.settings.offset), sliding)
+        mean = ObjectiveNorm(1.0, self.settings.offset)
+        energy = energy_of(mesh, self.settings.first_norm_on(mesh) if self.settings.balances else mean, sliding)
         return energy.with_objective(energy.norm, inverted)
 
     def _sliding_shape(self, sliding: SlidingBoundary, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
         """Untangle a mesh whose boundary slides, from points (n, 3) on, then go to the optimum of shape."""
-        energy = energy_of(sliding.mesh, self.settings.first_norm, sliding)
+        energy = energy_of(sliding.mesh, self.settings.first_norm_on(sliding.mesh), sliding)
         quality = measure(points, sliding.mesh.hexes)
         return (yield from self._shape(sliding.mesh.with_points(points), energy, quality, True))
 
@@ -207,5 +208,5 @@ class Stages:
         mesh = sliding.mesh.with_points(points)
         quality = measure(points, mesh.hexes)
         locked = locked_corners(mesh, quality)
-        energy = energy_of(mesh, self.settings.first_norm, sliding).with_objective(self.settings.norm, locked)
+        energy = energy_of(mesh, self.settings.first_norm_on(mesh), sliding).with_objective(self.settings.norm, locked)
         return (yield from self._untangle(mesh, energy, quality, locked)).points
