@@ -97,9 +97,16 @@ FRONTS = [
     ("run", "quality", "doctor"),
     ("run", "quality", "tags"),
     ("run", "quality", "compare"),
+    ("run", "histogram", "runs"),
     ("look", "histogram", "script"),
     ("look", "histogram", "console"),
 ]
+
+
+def settle():
+    """Let sizes reach all levels of nested panels: one level for each pass of the event loop."""
+    for _ in range(10):
+        QApplication.processEvents()
 
 
 def bring(window, panels):
@@ -107,7 +114,7 @@ def bring(window, panels):
     for panel in panels:
         window.show_panel(panel)
     window.refresh()
-    QApplication.processEvents()
+    settle()
     assert all(map(window.in_front, panels))
 
 
@@ -175,7 +182,7 @@ def test_tab_goes_in_reading_order(everything_on):
     assert set(seen) == set(range(len(parts)))
     assert_read_from_the_top(window, reached)
     choose_by_keys(window, "local-sd")  # its parameters are made while the window is there
-    QApplication.processEvents()
+    settle()
     assert_read_from_the_top(window, walk(window))
     bring(window, ("cut", "histogram", "worst"))
     assert_read_from_the_top(window, walk(window))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from html import escape
+from itertools import pairwise
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QStandardItemModel, QWheelEvent
@@ -125,6 +126,9 @@ class RuleForm(QWidget):
         matching.sort(key=lambda name: name not in self._rules.names)  # those with rules first
         for row, name in enumerate(matching[:_MOST]):
             self._rows[name] = self._add_row(row, name)
+        boxes = [box for _, box in self._rows.values()]
+        for before, box in pairwise([self._filter, *boxes]):
+            self.setTabOrder(before, box)  # Qt adds new widgets at the end of the window's tab order
         self._filter.setVisible(len(self._names) > _MOST)
         self._list.setVisible(bool(self._rows))
         more = len(matching) - len(self._rows)

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QWidget
 
 from hexmend.parameters import Parameter
 from hexmend_app.translation import tr
+from hexmend_app.widgets.inputs.combo import let_shrink
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.wording import name_in_words
 
@@ -44,6 +45,7 @@ class ChoiceEditor(QComboBox):
         choices = declaration.choices or ()
         for choice, title in zip(choices, declaration.titles or map(name_in_words, choices), strict=True):
             self.addItem(tr(title), choice)
+        let_shrink(self, 8)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.set_value(declaration.default)
         self.activated.connect(self.changed)

@@ -182,7 +182,7 @@ def test_a_session_of_version_1_leaves_panels_unchanged(window, qtbot, tmp_path)
     data["window"]["eye"] = None
     data["window"]["view"]["look"] = former_look()
     for record in data["window"]["history"]["records"]:
-        del record["slot"], record["plotted"]
+        del record["slot"], record["plotted"], record["settings"]
     write_archive(path, "Hexmend session", 1, without_later_fields(data))
     window.features["convergence"].panel.head.log.setChecked(False)
     settings = panel_settings(window)

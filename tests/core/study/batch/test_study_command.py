@@ -56,7 +56,7 @@ def test_both_tables_hold_the_same(laboratory):
     words = [{key: "" if value is None else str(value) for key, value in row.items()} for row in table.to_pylist()]
     assert words == rows_of(laboratory)
     assert [row["method"] for row in words] == ["laplacian", "mend", "trial", "trial", "trial"]
-    assert " p=2.0 " in words[1]["parameters"]
+    assert " p=auto " in words[1]["parameters"]
 
 
 def test_without_pyarrow_only_the_csv_is_written_and_a_line_says_so(laboratory):
