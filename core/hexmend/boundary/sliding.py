@@ -128,6 +128,12 @@ class SlidingBoundary(Band):
         other.mesh = self.mesh.with_fixed(self.mesh.fixed & ~freed)
         return other
 
+    def with_band(self, max_deviation: float) -> SlidingBoundary:
+        """Return the sliding boundary with another width of the band, in the mesh's unit."""
+        other = copy.copy(self)
+        other.max_deviation = max_deviation
+        return other
+
     def slides(self, nodes: np.ndarray) -> np.ndarray:
         """Return True for each of some nodes (k,) that slides, (k,) bool."""
         return self._number[nodes] >= 0

@@ -132,6 +132,11 @@ class MaxMinOptimiser:
         else:
             self.corners.values[:] = before[1]
 
+    def move_to(self, points: np.ndarray) -> None:
+        """Go on from other points (n, 3)."""
+        self.points = points
+        self.corners.update(points, np.arange(self.mesh.n_hexes))
+
     def steps(self, target: float = np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
         """Raise the least until no step does any more, or it has reached `target`.
 

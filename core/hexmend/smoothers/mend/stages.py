@@ -65,7 +65,8 @@ class Stages:
                 if self.settings.balances:
                     energy = self._sound_energy(mesh, fixed_optimum, None)
                     given = (yield from balance(energy, fixed_optimum, given)).points
-            max_deviation = MAXMIN.surface_share * self.settings.absolute_tolerance(mesh)
+            share = MAXMIN.surface_shares[0 if self.settings.maximises_jacobian else -1]
+            max_deviation = share * self.settings.absolute_tolerance(mesh)
             sliding = SlidingBoundary(mesh, self.settings.feature_angle, max_deviation, self.settings.slides)
             mesh = sliding.mesh
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
@@ -78,6 +79,8 @@ class Stages:
             result = yield from self._untangle_off_surface(sliding, candidates)
         if result is None:
             result = yield from self._maxmin_stage(mesh, candidates, sliding, fixed)
+            if sliding is not None and self.settings.maximises_jacobian:
+                result = yield from self._raise_in_wider_band(sliding, result)
         if sliding is not None:
             result = yield from self._raise_off_surface(sliding, fixed_optimum, result)
         if self.goal == "time-step":
@@ -158,6 +161,21 @@ class Stages:
 
         return (yield from raise_from_better(best, reached, raise_least, MAXMIN.trial_iterations))
 
+    def _raise_in_wider_band(
+        self, sliding: SlidingBoundary, result: MaxMinResult
+    ) -> Generator[Step, None, MaxMinResult]:
+        """Let quads of the boundary be further from its surface, where that raises the least by much."""
+        tolerance = self.settings.absolute_tolerance(sliding.mesh)
+        for share in MAXMIN.surface_shares[1:]:
+            wide, least = sliding.with_band(share * tolerance), result.optimiser.corners.movable_minimum
+            higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [result.optimiser.points], wide))
+            gain = higher.optimiser.corners.movable_minimum - least
+            if gain < MAXMIN.worth_widening * max(least, 0.1):
+                break
+            result = higher
+            yield Step(result.optimiser.points, {"least": least + gain}, intermediate=True)
+        return result
+
     def _untangle_off_surface(
         self, sliding: SlidingBoundary, candidates: Sequence[np.ndarray]
     ) -> Generator[Step, None, MaxMinResult | None]:
@@ -170,8 +188,7 @@ class Stages:
         start = candidates[int(np.argmin(inverted))]
         if not min(inverted) or not 0 < tolerance < np.inf:
             return None
-        edge, automatic = sliding.mesh.mean_edge_length, self.settings.surface_tolerance == AUTO
-        limits = [share * edge for share in RELEASE.steps] if automatic else [tolerance]
+        limits = self._limits(sliding.mesh)
         points, released = yield from untangle_released(sliding, start, self._untangled, limits)
         if measure(points, hexes).n_inverted:
             return None
@@ -184,6 +201,12 @@ class Stages:
             return MaxMinResult(optimiser, NO_CORNERS)
         return (yield from raise_within_tolerance(optimiser, limit))
 
+    def _limits(self, mesh: Mesh) -> list[float]:
+        """Distances from the surface that the boundary may have where hexes are inverted, ascending."""
+        if self.settings.surface_tolerance == AUTO:
+            return [share * mesh.mean_edge_length for share in RELEASE.steps]
+        return [self.settings.absolute_tolerance(mesh)]
+
     def _raise_off_surface(
         self, sliding: SlidingBoundary, start: np.ndarray, result: MaxMinResult | None
     ) -> Generator[Step, None, MaxMinResult | None]:
@@ -193,9 +216,9 @@ class Stages:
         if result is None or not 0 < tolerance < np.inf or result.optimiser.corners.movable_minimum >= wanted:
             return result
         optimiser = MaxMinOptimiser(sliding.mesh, start, sliding)
-        if self.settings.surface_tolerance == AUTO and measure(result.optimiser.points, sliding.mesh.hexes).n_inverted:
-            tolerance = RELEASE.steps[-1] * sliding.mesh.mean_edge_length
-        return (yield from improve_off_surface(optimiser, tolerance, result))
+        inverted = measure(result.optimiser.points, sliding.mesh.hexes).n_inverted > 0
+        limits = self._limits(sliding.mesh) if inverted else [tolerance]
+        return (yield from improve_off_surface(optimiser, limits, result))
 
     def _untangle(
         self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, locked: np.ndarray
