@@ -109,7 +109,7 @@ def _end(now: Situation) -> str:
             else f"Converged after {count}: a further step would gain less than the rounding error."
         )
     if result.outcome is Outcome.MAX_ITERATIONS:
-        return f"Stopped at the limit of {count_phrase(stop.max_iterations, 'iteration')} before it converged.{still}"
+        return f"Stopped at the limit of {count_phrase(many, 'iteration')} before it converged.{still}"
     if result.outcome is Outcome.MAX_SECONDS:
         return f"Stopped at the limit of {stop.max_seconds:g} s, after {count}, before it converged.{still}"
     if result.outcome is Outcome.STOPPED and not result.iterations:

@@ -13,7 +13,7 @@ def larger_limits(now: Situation) -> tuple[StoppingCriteria, str]:
     """Return the limits of the run, with the one that ended it raised, and the words for the suggestion."""
     stop = now.stop
     if now.result.outcome is Outcome.MAX_ITERATIONS:
-        stop = replace(stop, max_iterations=min(max(2 * stop.max_iterations, 100), 1_000_000))
+        stop = replace(stop, max_iterations=min(max(2 * stop.limit_of(now.smoother), 100), 1_000_000))
         return stop, f" with a limit of {stop.max_iterations:,} iterations"
     if now.result.outcome is Outcome.MAX_SECONDS:
         stop = replace(stop, max_seconds=min(2 * stop.max_seconds, 1e7))

@@ -181,7 +181,7 @@ def raise_p(now: Situation) -> Suggestion | None:
     if not _worst_can_gain(now):
         return None
     text = f"Run Mend with goal = shape and p up to {HIGH_P:g}: it improves the worst hexes at the expense of the mean."
-    stop = StoppingCriteria(max_iterations=max(500, now.stop.max_iterations))
+    stop = StoppingCriteria(max_iterations=max(500, now.stop.limit_of(now.smoother)))
     smoother = Mend(**{**now.objective, "goal": "shape"}, max_p=HIGH_P)
     return Suggestion(f"Mend, p up to {HIGH_P:g}", text, "q_min", smoother, stop)
 

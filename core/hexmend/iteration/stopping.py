@@ -3,16 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from hexmend.aliases import exports
-from hexmend.parameters import Parametrised, parameter
+from hexmend.parameters import AUTO, Parametrised, parameter
+
+
+class Limited(Protocol):
+    """Method with an iteration limit of its own."""
+
+    iteration_limit: int
 
 
 @dataclass(frozen=True)
 class StoppingCriteria(Parametrised):
     """Limits at which a run ends by itself, and the choice of the iterate that it keeps."""
 
-    max_iterations: int = parameter(300, low=0, high=1_000_000, help="Iteration limit of a run.")
+    max_iterations: int = parameter(
+        AUTO,
+        low=0,
+        high=1_000_000,
+        help="Iteration limit of a run; auto: that of the method, 1,000 for mend and 300 for others.",
+        automatic=AUTO,
+    )
     tolerance: float = parameter(
         1e-4,
         low=0,
@@ -37,6 +50,10 @@ class StoppingCriteria(Parametrised):
         False,
         help="Keep the last iterate, even if the method ranks an earlier one higher.",
     )
+
+    def limit_of(self, method: Limited) -> int:
+        """Return the iteration limit of a run of a method."""
+        return method.iteration_limit if self.max_iterations == AUTO else self.max_iterations
 
 
 __getattr__ = exports(__name__)

@@ -8,7 +8,7 @@ from hexmend.layers.profile import fitted_lengths
 from hexmend.layers.walls import Layers
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
-from hexmend.parameters import SET
+from hexmend.parameters import AUTO, SET
 from hexmend.quality import ElementQuality, measure
 from hexmend.target.builders import make_target
 from hexmend.target.sheets import DISTORTED, recovered_lengths
@@ -16,9 +16,6 @@ from hexmend.target.sheets import DISTORTED, recovered_lengths
 #: Treatments of layers: kept unless a target is asked for; kept; treated as the other hexes. Other texts are names of
 #: sets, on which layers stand that are kept.
 KEEP_LAYERS = ("auto", "keep", "free")
-#: Target that was not asked for; see `run_target`.
-AUTO = "auto"
-
 #: Targets in which hexes have their shape as given.
 _AS_THEY_ARE = ("given-shape", "given")
 

@@ -165,8 +165,10 @@ class Run(Iterator[Iteration]):
     def max_iterations(self) -> int:
         """Largest number of iterations that the run can have with its present limits."""
         at = self._stage_run
-        here = self.last.number if at.outcome is not None else at.stage_start.number + at.stage.stop.max_iterations
-        return here + sum(stage.stop.max_iterations for stage in self._remaining_stages)
+        here = (
+            self.last.number if at.outcome is not None else at.stage_start.number + at.stage.stop.limit_of(at.smoother)
+        )
+        return here + sum(stage.stop.limit_of(stage.smoother) for stage in self._remaining_stages)
 
     @property
     def setup_seconds(self) -> float:

@@ -175,7 +175,7 @@ class StageRun:
         if cut and not self.n_iterations:
             return None
         stop, before, spent = self.stage.stop, self.run_last.number - self.stage_start.number, self.run_last.seconds
-        most = self.n_iterations if cut else max(stop.max_iterations - before, 0)
+        most = self.n_iterations if cut else max(stop.limit_of(self.smoother) - before, 0)
         left = max(stop.max_seconds - (spent - self.stage_start.seconds), 1e-3) if stop.max_seconds else 0.0
         last = cut or stop.keep_last  # its successor continued from the last iteration
         return Stage(self.smoother, replace(stop, max_iterations=most, max_seconds=left, keep_last=last))
@@ -224,7 +224,7 @@ class StageRun:
 
     def _end_at_a_limit(self) -> None:
         stop, last, since = self.stage.stop, self.last, self.stage_start
-        if last.number - since.number >= stop.max_iterations:
+        if last.number - since.number >= stop.limit_of(self.smoother):
             self.end(Outcome.MAX_ITERATIONS)
         elif 0 < stop.max_seconds <= last.seconds - since.seconds:
             self.end(Outcome.MAX_SECONDS)

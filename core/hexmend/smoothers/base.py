@@ -44,6 +44,8 @@ class Smoother(Parametrised, ABC):
     source: ClassVar[str]
     #: True for a method that goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
+    #: Iterations after which a run ends, unless another limit is set.
+    iteration_limit: ClassVar[int] = 300
     #: True for a method whose steps keep the linear motion of a mesh; those of others are constrained afterwards, by
     #: `hexmend.smoothers.constrained_steps`.
     keeps_linear_motion: ClassVar[bool] = False

@@ -9,9 +9,9 @@ from typing import TypeVar
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.boundary.feature_edges.features import AUTO, FEATURE_ANGLE
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
 from hexmend.mesh.mesh import Mesh
-from hexmend.parameters import parameter
+from hexmend.parameters import AUTO, parameter
 from hexmend.smoothers.base import Smoother
 
 T = TypeVar("T")

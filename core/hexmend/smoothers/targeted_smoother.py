@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 from hexmend.errors import MeshError, ParameterError
 from hexmend.layers import KEEP_LAYERS, Layers, keeps_layers, layers_on_sets, named_walls, run_target
-from hexmend.layers.targets import AUTO
 from hexmend.mesh.mesh import Mesh
-from hexmend.parameters import parameter
+from hexmend.parameters import AUTO, parameter
 from hexmend.quality import ElementQuality
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 from hexmend.target import SPECIFICATIONS

@@ -7,9 +7,10 @@ import pytest
 
 from hexmend.iteration import Outcome, Step
 from hexmend.quality import measure
-from hexmend.run import StoppingCriteria, smooth
+from hexmend.run import StoppingCriteria, iterate, smooth
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS, Smoother
-from tests.core.grids import grid
+from tests.core.grids import grid, scrambled
 
 MIDDLE = 13  # of a grid of 2 x 2 x 2
 
@@ -115,3 +116,15 @@ def test_what_was_decided_is_told_but_of_an_iterate_that_is_not_kept(words, keep
     assert (abs(result.mesh.points[MIDDLE, 0] - 1.1) < 1e-12) != keep_last
     assert all(word in result.message for word in said)
     assert not any(word in result.message for word in not_said)
+
+
+def test_the_iteration_limit_is_that_of_the_method_unless_one_is_given():
+    laplacian, mend = METHODS["laplacian"](), METHODS["mend"]()
+    assert [StoppingCriteria().limit_of(method) for method in (laplacian, mend)] == [300, 1000]
+    assert [StoppingCriteria(max_iterations=7).limit_of(method) for method in (laplacian, mend)] == [7, 7]
+    endless = StoppingCriteria(tolerance=0)
+    recipe = Recipe.of(Stage(laplacian, endless), Stage(mend, StoppingCriteria(max_iterations=5)))
+    run = iterate(scrambled(grid(3), 0.1, 0), recipe)
+    assert run.max_iterations == 305
+    run.switch_method(mend)
+    assert run.max_iterations == 1005

@@ -11,10 +11,10 @@ from hexmend.boundary.feature_edges.prominence import LEAST_ANGLE, is_low, stand
 from hexmend.boundary.skin_faces import edges_between_sets, lone_set_nodes
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.components import components
+from hexmend.parameters import AUTO
 
 #: Dihedral angle beyond which an edge is a feature: `AUTO` where it has to stand out from the surface around it.
 FeatureAngle: TypeAlias = float | str
-AUTO = "auto"
 #: Default of the feature angle.
 FEATURE_ANGLE: FeatureAngle = AUTO
 #: Dangling chains and isolated groups of feature edges count as roughness of a patch if the sum of their dihedral

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from hexmend.errors import FileError, InsufficientMemoryError
 from hexmend.io.storage.atomic import check_writable
-from hexmend.layers.targets import AUTO
+from hexmend.parameters import AUTO
 from hexmend.run import memory
 from hexmend.run.recipe import Recipe
 from hexmend.target import SPECIFICATIONS, make_target

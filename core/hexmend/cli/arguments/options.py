@@ -154,5 +154,6 @@ def _add_limits(parser: argparse.ArgumentParser) -> None:
         elif limit.choices is not None:
             parser.add_argument(option, choices=limit.choices, help=f"{limit.help} Default {limit.default}.")
         else:
+            default = limit.default if limit.automatic else f"{limit.default:g}"
             unit = f" in {limit.unit}" if limit.unit else ""
-            parser.add_argument(option, metavar="X", help=f"{limit.help} Default {limit.default:g}{unit}.")
+            parser.add_argument(option, metavar="X", help=f"{limit.help} Default {default}{unit}.")

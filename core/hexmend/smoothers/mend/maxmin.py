@@ -30,9 +30,11 @@ class MaxMinConfig:
         Number of linear programs per iteration of the run.
     max_groups, max_groups_off_surface : int
         Groups of corners that are raised one after another, at most; the second while nodes leave the surface.
-    surface_shares : tuple of float
-        Shares of the surface tolerance that the boundary uses while nodes slide, ascending: the first for most, a later
-        one where it raises the least by `worth_widening`.
+    surface_share : float
+        Share of the surface tolerance that the boundary uses at most while nodes slide.
+    bands : tuple of float
+        Narrower bands, in mean edge lengths, in which the least is raised first; a wider one follows where it raises
+        the least by `worth_widening`.
     worth_widening : float
         Gain of the least, as a share of it or of 0.1, from which on the boundary may be further from its surface.
     off_surface_limit : float
@@ -50,7 +52,8 @@ class MaxMinConfig:
     programs_per_iteration: int = 3
     max_groups: int = 10
     max_groups_off_surface: int = 30
-    surface_shares: tuple[float, ...] = (0.15, 1 / 3)
+    surface_share: float = 1 / 3
+    bands: tuple[float, ...] = (0.045, 0.1)
     worth_widening: float = 0.05
     off_surface_limit: float = 1.5
     off_surface_factor: float = 1.2

@@ -27,6 +27,7 @@ class Mend(MendSettings):
         "Untangles as far as the fixed nodes allow, then finds the best shape in which no figure is lower than before."
     )
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
+    iteration_limit = 1000
     bytes_per_hex = 2200
     keeps_linear_motion = True
 

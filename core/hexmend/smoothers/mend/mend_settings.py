@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexmend.boundary.feature_edges.features import AUTO
 from hexmend.energy import ObjectiveNorm
 from hexmend.mesh.mesh import Mesh
-from hexmend.parameters import parameter
+from hexmend.parameters import AUTO, parameter
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 
 

@@ -8,11 +8,11 @@ from itertools import islice
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.boundary.feature_edges.features import AUTO
 from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.parameters import AUTO
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.base import Steps
 from hexmend.smoothers.mend.balance import balance, raise_jacobian
@@ -22,11 +22,12 @@ from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface, raise_within_tolerance
-from hexmend.smoothers.mend.release import RELEASE, infeasible, untangle_released
+from hexmend.smoothers.mend.release import RELEASE, T, infeasible, untangle_released
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
 from hexmend.smoothers.mend.starts import raise_from_better
 from hexmend.smoothers.mend.time_step import maximise_time_step
 from hexmend.smoothers.mend.untangling import Untangled, UntanglingConfig, untangle
+from hexmend.smoothers.sliding_smoother import UNLIMITED
 
 
 class Stages:
@@ -58,21 +59,21 @@ class Stages:
         if not intermediate:
             return shape.outcome
         fixed_optimum, sliding, fixed = shape.points, None, None  # the optimum with the boundary fixed
+        kept = False  # the result with the boundary fixed is that of the run until sliding has reached its own
         candidates = [mesh.points, fixed_optimum]
         if slides:
             if not measure(fixed_optimum, mesh.hexes).n_inverted:  # sliding ends no lower than the fixed boundary
                 fixed = yield from self._maxmin_stage(mesh, candidates, None)
                 if self.settings.balances:
-                    energy = self._sound_energy(mesh, fixed_optimum, None)
+                    energy, kept = self._sound_energy(mesh, fixed_optimum, None), True
                     given = (yield from balance(energy, fixed_optimum, given)).points
-            share = MAXMIN.surface_shares[0 if self.settings.maximises_jacobian else -1]
-            max_deviation = share * self.settings.absolute_tolerance(mesh)
-            sliding = SlidingBoundary(mesh, self.settings.feature_angle, max_deviation, self.settings.slides)
+            bands = self._bands(mesh)
+            sliding = SlidingBoundary(mesh, self.settings.feature_angle, bands[0], self.settings.slides)
             mesh = sliding.mesh
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
             steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
-            yield from islice(steps, MAXMIN.untangling_iterations)
-            shape = yield from self._sliding_shape(sliding, optimiser.points)
+            yield from _kept(islice(steps, MAXMIN.untangling_iterations), kept)
+            shape = yield from _kept(self._sliding_shape(sliding, optimiser.points), kept)
             candidates += [optimiser.points, shape.points]
         result = None
         if sliding is not None:
@@ -80,7 +81,7 @@ class Stages:
         if result is None:
             result = yield from self._maxmin_stage(mesh, candidates, sliding, fixed)
             if sliding is not None and self.settings.maximises_jacobian:
-                result = yield from self._raise_in_wider_band(sliding, result)
+                result = yield from self._raise_in_wider_bands(sliding, bands[1:], result)
         if sliding is not None:
             result = yield from self._raise_off_surface(sliding, fixed_optimum, result)
         if self.goal == "time-step":
@@ -90,7 +91,7 @@ class Stages:
         active, sentences, quality = None, [], None
         if self.settings.balances and (result is None or not result.optimiser.envelope.released.any()):
             energy = self._sound_energy(mesh, points, sliding)
-            balanced = yield from balance(energy, points, given)
+            balanced = yield from _kept(balance(energy, points, given), kept)
             points = balanced.points
             sentences.append(balanced.message)
         if self.settings.maximises_minimum:
@@ -100,7 +101,7 @@ class Stages:
             quality = measure(points, mesh.hexes)
             sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
         decision = " ".join(filter(None, sentences))
-        if decision or outcome is Outcome.NO_IMPROVEMENT:
+        if decision or kept or outcome is Outcome.NO_IMPROVEMENT:
             yield Step(points, decision=decision, intermediate=True, quality=quality, active=active)
         return outcome
 
@@ -161,13 +162,20 @@ class Stages:
 
         return (yield from raise_from_better(best, reached, raise_least, MAXMIN.trial_iterations))
 
-    def _raise_in_wider_band(
-        self, sliding: SlidingBoundary, result: MaxMinResult
+    def _bands(self, mesh: Mesh) -> list[float]:
+        """Distances from the surface that quads of the boundary may have while nodes slide, ascending."""
+        widest = MAXMIN.surface_share * self.settings.absolute_tolerance(mesh)
+        if not self.settings.maximises_jacobian:
+            return [widest]
+        narrower = (band * mesh.mean_edge_length for band in MAXMIN.bands)
+        return [*(band for band in narrower if band < (1 - MAXMIN.worth_widening) * widest), widest]
+
+    def _raise_in_wider_bands(
+        self, sliding: SlidingBoundary, bands: Sequence[float], result: MaxMinResult
     ) -> Generator[Step, None, MaxMinResult]:
         """Let quads of the boundary be further from its surface, where that raises the least by much."""
-        tolerance = self.settings.absolute_tolerance(sliding.mesh)
-        for share in MAXMIN.surface_shares[1:]:
-            wide, least = sliding.with_band(share * tolerance), result.optimiser.corners.movable_minimum
+        for band in bands:
+            wide, least = sliding.with_band(band), result.optimiser.corners.movable_minimum
             higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [result.optimiser.points], wide))
             gain = higher.optimiser.corners.movable_minimum - least
             if gain < MAXMIN.worth_widening * max(least, 0.1):
@@ -183,10 +191,10 @@ class Stages:
 
         None where no hex is inverted, or nodes must not leave the surface, or none is mended by that.
         """
-        tolerance, hexes = self.settings.absolute_tolerance(sliding.mesh), sliding.mesh.hexes
+        tolerance, hexes = self._off_surface_tolerance(sliding.mesh), sliding.mesh.hexes
         inverted = [measure(points, hexes).n_inverted for points in candidates]
         start = candidates[int(np.argmin(inverted))]
-        if not min(inverted) or not 0 < tolerance < np.inf:
+        if not min(inverted) or not tolerance > 0:
             return None
         limits = self._limits(sliding.mesh)
         points, released = yield from untangle_released(sliding, start, self._untangled, limits)
@@ -203,17 +211,22 @@ class Stages:
 
     def _limits(self, mesh: Mesh) -> list[float]:
         """Distances from the surface that the boundary may have where hexes are inverted, ascending."""
-        if self.settings.surface_tolerance == AUTO:
+        if self.settings.surface_tolerance in (AUTO, UNLIMITED):
             return [share * mesh.mean_edge_length for share in RELEASE.steps]
         return [self.settings.absolute_tolerance(mesh)]
+
+    def _off_surface_tolerance(self, mesh: Mesh) -> float:
+        """Distance from the surface that nodes may have where it holds the least down."""
+        tolerance = self.settings.absolute_tolerance(mesh)
+        return tolerance if tolerance < np.inf else RELEASE.steps[-1] * mesh.mean_edge_length
 
     def _raise_off_surface(
         self, sliding: SlidingBoundary, start: np.ndarray, result: MaxMinResult | None
     ) -> Generator[Step, None, MaxMinResult | None]:
         """Let nodes leave the surface, from points `start` (n, 3) on, where the result on it is low."""
-        tolerance, wanted = self.settings.absolute_tolerance(sliding.mesh), MAXMIN.acceptable
+        tolerance, wanted = self._off_surface_tolerance(sliding.mesh), MAXMIN.acceptable
         wanted = wanted if self.settings.maximises_jacobian else min(wanted, MAXMIN.barrier_safe)
-        if result is None or not 0 < tolerance < np.inf or result.optimiser.corners.movable_minimum >= wanted:
+        if result is None or not tolerance > 0 or result.optimiser.corners.movable_minimum >= wanted:
             return result
         optimiser = MaxMinOptimiser(sliding.mesh, start, sliding)
         inverted = measure(result.optimiser.points, sliding.mesh.hexes).n_inverted > 0
@@ -233,3 +246,8 @@ class Stages:
         locked = locked_corners(mesh, quality)
         energy = energy_of(mesh, self.settings.first_norm_on(mesh), sliding).with_objective(self.settings.norm, locked)
         return (yield from self._untangle(mesh, energy, quality, locked)).points
+
+
+def _kept(steps: Generator[Step, None, T], kept: bool) -> Generator[Step, None, T]:
+    """Yield steps, as infeasible ones if an earlier result is to be kept until they end."""
+    return (yield from infeasible(steps, every=1)) if kept else (yield from steps)

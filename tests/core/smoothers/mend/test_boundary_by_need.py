@@ -1,5 +1,7 @@
 """Boundary by need: nodes leave it where it holds hexes inverted, only they, and a tolerance is a hard limit."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from hexmend.io import read
 from hexmend.mesh.fixing import with_pinned
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
+from hexmend.smoothers.mend.maxmin import MAXMIN
 from hexmend.smoothers.sliding_smoother import absolute_tolerance
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
@@ -104,3 +107,32 @@ def test_a_boundary_that_slides_ends_no_lower_than_a_fixed_one(name):
 @pytest.mark.parametrize("name", ["mid2FemPer.vtk", "fertility_1.mesh"])
 def test_a_real_boundary_that_slides_ends_no_lower_than_a_fixed_one(real_mesh, name):
     check_freedom(read(real_mesh(name)))
+
+
+@pytest.mark.parametrize("name", ["ball", "cylinder", "five-side"])
+def test_a_larger_tolerance_ends_no_lower(name):
+    mesh = SMALL[name]()
+    ends = [
+        smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance=tolerance)).after
+        for tolerance in (0.0, 0.1, 0.3, 1.0)
+    ]
+    least = [end.scaled_jacobian_min for end in ends]
+    assert all(after >= before - 1e-9 for before, after in pairwise(least)), least
+    assert ends[-1].inverted == 0
+
+
+def test_the_boundary_is_no_further_away_than_pays():
+    """A wider band is used only where the least gains a twentieth by it."""
+    mesh = SMALL["five-side"]()
+    narrow, wide = (
+        smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance=tolerance))
+        for tolerance in (3 * MAXMIN.bands[0], 0.3)
+    )
+    np.testing.assert_array_equal(narrow.mesh.points, wide.mesh.points)
+
+
+def test_nodes_may_leave_a_surface_without_a_limit_of_the_distance():
+    mesh = SMALL["ball"]()
+    result = smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance="unlimited"))
+    assert result.before.inverted
+    assert result.after.inverted == 0
