@@ -51,7 +51,7 @@ class FeatureRuns(Feature):
         moment = session.timeline.shown_iteration
         shown = moment.record if moment is not None and moment.number else None
         at_start = session.document.now.mesh.points is session.document.start.mesh.points
-        if self._seen.changed("shown", shown, at_start, state):
+        if self._seen.changed("shown", shown, at_start, records):
             self.panel.set_shown(shown, at_start)
 
     def _rows(self, records: Sequence[RunRecord]) -> list[RunRow]:

@@ -44,6 +44,7 @@ class RunRow:
     dominated_by : tuple of str
         Names of the rows that are as good in all figures, and better in one.
     running : bool
+        True for the active run, whose figures are those of its newest iteration.
     """
 
     record: RunRecord | None
@@ -94,7 +95,8 @@ class RunTable(QAbstractTableModel):
     def data(self, index: QModelIndex, role: int = _Role.DisplayRole) -> Any:
         row, column = self.rows[index.row()], index.column()
         if role == _Role.DisplayRole:
-            texts = row.name, row.settings, *(figure(row.figures[one.key]) for one in QUANTITIES)
+            name = tr("{name} (active)", name=row.name) if row.running else row.name
+            texts = name, row.settings, *(figure(row.figures[one.key]) for one in QUANTITIES)
             return texts[column]
         if role == _Role.TextAlignmentRole:
             return _LEFT if column < FIRST else _RIGHT

@@ -130,6 +130,30 @@ def test_runs_that_differ_in_rules_of_motion_alone_have_other_settings(window, q
     assert "fix=a&lt;b" in panel(window).model.index(2, NAME).data(Qt.ItemDataRole.ToolTipRole)
 
 
+def test_the_active_run_is_named_so(window, qtbot):
+    window.show_panel("runs")
+    run_control = window.session.run
+    run_control.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=50), iterations=2)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    window.refresh()
+    name = run_control.record.name
+    assert texts(window, NAME) == ["At the start", f"{name} (active)"]
+    run_control.stop()
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    window.refresh()
+    assert texts(window, NAME) == ["At the start", name]
+
+
+def test_iterations_that_arrive_leave_the_row_that_was_reached_by_keys(window, three):
+    click(window, 3)
+    table = panel(window).table
+    QTest.keyClick(table, Qt.Key.Key_Up)
+    assert table.currentIndex().row() == 2
+    three[2].rows.append(three[2].rows[-1])
+    window.refresh()
+    assert table.currentIndex().row() == 2
+
+
 def test_a_session_keeps_the_table(window, qtbot, three, tmp_path):
     before = [texts(window, column) for column in range(FIRST + len(QUANTITIES))]
     assert window.features["open"].save_and_wait(tmp_path / "runs.hexmend")
