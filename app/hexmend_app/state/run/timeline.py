@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.quality import summarise
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import OWN_PARTS, Document, State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.settings.settings import ITERATIONS_PLAYED
@@ -104,6 +104,8 @@ class Timeline(QObject):
         start, now, recorded = self._document.start, self._document.now, self._document.recorded
         if recorded.mesh.points is start.mesh.points:
             state = recorded
+        elif all(getattr(start.mesh, part) is getattr(now.mesh, part) for part in OWN_PARTS):
+            state = start
         else:
             mesh = now.mesh.with_points(start.mesh.points)
             if mesh.surface_points is not start.mesh.surface_points:

@@ -112,8 +112,13 @@ def test_a_click_shows_the_mesh_at_the_start_even_if_no_run_began_there(window, 
     window.show_panel("runs")
     window.refresh()
     click(window, 0)
-    assert session.document.now.mesh.points is start.mesh.points
+    assert session.document.now is start
     assert panel(window).table.currentIndex().row() == 0
+    click(window, 1)
+    session.commands.tag("new", [1])
+    click(window, 0)
+    assert session.document.now.mesh.points is start.mesh.points
+    assert session.document.now.mesh.hex_sets["new"].tolist() == [1]
     click(window, 1)
     assert session.timeline.shown_iteration.number == session.timeline.record.result
 
