@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -73,4 +73,5 @@ class NameList(QWidget):
                 painter.drawRect(QRectF(0.5, middle - _SIZE / 2, _SIZE, _SIZE))
                 left = _SIZE + _GAP
             painter.setPen(QColor(str(TEXT)))
+            text = metrics.elidedText(text, Qt.TextElideMode.ElideMiddle, self.width() - left)
             painter.drawText(QPointF(left, middle + metrics.ascent() / 2 - 1), text)

@@ -103,4 +103,4 @@ def entry_types(kind: Any, count: int) -> tuple[Any, ...]:
 
 def are_integers(entries: Collection[Any], kind: Any) -> bool:
     """Return True if a sequence type is one of integers, and all entries are: they need no conversion one by one."""
-    return typing.get_args(kind)[0] is int and {int}.issuperset(map(type, entries))
+    return {int, ...}.issuperset(typing.get_args(kind)) and {int}.issuperset(map(type, entries))

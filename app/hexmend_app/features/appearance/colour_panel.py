@@ -58,6 +58,7 @@ class ColourPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._colours = Colours()
+        self._before_material = Colours()  # before the colours showed materials, which have no range
         self._ends = (0.0, 1.0)  # of the current range
         self._pinned: dict[str, tuple[float, float]] = {}  # limits that the user set, by metric
         self._metric = QComboBox()
@@ -146,10 +147,13 @@ class ColourPanel(QWidget):
         """Select a metric as the user would."""
         if metric == self._colours.metric:
             return
-        range = self._colours.range
-        if (metric in DISPLACEMENT_QUANTITIES) != (self._colours.metric in DISPLACEMENT_QUANTITIES):
+        before = self._before_material if self._colours.metric == MATERIAL.name else self._colours
+        if metric == MATERIAL.name:
+            self._before_material = self._colours
+        range = before.range
+        if (metric in DISPLACEMENT_QUANTITIES) != (before.metric in DISPLACEMENT_QUANTITIES):
             range = Range.FITTED if metric in DISPLACEMENT_QUANTITIES else Range.FULL
-        if isinstance(range, tuple):  # limits of one metric mean nothing for another
+        if isinstance(range, tuple) and metric != before.metric:  # limits of one metric mean nothing for another
             range = self._pinned.get(metric, Range.FULL)
         if range in (Range.FULL, Range.ACCEPTABLE) and declared_range(metric, range) is None:
             range = Range.FITTED

@@ -15,11 +15,10 @@ from hexmend_app.picture.quantities import MATERIAL
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.tasks.boundary_classifier import BoundaryClasses
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from hexmend_app.canvas.canvas import Canvas
 
 
@@ -125,11 +124,12 @@ class FeatureAppearance(Feature):
     def _draw(self) -> None:
         session = self.session
         now, movement, look = session.document.now, self._movement, self._drawable
-        kinds = self._kinds if look.structure.is_on("kinds") else None
+        classes = self._classes if look.structure.is_on("kinds") else None
+        kinds = (None, None) if classes is None else (classes.kinds, classes.original_kinds)
         original = session.document.start.mesh.points if look.structure.is_on("original") else None
-        if self._seen.changed("frame", now, movement, look, original, kinds):
+        if self._seen.changed("frame", now, movement, look, original, *kinds):
             live = session.run.phase is Phase.RUNNING and session.run.following
-            self.canvas.draw(Frame(now.mesh, now.figures, movement, look, original, kinds), live)
+            self.canvas.draw(Frame(now.mesh, now.figures, movement, look, original, *kinds), live)
         if self._seen.changed("handles", look.cut, self._view.handles, self._view.plane_at):
             self.canvas.show_handles(self._view.handles, self._view.plane_at)
         if self._seen.changed("phase", session.run.phase) and session.run.phase is Phase.PAUSED:
@@ -174,12 +174,11 @@ class FeatureAppearance(Feature):
         structure = look.structure
         if self.session.structure_finder.structure is None:
             structure = structure.without(*EDGE_LAYERS)
-        if self._kinds is None:
+        if self._classes is None:
             structure = structure.without("kinds")
         return dataclasses.replace(look, structure=structure)
 
     @property
-    def _kinds(self) -> np.ndarray | None:
-        """Boundary class of each node, or None if not computed yet."""
-        classes = self.session.boundary_classifier.of(self.session.document.now.mesh)
-        return None if classes is None else classes.kinds
+    def _classes(self) -> BoundaryClasses | None:
+        """Classes of the boundary nodes, or None if not computed yet."""
+        return self.session.boundary_classifier.of(self.session.document.now.mesh)

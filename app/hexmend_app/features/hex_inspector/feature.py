@@ -220,17 +220,18 @@ class FeatureHexInspector(Feature):
 
     def _boundary_class(self, node: int | None) -> str:
         """Describe the class of a boundary node; "" for other nodes and while the classes are unknown."""
-        classes = self.session.boundary_classifier.of(self._document.now.mesh)
+        mesh = self._document.now.mesh
+        classes = self.session.boundary_classifier.of(mesh)
         if node is None or classes is None:
             return ""
-        if classes.kinds[node] == LEFT:
+        if classes.kinds[node] == LEFT and classes.mesh.points is mesh.points:
             left = classes.departures
             return tr(
                 "{distance} mean edge lengths off {place}",
                 distance=f"{left.distance[node] / left.edge_length:.2g}",
                 place=tr(_LEFT[left.node_class[node]]),
             )
-        return tr(_BOUNDARY_CLASSES.get(int(classes.kinds[node]), ""))
+        return tr(_BOUNDARY_CLASSES.get(int(classes.original_kinds[node]), ""))
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))

@@ -51,7 +51,7 @@ class FeatureRuns(Feature):
         moment = session.timeline.shown_iteration
         shown = moment.record if moment is not None and moment.number else None
         at_start = session.document.now.mesh.points is session.document.start.mesh.points
-        if self._seen.changed("shown", shown, at_start, state):
+        if self._seen.changed("shown", shown, at_start, records):
             self.panel.set_shown(shown, at_start)
 
     def _rows(self, records: Sequence[RunRecord]) -> list[RunRow]:
@@ -71,13 +71,11 @@ class FeatureRuns(Feature):
 
     def _show(self, record: RunRecord | None) -> None:
         """Show the result of a run, or the mesh at the start."""
-        timeline, start = self.session.timeline, self.session.document.start
+        timeline = self.session.timeline
         if record is not None:
             timeline.choose(record)
-            return
-        first = next((one for one in self.session.history.records if one.start.mesh.points is start.mesh.points), None)
-        if first is not None:
-            timeline.go(first, 0)
+        else:
+            timeline.go_to_start()
 
 
 def _figures(record: RunRecord) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from html import escape
 from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
@@ -43,6 +44,7 @@ class RunRow:
     dominated_by : tuple of str
         Names of the rows that are as good in all figures, and better in one.
     running : bool
+        True for the active run, whose figures are those of its newest iteration.
     """
 
     record: RunRecord | None
@@ -93,7 +95,8 @@ class RunTable(QAbstractTableModel):
     def data(self, index: QModelIndex, role: int = _Role.DisplayRole) -> Any:
         row, column = self.rows[index.row()], index.column()
         if role == _Role.DisplayRole:
-            texts = row.name, row.settings, *(figure(row.figures[one.key]) for one in QUANTITIES)
+            name = tr("{name} (active)", name=row.name) if row.running else row.name
+            texts = name, row.settings, *(figure(row.figures[one.key]) for one in QUANTITIES)
             return texts[column]
         if role == _Role.TextAlignmentRole:
             return _LEFT if column < FIRST else _RIGHT
@@ -104,8 +107,8 @@ class RunTable(QAbstractTableModel):
             font.setBold(True)
             return font
         if role == _Role.ToolTipRole:
-            settings = f"<br>{row.settings}" if row.settings else ""
-            return f"<qt><b>{row.name}</b>{settings}<br>{row.help}</qt>"
+            settings = f"<br>{escape(row.settings)}" if row.settings else ""
+            return f"<qt><b>{escape(row.name)}</b>{settings}<br>{escape(row.help)}</qt>"
         if role == _Role.AccessibleTextRole and column == NAME and row.dominated_by:
             return tr("{name}, dominated", name=row.name)
         return None
@@ -132,7 +135,7 @@ class RunTable(QAbstractTableModel):
         if role == _Role.ToolTipRole:
             help = quantity.help if quantity else (
                 tr("Click a run to show its result. Grey runs are dominated: another is as good in all figures."),
-                tr("Values of the method and limits that differ from the defaults."),
+                tr("Rules of motion, and values of the method and limits that differ from the defaults."),
             )[section]  # fmt: skip
             return f"<qt>{help}</qt>"
         return None

@@ -66,6 +66,12 @@ def write_run_film(
     movement = None if since is None else movement_since(since, since_name, mesh, opened or mesh)
     camera = vtkCamera()
     aim(camera, scene.camera, mesh.points, size[0] / size[1])
-    frames = film_frames(run, numbers, lambda number: State.of(mesh.with_points(run.points(number))))
+    frames = film_frames(run, numbers, lambda number: _state(run, mesh, number))
     images = pictures(frames, scene.look(mesh), size, camera=camera, movement=movement, chart=histogram)
     write_film(path, [*images], rate)
+
+
+def _state(run: RunRecord, mesh: Mesh, number: int) -> State:
+    """Return the mesh at an iteration; at a time of a case, its boundary is that of this time."""
+    moved = mesh.with_points(run.points(number))
+    return State.of(moved.moving_from(moved.points) if run.holds_times else moved)

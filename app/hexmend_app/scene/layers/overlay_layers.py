@@ -103,6 +103,7 @@ class OverlayLayers:
         """Update positions, pinned nodes or classes of boundary nodes of the same mesh, if they have changed."""
         if moved:
             self._attempt("selection", self.selection.move, frame.mesh)
+            self._attempt("structure", self.structure.set_positions, frame.mesh)
         if pinned:
             self._attempt("structure", self.structure.set_pins, frame.mesh.pinned)
         if classed or pinned:

@@ -24,7 +24,7 @@ class PageMesh:
     mesh : Mesh
     figures : ElementQuality
         Quality of the mesh.
-    movement, original, kinds
+    movement, original, kinds, original_kinds
         As in `Frame`; set for the first of several meshes only, whose reference state the others use.
     """
 
@@ -34,6 +34,7 @@ class PageMesh:
     movement: Displacement | None = None
     original: np.ndarray | None = None
     kinds: np.ndarray | None = None
+    original_kinds: np.ndarray | None = None
 
     @classmethod
     def of(cls, mesh: Mesh, name: str = "") -> PageMesh:
@@ -43,11 +44,12 @@ class PageMesh:
     @classmethod
     def shown(cls, frame: Frame, name: str = "") -> PageMesh:
         """Return the mesh of a frame with its data."""
-        return cls(name, frame.mesh, frame.figures, frame.movement, frame.original, frame.kinds)
+        kinds = frame.kinds, frame.original_kinds
+        return cls(name, frame.mesh, frame.figures, frame.movement, frame.original, *kinds)
 
     def frame(self, look: Look) -> Frame:
         """Return the frame of the mesh with a look."""
-        return Frame(self.mesh, self.figures, self.movement, look, self.original, self.kinds)
+        return Frame(self.mesh, self.figures, self.movement, look, self.original, self.kinds, self.original_kinds)
 
     @property
     def text(self) -> str:

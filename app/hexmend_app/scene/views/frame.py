@@ -31,6 +31,8 @@ class Frame:
     kinds : (n,) uint8, optional
         Class of each boundary node, see `hexmend_app.state.tasks.boundary_classifier.node_classes`; None computes the
         classes if the look shows them.
+    original_kinds : (n,) uint8, optional
+        Classes for the same mesh with other positions, where other nodes have left the original boundary.
     """
 
     mesh: Mesh
@@ -39,6 +41,7 @@ class Frame:
     look: Look = field(default_factory=Look)
     original: np.ndarray | None = None
     kinds: np.ndarray | None = None
+    original_kinds: np.ndarray | None = None
 
     def is_of(self, other: Frame | None) -> bool:
         """Return True if both frames share their array of hexes; positions of nodes may differ."""
@@ -55,7 +58,10 @@ class Frame:
                 known.before.points is reference.points and known.before.name == reference.name
             )
             movement = known if unchanged else movement.updated(self.mesh.points, self.figures)
-        return Frame(self.mesh, self.figures, movement, first.look, first.original, first.kinds)
+        kinds = first.kinds
+        if self.mesh.points is not first.mesh.points and first.original_kinds is not None:
+            kinds = first.original_kinds
+        return Frame(self.mesh, self.figures, movement, first.look, first.original, kinds, first.original_kinds)
 
 
 def same_hexes(mesh: Mesh, other: Mesh) -> bool:

@@ -77,7 +77,7 @@ class RunRecord:
     rules : MotionRules
         Rules of motion of the run.
     settings : str
-        Values of the run that differ from the defaults, as text.
+        Values of the run that differ from the defaults, and its rules of motion, as text.
     changes : list of (int, Stage)
         Iterations after which the method was switched, and the new stages.
     case : Path or None

@@ -18,7 +18,7 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
-from hexmend_app.state.run.run_settings import settings_text
+from hexmend_app.state.run.run_settings import rules_text, settings_text
 from hexmend_app.state.run.worker import IterationFrame, Worker
 
 #: Milliseconds between two checks of the mailbox.
@@ -130,7 +130,7 @@ class RunController(QObject):
         self._worker = Worker(self._before.mesh, smoother, stop, record, rules)
         self.record.work, self.record.stop, self.record.changes = smoother, stop, self._worker.changes
         self.record.rules = rules
-        self.record.settings = settings_text(smoother, stop)
+        self.record.settings = "; ".join(filter(None, (settings_text(smoother, stop), rules_text(rules))))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
         self._worker.grant(iterations)
         self._set_phase(Phase.PREPARING)

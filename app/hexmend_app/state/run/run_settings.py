@@ -1,9 +1,10 @@
-"""Settings of a run as short text: the values that differ from the defaults."""
+"""Settings of a run as short text: the values that differ from the defaults, and the rules of motion."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import Parametrised, declared
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
@@ -30,6 +31,19 @@ def settings_text(work: Smoother | Recipe, stop: StoppingCriteria | None = None)
     if not isinstance(work, Recipe):
         return ", ".join([*_changed(work), *_changed(stop or StoppingCriteria())])
     return "; ".join(f"{one.smoother.name} {settings_text(one.smoother, one.stop)}".strip() for one in work.stages)
+
+
+def rules_text(rules: MotionRules) -> str:
+    """Return rules of motion as text; "" without rules.
+
+    >>> rules_text(MotionRules("slide", fix=("inlet", "outlet"), periodic=(("left", "right"),)))
+    'interfaces=slide, fix=inlet outlet, periodic=left:right'
+    """
+    texts = []
+    for key, value in rules.values().items():
+        names = [value] if isinstance(value, str) else [one if isinstance(one, str) else ":".join(one) for one in value]
+        texts.append(f"{key}={' '.join(names)}")
+    return ", ".join(texts)
 
 
 def _changed(values: Parametrised) -> Iterator[str]:

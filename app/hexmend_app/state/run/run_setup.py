@@ -98,6 +98,21 @@ class RunSetup(QObject):
         """Drop the rules of sets that a mesh does not have."""
         self.set_rules(self.rules.limited_to(set_names(mesh)))
 
+    def follow_renamed_sets(self, before: Mapping[str, object], mesh: Mesh) -> None:
+        """Give the rules of hex sets that a mesh has under another name that name.
+
+        Parameters
+        ----------
+        before : mapping
+            Earlier hex sets by name; those that are unchanged are the same arrays.
+        mesh : Mesh
+        """
+        present, rules = set_names(mesh), self.rules
+        for name in [name for name in rules.names if name in before and name not in present]:
+            renamed = (new for new, hexes in mesh.hex_sets.items() if hexes is before[name] and new not in before)
+            rules = rules.with_renamed(name, next(renamed, name))
+        self.set_rules(rules)
+
     def choose(self, stage: Stage, reason: str = "") -> None:
         """Choose the stage for the user, for a reason; forms show it."""
         self.method, self.stage = stage.smoother.name, stage

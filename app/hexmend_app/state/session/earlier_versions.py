@@ -29,8 +29,8 @@ _WITHOUT_FEATURES = 4
 _WITHOUT_TABLES = 5
 #: The last version in which a layer coloured by material.
 _WITH_MATERIAL_LAYER = 6
-#: The last version in which suggestions had no rules of motion.
-_WITHOUT_SUGGESTED_RULES = 7
+#: The last version whose files may lack fields that were added within a version.
+_WITH_MISSING_FIELDS = 7
 
 
 def migrate(window: Any, version: int) -> Any:
@@ -43,14 +43,14 @@ def migrate(window: Any, version: int) -> Any:
     """
     if version <= _ZERO_FOR_NO_LIMIT:
         window = migrate_surface_tolerance(window)
-    if version <= _WITHOUT_SUGGESTED_RULES:
-        window = _with_suggested_rules(window)
+    if version <= _WITH_MISSING_FIELDS:
+        _add_missing_fields(window, version)
     if version <= _WITHOUT_FEATURES:
         window = _with_features(window)
     if version <= _WITHOUT_TABLES:
         try:
             window = _with_tables(window)
-        except (KeyError, TypeError, ValueError, AttributeError) as error:
+        except (LookupError, TypeError, ValueError, AttributeError) as error:
             raise DecodeError(f"the window's view or cut is not of its type: {error!r}"[:200]) from None
     if version <= _WITH_MATERIAL_LAYER:
         window = _with_material_colours(window)
@@ -128,14 +128,16 @@ def _cut(clip: dict[str, Any] | None) -> dict[str, Any]:
     return {**cut, "planes": planes}
 
 
-def _with_suggested_rules(window: Any) -> Any:
-    """Give the suggestions of runs the fields that they lacked; data of another form are left to the codec."""
+def _add_missing_fields(window: Any, version: int) -> None:
+    """Give runs, their suggestions and the document the fields that they may lack; the codec reports damaged data."""
     try:
-        runs = [record["advice"] for record in window["history"]["records"]]
-        suggestions = [one for advice in runs if advice is not None for one in advice["suggestions"]]
-        for suggestion in suggestions:
-            suggestion.setdefault("rules", None)
-            suggestion.setdefault("widen", False)
-    except (KeyError, TypeError, AttributeError):
+        if version > _WITHOUT_TABLES:
+            window["document"].setdefault("files", None)
+        for record in window["history"]["records"]:
+            if version > _WITHOUT_TABLES:
+                record.setdefault("settings", "")
+            for suggestion in record["advice"]["suggestions"] if record["advice"] is not None else ():
+                suggestion.setdefault("rules", None)
+                suggestion.setdefault("widen", False)
+    except (LookupError, TypeError, AttributeError):
         pass
-    return window

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -97,6 +98,8 @@ class SessionParts(QObject):
         self.run_setup = self._add_part("run_setup", RunSetup(self), "changed")
         self.recipe_draft = self._add_part("recipe_draft", RecipeDraft(self.run_setup, self), "changed")
         document.mesh_replaced.connect(self._drop_unknown_rules)
+        self._hex_sets: Mapping[str, np.ndarray] = {}  # of the mesh before the last change
+        document.changes_changed.connect(self._follow_renamed_sets)
         self._parts.append(
             StatePart(name="breakpoints", to_data=lambda: self.run.breakpoints, restore=self.run.break_at)
         )
@@ -175,6 +178,12 @@ class SessionParts(QObject):
     def _drop_unknown_rules(self) -> None:
         if self.document.is_open:
             self.run_setup.keep_rules_of(self.document.now.mesh)
+
+    def _follow_renamed_sets(self) -> None:
+        if self.document.is_open:
+            mesh, before = self.document.now.mesh, self._hex_sets
+            self._hex_sets = mesh.hex_sets
+            self.run_setup.follow_renamed_sets(before, mesh)
 
     def _history_data(self) -> object:
         """Return the data of the runs, with the iterations that the states of the document show."""

@@ -30,6 +30,8 @@ class BoundaryClasses:
     mesh : Mesh
     kinds : (n,) uint8
         Class of each node: `hexmend.boundary.NodeClass`, `WHISKER`, `PIN` or `LEFT`.
+    original_kinds : (n,) uint8
+        Class of each node on the original boundary, whatever its position: none is `LEFT`.
     locked, freed : int
         Numbers of hexes that are inverted by fixed nodes alone, and of those that sliding can free.
     departures : Departures, optional
@@ -38,6 +40,7 @@ class BoundaryClasses:
 
     mesh: Mesh
     kinds: np.ndarray
+    original_kinds: np.ndarray
     locked: int
     freed: int
     departures: Departures | None = None
@@ -73,10 +76,15 @@ def node_classes(mesh: Mesh, degrees: FeatureAngle, left: Departures | None = No
     sharp = np.zeros(mesh.n_nodes, dtype=bool)
     sharp[boundary_of(mesh.with_points(mesh.surface_points), degrees, whisker=0).segments] = True
     kinds = np.where(sharp & (boundary.node_class == NodeClass.PATCH), WHISKER, boundary.node_class).astype(np.uint8)
-    if left is not None:
-        kinds[left.nodes] = LEFT
     if mesh.pinned is not None:
         kinds[mesh.pinned & (kinds != NodeClass.INSIDE)] = PIN
+    return kinds if left is None else _with_left(kinds, left)
+
+
+def _with_left(kinds: np.ndarray, left: Departures) -> np.ndarray:
+    """Return classes, (n,) uint8, in which nodes that have left the original boundary are `LEFT` unless pinned."""
+    kinds = kinds.copy()
+    kinds[left.nodes] = np.where(kinds[left.nodes] == PIN, PIN, LEFT)
     return kinds
 
 
@@ -95,7 +103,9 @@ def classify_boundary(mesh: Mesh, figures: ElementQuality, degrees: FeatureAngle
     freed = freed_by_sliding(mesh, locked, degrees)
     left = departures_from_surface(mesh, degrees)
     counts = int(np.count_nonzero(locked)), int(np.count_nonzero(freed))
-    return BoundaryClasses(mesh, node_classes(mesh, degrees, left), *counts, left)
+    original = node_classes(mesh, degrees)
+    kinds = original if left is None else _with_left(original, left)
+    return BoundaryClasses(mesh, kinds, original, *counts, left)
 
 
 class BoundaryClassifier(LatestTask):

@@ -86,6 +86,19 @@ class MotionRules:
         pairs = tuple(pair for pair in self.periodic if set(pair) <= set(names))
         return replace(self, periodic=pairs, **sets)
 
+    def with_renamed(self, name: str, new: str) -> MotionRules:
+        """Return the rules for a mesh of which a set was renamed.
+
+        >>> MotionRules(fix=("a", "b"), periodic=(("a", "c"),)).with_renamed("a", "new").values()
+        {'fix': ['new', 'b'], 'periodic': [['new', 'c']]}
+        """
+
+        def renamed(names: tuple[str, ...]) -> tuple[str, ...]:
+            return tuple(new if one == name else one for one in names)
+
+        sets = {key: renamed(getattr(self, key)) for key in _SETS}
+        return replace(self, periodic=tuple(renamed(pair) for pair in self.periodic), **sets)
+
     @classmethod
     def from_values(cls, data: Mapping[str, Any]) -> MotionRules:
         """Make the rules of data as of `values`; raises `ParameterError` for an unknown key or another type."""

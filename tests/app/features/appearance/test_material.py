@@ -37,6 +37,26 @@ def test_the_menu_switches_between_the_material_and_the_metric_before(host):
     assert view.look.colours.metric == "scaled-jacobian"
 
 
+@pytest.mark.parametrize("range", [Range.FULL, Range.ACCEPTABLE, Range.FITTED, (0.1, 0.5)])
+def test_the_range_is_as_before_after_colours_by_material(host, range):
+    view, switch = host.session.view, action(host.feature, "colour_by_material")
+    view.change(colours={"metric": "q", "range": range})
+    host.feature.refresh()
+    for _ in (1, 2):
+        switch.handle(True)
+        switch.handle(False)
+        assert (view.look.colours.metric, view.look.colours.range) == ("q", range)
+
+
+def test_another_metric_after_the_material_has_a_range_of_its_own(host):
+    view, panel = host.session.view, host.feature.panel
+    view.change(colours={"metric": "q", "range": (0.1, 0.5)})
+    host.feature.refresh()
+    panel.choose_metric("material")
+    panel.choose_metric("scaled-jacobian")
+    assert view.look.colours.range is Range.FULL
+
+
 def test_controls_of_values_are_disabled_for_materials(host):
     panel = host.feature.panel
     controls = [named(panel, QComboBox, "Colour map"), named(panel, Segmented, "Range")]

@@ -1,14 +1,17 @@
 """Results of all runs in a table of dots."""
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from hexmend.iteration import StoppingCriteria
+from hexmend.mesh.rules import MotionRules
 from hexmend.smoothers import METHODS
 from hexmend_app.features.runs.dot_delegate import axis_of, place
 from hexmend_app.features.runs.run_table import FIRST, NAME, QUANTITIES, SETTINGS, RunRow, RunTable
+from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import BLUE, MUTED
 from tests.app.driving import open_and_wait, phase
@@ -96,6 +99,64 @@ def test_a_click_shows_the_result_of_a_run(window, three):
     QTest.keyClick(panel(window).table, Qt.Key.Key_Down)
     QTest.keyClick(panel(window).table, Qt.Key.Key_Return)
     assert timeline.shown_iteration.record is three[0]
+
+
+def test_a_click_shows_the_mesh_at_the_start_even_if_no_run_began_there(window, qtbot):
+    session = window.session
+    start = session.document.start
+    points = start.mesh.points.copy()
+    points[np.flatnonzero(start.mesh.free)[0]] += 1e-3
+    session.commands.adopt_positions("move a node", State.of(start.mesh.with_points(points)))
+    session.run.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=2))
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    window.show_panel("runs")
+    window.refresh()
+    click(window, 0)
+    assert session.document.now is start
+    assert panel(window).table.currentIndex().row() == 0
+    click(window, 1)
+    session.commands.tag("new", [1])
+    click(window, 0)
+    assert session.document.now.mesh.points is start.mesh.points
+    assert session.document.now.mesh.hex_sets["new"].tolist() == [1]
+    click(window, 1)
+    assert session.timeline.shown_iteration.number == session.timeline.record.result
+
+
+def test_runs_that_differ_in_rules_of_motion_alone_have_other_settings(window, qtbot):
+    session, stop = window.session, StoppingCriteria(max_iterations=1)
+    session.commands.tag("a<b", [1, 2])
+    for rules in (MotionRules(), MotionRules(fix=("a<b",))):
+        session.run.start(METHODS["local-sd"](), stop, rules=rules)
+        qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    window.show_panel("runs")
+    window.refresh()
+    assert texts(window, SETTINGS) == ["", "max_iterations=1", "max_iterations=1; fix=a<b"]
+    assert "fix=a&lt;b" in panel(window).model.index(2, NAME).data(Qt.ItemDataRole.ToolTipRole)
+
+
+def test_the_active_run_is_named_so(window, qtbot):
+    window.show_panel("runs")
+    run_control = window.session.run
+    run_control.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=50), iterations=2)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    window.refresh()
+    name = run_control.record.name
+    assert texts(window, NAME) == ["At the start", f"{name} (active)"]
+    run_control.stop()
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    window.refresh()
+    assert texts(window, NAME) == ["At the start", name]
+
+
+def test_iterations_that_arrive_leave_the_row_that_was_reached_by_keys(window, three):
+    click(window, 3)
+    table = panel(window).table
+    QTest.keyClick(table, Qt.Key.Key_Up)
+    assert table.currentIndex().row() == 2
+    three[2].rows.append(three[2].rows[-1])
+    window.refresh()
+    assert table.currentIndex().row() == 2
 
 
 def test_a_session_keeps_the_table(window, qtbot, three, tmp_path):

@@ -230,3 +230,27 @@ def test_the_command_has_the_rules(host, qapp, tmp_path, mesh):
     action(host.feature, "copy_command").handle()
     expected = f"hexmend smooth {tmp_path}/in.vtu -o {tmp_path}/mesh-smoothed.vtu --interfaces slide --fix inlet"
     assert qapp.clipboard().text() == expected
+
+
+def test_rules_follow_a_tag_that_is_renamed(qtbot, host):
+    session = host.session
+    session.run_setup.set_rules(MotionRules(fix=("low",), slide=("inlet",), periodic=(("inlet", "outlet"),)))
+    session.commands.rename_tag("low", "lower half")
+    assert session.run_setup.rules == MotionRules(
+        fix=("lower half",), slide=("inlet",), periodic=(("inlet", "outlet"),)
+    )
+    session.commands.undo()
+    assert session.run_setup.rules.fix == ("low",)
+    session.commands.redo()
+    session.run_setup.set_rules(MotionRules(fix=("lower half",)))
+    before = session.document.now.mesh
+    after = run(qtbot, session)
+    nodes = np.unique(before.hexes[before.hex_sets["lower half"]])
+    np.testing.assert_array_equal(after.points[nodes], before.points[nodes])
+
+
+def test_rules_of_a_tag_that_is_removed_do_not_pass_to_another(host):
+    session = host.session
+    session.run_setup.set_rules(MotionRules(fix=("low",)))
+    session.commands.remove_tag("low")
+    assert session.run_setup.rules == MotionRules(fix=("low",))

@@ -31,7 +31,7 @@ from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
-from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER
+from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER, classify_boundary
 from tests.core.grids import grid
 from tests.core.mesh.test_structure import tetrahedron
 
@@ -205,6 +205,29 @@ def test_nodes_that_were_moved_off_the_boundary_have_a_colour_of_their_own(draw)
     points[(points == [3, 3, 3]).all(axis=1)] += 0.2
     assert count(draw(mesh.with_points(points), Structure.of("kinds")), KINDS[LEFT]) > 10
     assert count(draw(grid(3), Structure.of("kinds")), KINDS[LEFT]) == 0
+
+
+def test_nodes_that_moved_off_the_boundary_follow_the_frames_of_a_film(draw):
+    mesh = grid(3).keeping_surface()
+    points = mesh.points.copy()
+    points[(points == [3, 3, 3]).all(axis=1)] += 0.2
+    at_start, moved, again = (mesh.with_points(one) for one in (mesh.points, points, mesh.points.copy()))
+    marks = [count(draw(one, Structure.of("kinds")), KINDS[LEFT]) for one in (at_start, moved, again)]
+    assert marks[0] == marks[2] == 0 < marks[1]
+
+
+def test_a_view_beside_the_first_does_not_mark_nodes_that_have_not_moved_there():
+    mesh = grid(3).keeping_surface()
+    points = mesh.points.copy()
+    points[(points == [3, 3, 3]).all(axis=1)] += 0.2
+    moved = mesh.with_points(points)
+    figures = measure(moved.points, moved.hexes)
+    classes = classify_boundary(moved, figures, 40.0)
+    first = Frame(moved, figures, kinds=classes.kinds, original_kinds=classes.original_kinds)
+    assert classes.count(LEFT) == 1
+    other = Frame(mesh, measure(mesh.points, mesh.hexes)).matching(first)
+    assert not (other.kinds == LEFT).any()
+    assert Frame(moved, figures).matching(first).kinds is classes.kinds
 
 
 def test_given_classes_are_drawn(draw):

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hexmend.errors import FileError
 from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session import session_file
 from hexmend.iteration import StoppingCriteria
@@ -28,6 +29,42 @@ def test_a_session_of_an_earlier_version_is_read_with_its_run(version):
     assert record.rows[-1]["iteration"] == 3
     assert record.advice.limiting.dtype == np.int64
     assert record.advice.reason.startswith("Stopped at the limit of 3 iterations")
+
+
+@pytest.mark.parametrize("version", [6, 7])
+def test_a_session_of_version_6_and_7_is_read_with_its_run(version):
+    data = session_data.read(_FILES / f"version_{version}.hexmend")
+    (record,) = data.history.records
+    assert len(record.rows) == 3
+    assert record.settings == {6: "", 7: "max_iterations=2, keep_last=True"}[version]
+    assert [change.title for change in data.document.changes] == ["open", "tag", "Laplacian"]
+
+
+def test_a_session_of_version_6_without_files_is_read(tmp_path):
+    version, content = read_archive(_FILES / "version_6.hexmend", "Hexmend session", session_file.VERSION)
+    del content["window"]["document"]["files"]
+    write_archive(tmp_path / "first.hexmend", "Hexmend session", version, content)
+    assert session_data.read(tmp_path / "first.hexmend").document.files is None
+
+
+@pytest.mark.parametrize("place", [
+    ("history",),
+    ("history", "records", 0, "advice"),
+    ("history", "records", 0, "offsets", 0),
+    ("history", "records", 0, "pauses"),
+    ("view", "look", "scale"),
+    ("choices", "cut"),
+])  # fmt: skip
+@pytest.mark.parametrize("damage", [np.zeros(3), [[1, 2]], [1, 2]])
+def test_data_of_another_type_are_reported(tmp_path, place, damage):
+    version, content = read_archive(_FILES / "version_3.hexmend", "Hexmend session", session_file.VERSION)
+    part = content["window"]
+    for key in place[:-1]:
+        part = part[key]
+    part[place[-1]] = damage
+    write_archive(tmp_path / "damaged.hexmend", "Hexmend session", version, content)
+    with pytest.raises(FileError, match="inconsistent: the window"):
+        session_data.read(tmp_path / "damaged.hexmend")
 
 
 def test_a_session_is_unchanged_by_reading_and_writing_it(tmp_path):

@@ -85,7 +85,15 @@ class StructureLayers:
 
     def set_mesh(self, mesh: Mesh) -> None:
         """Replace the mesh; its structure is computed when first needed."""
-        self._mesh, self._structure, self._kinds = mesh, None, None
+        self._mesh, self._structure = mesh, None
+        self.set_kinds(None)
+        self.set_positions(mesh)
+
+    def set_positions(self, mesh: Mesh) -> None:
+        """Set the same mesh with other positions: classes that were not given are computed anew when needed."""
+        self._positions = mesh
+        if not self._given:
+            self._kinds = None
 
     def set_pins(self, pinned: np.ndarray | None) -> None:
         """Set the pinned nodes of the same mesh, (n,) bool; `move` draws them."""
@@ -93,7 +101,7 @@ class StructureLayers:
 
     def set_kinds(self, kinds: np.ndarray | None) -> None:
         """Set the boundary classes of nodes of the same mesh, (n,) uint8; None computes them when needed."""
-        self._kinds = kinds
+        self._kinds, self._given = kinds, kinds is not None
 
     def rebuild(
         self, look: Look, points: np.ndarray, figures: ElementQuality, faces: Faces, keep: np.ndarray | None
@@ -185,7 +193,7 @@ class StructureLayers:
             return
         places = self._faces.places(points)
         if switches.is_on("kinds") and self._kinds is None:
-            mesh = self._mesh.with_points(points)
+            mesh = self._positions.replace(pinned=self._mesh.pinned)
             self._kinds = node_classes(mesh, FEATURE_ANGLE, departures_from_surface(mesh, FEATURE_ANGLE))
         kinds = node_marks(self._mesh, points, figures, switches, self._kinds)[self._faces.nodes]
         marked = (kinds > 0) & points_kept_by_cut(self._look, places)
