@@ -138,3 +138,19 @@ def test_a_result_is_not_lost_where_the_input_has_changed_meanwhile(deck, monkey
     assert "has changed since it was read" in capsys.readouterr().err
     assert "999999" in deck.read_text()
     assert io.read(deck.with_name("deck-hexmend.inp")).n_nodes == io.read(deck).n_nodes - 1
+
+
+@pytest.mark.parametrize(
+    "words", [["smooth"], ["smooth", "--rewrite"], ["repair"], ["repair", "--rewrite"], ["pad"], ["pad", "--no-mend"]]
+)
+def test_no_command_overwrites_a_file_that_the_deck_includes(deck, words, capsys):
+    with_a_loose_node(deck)
+    head, nodes, rest = deck.read_text().partition("*NODE\n")
+    end = rest.index("*")
+    deck.with_name("nodes.inp").write_text(nodes + rest[:end])
+    deck.write_text(f"{head}*INCLUDE, INPUT=nodes.inp\n{rest[end:]}")
+    before = {path.name: path.read_bytes() for path in deck.parent.iterdir()}
+    command, *options = words
+    assert main([command, str(deck), "-o", str(deck.with_name("nodes.inp")), *options]) == 3
+    assert "nodes.inp: is included by deck.inp. Choose another name." in capsys.readouterr().err
+    assert before == {path.name: path.read_bytes() for path in deck.parent.iterdir()}

@@ -29,10 +29,6 @@ class ChangedFileError(FileError):
     """File whose nodes are not those that were read from it."""
 
 
-class IncludedFileError(ChangedFileError):
-    """File that is not written because the original file includes it."""
-
-
 class LostContentError(FileError):
     """File that is not replaced by a new one, since it has content that the new one would not have."""
 
@@ -76,7 +72,7 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     Raises
     ------
     ChangedFileError
-        If the original file has other nodes than the original mesh, or includes the file to write.
+        If the original file has other nodes than the original mesh.
     CoordinatesError
         If the file cannot hold the mesh in this way.
     FileError

@@ -10,13 +10,12 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from hexmend.errors import HexmendError
 from hexmend.io.coordinates.edits import Edits, write_edited
 from hexmend.io.coordinates.located import CoordinatesError
-from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
+from hexmend.io.coordinates.replacement import is_same_file
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.deck_file import DeckFile, Reference
-from hexmend.io.formats.abaqus.includes import read_deck
+from hexmend.io.formats.abaqus.includes import included_files
 from hexmend.io.storage.atomic_files import AtomicFiles
 
 
@@ -44,14 +43,10 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: Atomi
 
     Raises
     ------
-    IncludedFileError
-        If the deck includes the target, which would be lost to it.
     CoordinatesError
         If a file with moved nodes is included twice.
     """
     root = deck.pieces[0].file
-    if any(is_same_file(one.path, target) for one in list(root.walk())[1:]):
-        raise IncludedFileError(target, f"is included by {root.path.name}", "Choose another name.")
     own = {one: part for one in root.walk() if len(part := _of_file(deck, edits, one))}
     paths = [one.path.resolve() for one in root.walk()]
     if twice := [one for one in own if paths.count(one.path.resolve()) > 1]:
@@ -129,7 +124,7 @@ def _new_names(root: DeckFile, own: Collection[DeckFile], target: Path) -> dict[
     No other file has the name, save one that the deck at the target includes, which these copies replace.
     """
     given = {one.path.resolve() for one in root.walk()}
-    free, renamed = _included_by(target) - given, {}
+    free, renamed = included_files(target) - given, {}
     taken = {target.resolve()}
     for one in list(root.walk())[1:]:
         if not any(file in own for file in one.walk()):
@@ -142,14 +137,6 @@ def _new_names(root: DeckFile, own: Collection[DeckFile], target: Path) -> dict[
         taken.add(path)
         renamed[one] = name
     return renamed
-
-
-def _included_by(target: Path) -> set[Path]:
-    """Files that a deck includes that is to be replaced; none for another file."""
-    try:
-        return {one.path.resolve() for piece in read_deck(target).pieces[:1] for one in list(piece.file.walk())[1:]}
-    except (HexmendError, OSError):
-        return set()
 
 
 def _renamed(file: DeckFile, suffix: str) -> str:
