@@ -115,6 +115,20 @@ def test_a_result_that_would_lose_content_is_written_beside_the_file(deck, monke
     assert io.read(deck.with_name("deck-hexmend.inp")).n_nodes == io.read(deck).n_nodes
 
 
+def test_a_result_beside_the_file_takes_the_name_of_no_other(deck, monkeypatch, capsys):
+    def refuse(*arguments):
+        raise CoordinatesError("its parts have moved differently")
+
+    monkeypatch.setattr(files, "replace_coordinates", refuse)
+    taken = deck.with_name("deck-hexmend.inp")
+    taken.write_text("the only copy of something")
+    for name in ("deck-hexmend-2.inp", "deck-hexmend-3.inp"):
+        assert smooth(deck, deck) == 3
+        assert f"The result was written anew to {deck.with_name(name)}." in capsys.readouterr().err
+        assert io.read(deck.with_name(name)).n_nodes == io.read(deck).n_nodes
+    assert taken.read_text() == "the only copy of something"
+
+
 def test_a_folder_as_output_is_named_as_such(deck, tmp_path, capsys):
     (tmp_path / "folder").mkdir()
     assert smooth(deck, tmp_path / "folder") == 3
