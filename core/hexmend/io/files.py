@@ -16,6 +16,7 @@ from hexmend.io.coordinates.original import Original, difference
 from hexmend.io.coordinates.replacement import (
     REWRITE,
     ChangedFileError,
+    IncludedFileError,
     LostContentError,
     Written,
     is_same_file,
@@ -217,7 +218,7 @@ def check_not_included(path: str | os.PathLike[str], source: str | os.PathLike[s
         return
     format = format_of(source)
     if format.included is not None and any(is_same_file(path, one) for one in format.included(source)):
-        raise FileError(path, f"is included by {source.name}", "Choose another name.")
+        raise IncludedFileError(path, f"is included by {source.name}", "Choose another name.")
 
 
 def _check_content(path: Path, original: Original, reason: str) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from hexmend.cli.output.mesh_messages import warn_of_losses
 from hexmend.errors import FileError
 from hexmend.io import Original, replaces_coordinates, write, write_as_given
-from hexmend.io.coordinates.replacement import ChangedFileError, LostContentError
+from hexmend.io.coordinates.replacement import ChangedFileError, IncludedFileError, LostContentError
 from hexmend.io.files import check_not_included
 from hexmend.io.format_lookup import unused_path
 from hexmend.mesh.mesh import Mesh
@@ -58,7 +58,7 @@ class MeshOutput:
         expected = replaces_coordinates(self.path, self._original)
         try:
             written = write_as_given(self.path, mesh, self._original)
-        except (ChangedFileError, LostContentError) as error:
+        except (ChangedFileError, IncludedFileError, LostContentError) as error:
             if not self._spare:
                 raise
             spare = unused_path(self.path)

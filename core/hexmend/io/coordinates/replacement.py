@@ -29,6 +29,10 @@ class ChangedFileError(FileError):
     """File whose nodes are not those that were read from it."""
 
 
+class IncludedFileError(FileError):
+    """File that is not written because the deck of the mesh, or the copy of it, includes it."""
+
+
 class LostContentError(FileError):
     """File that is not replaced by a new one, since it has content that the new one would not have."""
 
@@ -73,6 +77,8 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     ------
     ChangedFileError
         If the original file has other nodes than the original mesh.
+    IncludedFileError
+        If the copy would include itself.
     CoordinatesError
         If the file cannot hold the mesh in this way.
     FileError

@@ -12,7 +12,7 @@ import numpy as np
 
 from hexmend.io.coordinates.edits import Edits, write_edited
 from hexmend.io.coordinates.located import CoordinatesError
-from hexmend.io.coordinates.replacement import is_same_file
+from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.deck_file import DeckFile, Reference
 from hexmend.io.formats.abaqus.includes import included_files
@@ -45,6 +45,8 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: Atomi
     ------
     CoordinatesError
         If a file with moved nodes is included twice.
+    IncludedFileError
+        If the copy of the deck would include itself.
     """
     root = deck.pieces[0].file
     own = {one: part for one in root.walk() if len(part := _of_file(deck, edits, one))}
@@ -154,12 +156,19 @@ def _place(target: Path, name: str) -> Path:
 
 
 def _copied(file: DeckFile, renamed: dict[DeckFile, str], target: Path, files: AtomicFiles) -> list[str]:
-    """Copy an included file that stays as it is to where the new deck looks for it; returns notes."""
+    """Copy an included file that stays as it is to where the new deck looks for it; returns notes.
+
+    Raises `IncludedFileError` where the new deck has the name of this file: it would include itself.
+    """
     name, parent = Path(file.reference.name), file.reference.parent
     folder = Path(renamed.get(parent, parent.reference.name if parent.reference else "")).parent
     if name.is_absolute():
         return []
-    found = next((path for at in ("", folder) if (path := target.parent / at / name).is_file()), None)
+    places = [target.parent / at / name for at in ("", folder)]
+    if target.resolve() in [path.resolve() for path in places]:
+        deck = file.reference.parent.path.name
+        raise IncludedFileError(target, f"has the name of a file that {deck} includes", "Choose another name.")
+    found = next((path for path in places if path.is_file()), None)
     if found is not None or ".." in name.parts:
         same = found is not None and (is_same_file(file.path, found) or found.read_bytes() == file.data)
         return [] if same else [f"The new deck includes {name}, which was not copied: check that it is the right file."]
