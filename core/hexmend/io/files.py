@@ -192,6 +192,8 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
             if is_same_file(path, original.path):
                 raise
             reason = (_anew(f"{error.path.name} {error.problem}", original),)
+    elif original is not None and is_same_file(path, original.path):
+        _check_content(path, original, "coordinates alone are never replaced in its format")
     elif original is not None and not original.path.exists() and path.suffix == original.path.suffix:
         reason = (_anew(f"{original.path.name} does not exist any more", original),)
     _write_anew(path, mesh, None, writable_format(path, original and original.path))

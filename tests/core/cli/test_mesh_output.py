@@ -103,6 +103,25 @@ def test_repair_replaces_a_file_of_nothing_but_a_mesh(deck):
     assert io.read(deck).n_nodes == n_nodes
 
 
+PROPERTY = 'HFProp bool "marked"\n'
+
+
+@pytest.mark.parametrize("command", ["smooth", "pad", "repair"])
+def test_a_file_of_a_format_that_is_written_anew_keeps_what_was_not_read(command, tmp_path, capsys):
+    path, spare = tmp_path / "a.ovm", tmp_path / "a-hexmend.ovm"
+    io.write(path, make("cube", size=27, scramble=0.2))
+    plain = path.read_text()
+    path.write_text(plain + PROPERTY + "1\n" * 216)
+    before = path.read_bytes()
+    assert main([command, str(path), "-o", str(path)]) == 3
+    words = "would lose what it has besides the mesh: the property 'marked' (HFProp bool). It has to be written anew"
+    assert words in capsys.readouterr().err
+    assert path.read_bytes() == before
+    assert spare.exists() == (command != "repair")
+    path.write_text(plain)
+    assert main([command, str(path), "-o", str(path)]) == 0
+
+
 def test_a_result_that_would_lose_content_is_written_beside_the_file(deck, monkeypatch, capsys):
     def refuse(*arguments):
         raise CoordinatesError("its parts have moved differently")
