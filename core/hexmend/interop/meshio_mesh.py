@@ -13,6 +13,7 @@ from hexmend.interop.conversion import convert_to_mesh, import_library
 from hexmend.interop.side_marks import with_side_marks
 from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, from_mesh, merge_blocks, to_mesh
 from hexmend.io.base.fixed_marks import with_marks
+from hexmend.io.coordinates.unread import unread_note
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
@@ -128,10 +129,8 @@ def _content(mesh: meshio.Mesh) -> Content:
     notes = []
     if unread:
         kinds = ", ".join(sorted(unread))
-        cells = count_phrase(
-            sum(unread.values()), f"cell of another kind ({kinds}) is", f"cells of other kinds ({kinds}) are"
-        )
-        notes.append(f"{cells} left out.")
+        cells = count_phrase(sum(unread.values()), f"cell of another kind ({kinds})", f"cells of other kinds ({kinds})")
+        notes.append(unread_note(cells))
     blocks, points = tuple(_without_empty_sets(merged)), np.array(mesh.points)
     node_data = {name: np.array(values) for name, values in mesh.point_data.items()}
     node_sets = {name: np.array(members, np.int64) for name, members in mesh.point_sets.items()}

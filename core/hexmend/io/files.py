@@ -128,6 +128,7 @@ def _write_like(path: Path, mesh: Mesh, like: str | os.PathLike[str] | Original)
     if not replaces_coordinates(path, like):
         problem = f"cannot be written like {like.path.name}: its format is another, or keeps nothing else"
         raise FileError(path, problem, "Write it without the argument like.")
+    check_not_included(path, like.path)
     try:
         replace_coordinates(path, mesh, like, format_of(like.path))
     except CoordinatesError as error:
@@ -179,6 +180,8 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
         has content that a file written anew would not have; or where it is a file that the original includes.
     """
     path, reason = Path(path), ()
+    if original is not None:
+        check_not_included(path, original.path)
     if replaces_coordinates(path, original):
         try:
             return replace_coordinates(path, mesh, original, format_of(original.path))
@@ -186,13 +189,38 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
             _check_content(path, original, str(error))
             reason = (_anew(str(error), original),)
         except ChangedFileError as error:
-            if is_same_file(path, original.path) or isinstance(error, IncludedFileError):
+            if is_same_file(path, original.path):
                 raise
             reason = (_anew(f"{error.path.name} {error.problem}", original),)
+    elif original is not None and is_same_file(path, original.path):
+        _check_content(path, original, "coordinates alone are never replaced in its format")
     elif original is not None and not original.path.exists() and path.suffix == original.path.suffix:
         reason = (_anew(f"{original.path.name} does not exist any more", original),)
     _write_anew(path, mesh, None, writable_format(path, original and original.path))
     return Written(False, reason)
+
+
+def check_not_included(path: str | os.PathLike[str], source: str | os.PathLike[str]) -> None:
+    """Check that a file to write is none that the mesh's own file includes.
+
+    Parameters
+    ----------
+    path : path-like
+        File to write.
+    source : path-like
+        File of the mesh.
+
+    Raises
+    ------
+    FileError
+        For a file that `source` includes: it would no longer have what `source` needs.
+    """
+    path, source = Path(path), Path(source)
+    if not (path.is_file() and source.is_file()) or is_same_file(path, source):
+        return
+    format = format_of(source)
+    if format.included is not None and any(is_same_file(path, one) for one in format.included(source)):
+        raise IncludedFileError(path, f"is included by {source.name}", "Choose another name.")
 
 
 def _check_content(path: Path, original: Original, reason: str) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from itertools import count
 from pathlib import Path
 from typing import NoReturn
 
@@ -58,15 +59,23 @@ def format_of(path: Path) -> Format:
 def unused_path(path: str | os.PathLike[str]) -> Path:
     """Return the path of a new file beside another one, for a result that cannot be written there.
 
+    The name has a number where there is a file, folder or link of this name already.
+
     >>> unused_path("dir/part.inp").as_posix()
     'dir/part-hexmend.inp'
     """
     path = Path(path)
     placed = format_by_place(path)
     if placed is None:
-        return path.with_stem(f"{path.stem}-hexmend")
-    folder = path.parent if path.is_file() else path
-    return folder.with_name(f"{folder.name}-hexmend") / f"mesh{placed.suffixes[0]}"
+        return next(one for end in _endings() if not os.path.lexists(one := path.with_stem(f"{path.stem}{end}")))
+    case = path.parent if path.is_file() else path
+    folder = next(one for end in _endings() if not os.path.lexists(one := case.with_name(f"{case.name}{end}")))
+    return folder / f"mesh{placed.suffixes[0]}"
+
+
+def _endings() -> Iterator[str]:
+    """Iterate over endings of names: "-hexmend", "-hexmend-2" and so on."""
+    return (f"-hexmend-{number}" if number > 1 else "-hexmend" for number in count(1))
 
 
 def copy_suffix(path: str | os.PathLike[str]) -> str:

@@ -17,7 +17,8 @@ from hexmend.quality.measure import fixed_tetrahedra
 
 #: Largest distance of nodes from a plane or line, in mean edge lengths: files may hold seven digits.
 _FLATNESS = 1e-7
-#: Largest determinant that counts as 0, and change that counts as none, in cubes of the longest edge.
+#: Largest determinant that counts as 0, in products of the three edges, and largest change that counts as none, in
+#: products of the longest edge squared and the second longest. Corners of thin hexes are positive though small.
 _ROUNDING = 1e-6
 #: Displacements that are tried: a determinant that is the same at all of them is constant.
 _TRIALS = 4
@@ -121,14 +122,15 @@ def _constant(points: np.ndarray, tetrahedra: np.ndarray, projectors: np.ndarray
     """Mark the tetrahedra (k, 8, 4) whose determinant is not positive and the same wherever the nodes are, (k, 8)."""
     x = points[tetrahedra]
     edges = x[:, :, 1:] - x[:, :, :1]
-    size = np.linalg.norm(edges, axis=-1).max(axis=-1)
-    volume, sigma = size**3, np.linalg.det(edges)
-    same = sigma <= _ROUNDING * volume
+    length = np.sort(np.linalg.norm(edges, axis=-1), axis=-1)
+    size, sigma = length[..., 2], np.linalg.det(edges)
+    same = sigma <= _ROUNDING * length.prod(axis=-1)
+    unchanged = _ROUNDING * size**2 * length[..., 1]
     random = np.random.default_rng(0)
     for _ in range(_TRIALS):
         moves = random.uniform(-1, 1, (len(points), 3))
         moves = np.einsum("nij,nj->ni", projectors, moves)[tetrahedra] * size[..., None, None]
         moved = x + moves
         change = np.abs(np.linalg.det(moved[:, :, 1:] - moved[:, :, :1]) - sigma)
-        same &= change <= _ROUNDING * volume
+        same &= change <= unchanged
     return same

@@ -28,18 +28,18 @@ class Numbering:
                 if values.dtype.kind in "iu" and values.ndim == 1 and len(values):
                     self._next[name] = max(self._next.get(name, 0), int(values.max()) + 1)
 
-    def take(self, name: str, count: int) -> np.ndarray:
-        """Return the next numbers of data of this name, (count,) int64."""
+    def take(self, name: str, count: int, dtype: np.dtype) -> np.ndarray:
+        """Return the next numbers of data of this name, (count,); int64 where they exceed a type of whole numbers."""
         first = self._next[name]
-        self._next[name] = first + count
-        return np.arange(first, first + count)
+        self._next[name] = last = first + count
+        return np.arange(first, last).astype(dtype if last - 1 <= np.iinfo(dtype).max else np.int64)
 
 
 def extended_data(data: Mapping[str, np.ndarray], rows: np.ndarray, ids: Numbering) -> dict[str, np.ndarray]:
     """Return data with additional rows: copies of the given ones (j,), and new numbers where all are distinct."""
     answer = {}
     for name, values in data.items():
-        more = ids.take(name, rows.size).astype(values.dtype) if _numbers_items(values) else values[rows]
+        more = ids.take(name, rows.size, values.dtype) if _numbers_items(values) else values[rows]
         answer[name] = np.concatenate([values, more])
     return answer
 
@@ -71,7 +71,7 @@ def extended_node_data(
     ids, answer = Numbering(data), {}
     for name, values in data.items():
         if _numbers_items(values):
-            more = ids.take(name, sources.size).astype(values.dtype)
+            more = ids.take(name, sources.size, values.dtype)
         elif values.dtype.kind == "f":
             of = share.reshape(-1, *[1] * (values.ndim - 1))
             more = ((1 - of) * values[sources] + of * values[behind]).astype(values.dtype)

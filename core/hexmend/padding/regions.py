@@ -113,10 +113,13 @@ def set_sheet(mesh: Mesh, name: str) -> Sheet:
     Raises
     ------
     MeshError
-        For a set that does not exist or has no boundary face, and where its layer cannot be closed; see `check_mesh`.
+        For a set that does not exist, has no boundary face or no hex, and where its layer cannot be closed; see
+        `check_mesh`.
     """
     check_mesh(mesh)
     if name in mesh.hex_sets and name not in mesh.side_sets:
+        if not len(mesh.hex_sets[name]):
+            raise MeshError(f"the set {name!r} has no hexes: expected one or more, under whose faces a layer is laid")
         return region_sheet(mesh, mask(mesh.hex_sets[name], mesh.n_hexes))
     sides = _boundary_sides(mesh, name)
     sheet = Sheet(mesh, np.ones(mesh.n_hexes, dtype=bool), sides)

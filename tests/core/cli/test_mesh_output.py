@@ -103,6 +103,25 @@ def test_repair_replaces_a_file_of_nothing_but_a_mesh(deck):
     assert io.read(deck).n_nodes == n_nodes
 
 
+PROPERTY = 'HFProp bool "marked"\n'
+
+
+@pytest.mark.parametrize("command", ["smooth", "pad", "repair"])
+def test_a_file_of_a_format_that_is_written_anew_keeps_what_was_not_read(command, tmp_path, capsys):
+    path, spare = tmp_path / "a.ovm", tmp_path / "a-hexmend.ovm"
+    io.write(path, make("cube", size=27, scramble=0.2))
+    plain = path.read_text()
+    path.write_text(plain + PROPERTY + "1\n" * 216)
+    before = path.read_bytes()
+    assert main([command, str(path), "-o", str(path)]) == 3
+    words = "would lose what it has besides the mesh: the property 'marked' (HFProp bool). It has to be written anew"
+    assert words in capsys.readouterr().err
+    assert path.read_bytes() == before
+    assert spare.exists() == (command != "repair")
+    path.write_text(plain)
+    assert main([command, str(path), "-o", str(path)]) == 0
+
+
 def test_a_result_that_would_lose_content_is_written_beside_the_file(deck, monkeypatch, capsys):
     def refuse(*arguments):
         raise CoordinatesError("its parts have moved differently")
@@ -113,6 +132,20 @@ def test_a_result_that_would_lose_content_is_written_beside_the_file(deck, monke
     assert "its parts have moved differently. The result was written anew to" in capsys.readouterr().err
     assert deck.read_bytes() == before
     assert io.read(deck.with_name("deck-hexmend.inp")).n_nodes == io.read(deck).n_nodes
+
+
+def test_a_result_beside_the_file_takes_the_name_of_no_other(deck, monkeypatch, capsys):
+    def refuse(*arguments):
+        raise CoordinatesError("its parts have moved differently")
+
+    monkeypatch.setattr(files, "replace_coordinates", refuse)
+    taken = deck.with_name("deck-hexmend.inp")
+    taken.write_text("the only copy of something")
+    for name in ("deck-hexmend-2.inp", "deck-hexmend-3.inp"):
+        assert smooth(deck, deck) == 3
+        assert f"The result was written anew to {deck.with_name(name)}." in capsys.readouterr().err
+        assert io.read(deck.with_name(name)).n_nodes == io.read(deck).n_nodes
+    assert taken.read_text() == "the only copy of something"
 
 
 def test_a_folder_as_output_is_named_as_such(deck, tmp_path, capsys):
@@ -138,3 +171,19 @@ def test_a_result_is_not_lost_where_the_input_has_changed_meanwhile(deck, monkey
     assert "has changed since it was read" in capsys.readouterr().err
     assert "999999" in deck.read_text()
     assert io.read(deck.with_name("deck-hexmend.inp")).n_nodes == io.read(deck).n_nodes - 1
+
+
+@pytest.mark.parametrize(
+    "words", [["smooth"], ["smooth", "--rewrite"], ["repair"], ["repair", "--rewrite"], ["pad"], ["pad", "--no-mend"]]
+)
+def test_no_command_overwrites_a_file_that_the_deck_includes(deck, words, capsys):
+    with_a_loose_node(deck)
+    head, nodes, rest = deck.read_text().partition("*NODE\n")
+    end = rest.index("*")
+    deck.with_name("nodes.inp").write_text(nodes + rest[:end])
+    deck.write_text(f"{head}*INCLUDE, INPUT=nodes.inp\n{rest[end:]}")
+    before = {path.name: path.read_bytes() for path in deck.parent.iterdir()}
+    command, *options = words
+    assert main([command, str(deck), "-o", str(deck.with_name("nodes.inp")), *options]) == 3
+    assert "nodes.inp: is included by deck.inp. Choose another name." in capsys.readouterr().err
+    assert before == {path.name: path.read_bytes() for path in deck.parent.iterdir()}

@@ -118,7 +118,7 @@ def test_cells_of_other_kinds_are_handled_as_in_a_file():
     assert mesh.n_hexes == 22
     assert mesh.pinned[CUBE.hexes[:2, [0, 1, 3, 4]]].all()
     assert mesh.notes == (
-        "1 cell of another kind (type polygon) is left out.",
+        "Not read: 1 cell of another kind (type polygon).",
         "2 tetra cells next to the hexes are kept, and their nodes are fixed.",
     )
 

@@ -38,6 +38,20 @@ def flat_corner():
     return moved(mesh, places)
 
 
+@pytest.mark.parametrize("thin", [1e-2, 1e-4, 1e-5])
+def test_corners_of_thin_hexes_between_fixed_nodes_are_not_locked(thin):
+    """Along the edge of two walls, layers of both cross: hexes are thin in two directions, and sound."""
+    mesh = grid(3)
+    x = mesh.points.copy()
+    x[:, :2] = np.array([0, thin, 0.5, 1])[x[:, :2].astype(int)]
+    given = mesh.with_points(x).replace(pinned=mesh.topology.boundary)
+    places = {node_at(mesh, 1, 1, z): (-0.5 * thin, -0.5 * thin, z) for z in (1, 2)}
+    tangled = moved(given, places)
+    assert measure(tangled.points, mesh.hexes).inverted.any()
+    assert not measure(given.points, mesh.hexes).inverted.any()  # there is a movement that mends all
+    assert not find_locking(tangled).hexes.size
+
+
 def test_two_faces_of_a_hex_on_one_flat_patch_need_a_layer():
     mesh = flat_corner()
     locking = find_locking(mesh)

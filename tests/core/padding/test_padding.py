@@ -128,6 +128,15 @@ def test_data_of_nodes_are_interpolated_and_ids_go_on():
     np.testing.assert_allclose(padded.node_data["x"][mesh.n_nodes :][faces], padded.points[mesh.n_nodes :][faces], 1e-3)
 
 
+@pytest.mark.parametrize(("dtype", "after"), [(np.uint8, np.int64), (np.int16, np.int16)])
+def test_ids_of_a_type_that_cannot_go_on_get_a_larger_one(dtype, after):
+    mesh = grid(5)
+    data = {"id": np.arange(100, 225, dtype=dtype)}
+    ids = hx.pad(mesh.replace(hex_data=data), mend=False).mesh.hex_data["id"]
+    assert ids.dtype == after
+    np.testing.assert_array_equal(ids, np.arange(100, 100 + len(ids)))
+
+
 def test_quads_and_lines_on_the_boundary_stay_and_those_inside_go_on():
     mesh = grid(4)
     inside = np.array([mesh.hexes[h, FACES[1]] for h in range(64) if h % 4 == 1])
@@ -271,6 +280,7 @@ def test_a_set_of_hexes_gets_a_layer_on_all_sides():
 @pytest.mark.parametrize(("change", "name", "words"), [
     ({}, "nothing", "there is no set 'nothing'"),
     ({"node_sets": {"inner": np.array([62])}}, "inner", "has no face on the boundary"),
+    ({"hex_sets": {"void": np.array([], np.int64)}}, "void", "the set 'void' has no hexes: expected one or more"),
     ({"side_sets": {"one": np.array([[5, 4]])}}, "one", "cannot be closed at 4 of the 4 edges"),
     ({"side_sets": {"flat": np.array([[0, 4]])}, "side_set_types": {"flat": "empty"}}, None, "two-dimensional"),
     ({"cells": (Cells("tetra", [[0, 1, 5, 30]]),)}, None, "1 tetra cells, and its boundary is theirs too"),

@@ -8,7 +8,8 @@ from pathlib import Path
 from hexmend.cli.output.mesh_messages import warn_of_losses
 from hexmend.errors import FileError
 from hexmend.io import Original, replaces_coordinates, write, write_as_given
-from hexmend.io.coordinates.replacement import ChangedFileError, LostContentError
+from hexmend.io.coordinates.replacement import ChangedFileError, IncludedFileError, LostContentError
+from hexmend.io.files import check_not_included
 from hexmend.io.format_lookup import unused_path
 from hexmend.mesh.mesh import Mesh
 
@@ -27,12 +28,18 @@ class MeshOutput:
         Write the file anew even if it has the format of `source`.
     spare : bool
         Write a result that cannot replace its own file beside it, since it may have taken long.
+
+    Raises
+    ------
+    FileError
+        Where `source` includes the file to write.
     """
 
     def __init__(self, path: str, source: str, mesh: Mesh, rewrite: bool, *, spare: bool = True):
         self.path, self._spare = path, spare
         self._source = None if rewrite else source
         self._original = None if rewrite else Original(Path(source), mesh)
+        check_not_included(path, source)  # before the run, and not after it
 
     def warn_of_losses(self, mesh: Mesh) -> None:
         """Print a warning for each part of the mesh that is lost; none is where coordinates are replaced."""
@@ -51,7 +58,7 @@ class MeshOutput:
         expected = replaces_coordinates(self.path, self._original)
         try:
             written = write_as_given(self.path, mesh, self._original)
-        except (ChangedFileError, LostContentError) as error:
+        except (ChangedFileError, IncludedFileError, LostContentError) as error:
             if not self._spare:
                 raise
             spare = unused_path(self.path)

@@ -85,6 +85,9 @@ class Format:
     locate : callable, optional
         locate(path) finds the coordinates of a file, so that they can be replaced in a copy of it; returns
         `hexmend.io.coordinates.located.LocatedCoordinates`.
+    included : callable, optional
+        included(path) returns the paths of the files that a file includes, set of Path, with links resolved; empty for
+        a file that is missing or cannot be read.
     place : FolderPlace, optional
         For formats of several files. `write` and the located coordinates then get the path that was named, and replace
         files themselves.
@@ -102,6 +105,7 @@ class Format:
     exact: bool = True
     limitations: Callable[[Mesh], list[str]] | None = None
     locate: Callable[[Path], LocatedCoordinates] | None = None
+    included: Callable[[Path], set[Path]] | None = None
     place: FolderPlace | None = None
 
 

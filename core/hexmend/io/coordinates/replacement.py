@@ -29,8 +29,8 @@ class ChangedFileError(FileError):
     """File whose nodes are not those that were read from it."""
 
 
-class IncludedFileError(ChangedFileError):
-    """File that is not written because the original file includes it."""
+class IncludedFileError(FileError):
+    """File that is not written because the deck of the mesh, or the copy of it, includes it."""
 
 
 class LostContentError(FileError):
@@ -76,7 +76,9 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     Raises
     ------
     ChangedFileError
-        If the original file has other nodes than the original mesh, or includes the file to write.
+        If the original file has other nodes than the original mesh.
+    IncludedFileError
+        If the copy would include itself.
     CoordinatesError
         If the file cannot hold the mesh in this way.
     FileError

@@ -35,6 +35,8 @@ class AtomicFiles:
     def add(self, path: Path) -> Path:
         """Add a file to be replaced, and return a temporary file with the same suffix, to be written.
 
+        A file that was added before has the same temporary file again.
+
         Parameters
         ----------
         path : Path
@@ -47,11 +49,13 @@ class AtomicFiles:
         if path.exists() and not path.is_file() and not path.is_dir():
             return path  # a pipe
         target, mode = writable_target(path)
+        for one in self._replacements:
+            if one.target == target:
+                return one.temporary.path
+        temporary, backup = TemporaryFile(target), None if mode is None else TemporaryFile(target)
+        self._replacements.append(_Replacement(path, target, temporary, backup))  # to be removed if creation fails
         with _named(path):
-            temporary = TemporaryFile(target)
             temporary.create(mode)
-        backup = None if mode is None else TemporaryFile(target)
-        self._replacements.append(_Replacement(path, target, temporary, backup))
         self._named |= dict.fromkeys((path, target, temporary.path, temporary.lock_path), path)
         return temporary.path
 
@@ -153,7 +157,10 @@ def _keep(one: _Replacement) -> None:
 
 
 def _restore(done: list[_Replacement]) -> str:
-    """Restore the old files; returns words about them for a message, "" if there are none."""
+    """Restore the old files; returns words about them for a message, "" if there are none.
+
+    The old content of a file that cannot be restored stays in its backup, which the message names.
+    """
     kept, names = [], [one.path.name for one in done]
     for one in reversed(done):
         try:
@@ -162,7 +169,11 @@ def _restore(done: list[_Replacement]) -> str:
             else:
                 os.replace(one.backup.path, one.target)
         except OSError:
-            kept.append(one.path.name)
+            if one.backup is None:
+                kept.append(f"{one.path.name} stays as a new file")
+            else:
+                one.backup.release()
+                kept.append(f"{one.path.name} cannot be restored: its old content is in {one.backup.path}")
     if kept:
-        return f", and {', '.join(kept)} cannot be restored: the new content stays there"
+        return f", and {', and '.join(kept)}"
     return f"; {', '.join(names)} {'is' if len(names) == 1 else 'are'} as before" if names else ""

@@ -50,6 +50,7 @@ class TemporaryFile:
     def __init__(self, target: Path):
         self._target = target
         self._lock: int | None = None
+        self._released = False
         self._choose_name()
 
     def create(self, mode: int | None) -> None:
@@ -76,11 +77,15 @@ class TemporaryFile:
 
     @uninterrupted
     def remove(self) -> None:
-        """Remove the file if it is still there, and then the lock."""
-        for path in (self.path, self.lock_path):
+        """Remove the file if it is still there, and then the lock; not after `release`."""
+        for path in (self.lock_path,) if self._released else (self.path, self.lock_path):
             with suppress(OSError):
                 path.unlink()
         self._close()
+
+    def release(self) -> None:
+        """Let the file stay when `remove` is called; without its lock it never counts as abandoned."""
+        self._released = True
 
     def _choose_name(self) -> None:
         middle, end = os.urandom(_RANDOM).hex(), _name_end(self._target)

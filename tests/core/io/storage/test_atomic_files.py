@@ -57,7 +57,44 @@ def test_what_cannot_be_restored_is_named(two, monkeypatch):
         replace(source, path)
 
     monkeypatch.setattr(os, "replace", failing)
-    words = r"a\.txt: cannot be replaced: busy, and b\.txt cannot be restored"
-    with pytest.raises(FileError, match=words), atomic_files() as files:
+    words = r"a\.txt: cannot be replaced: busy, and b\.txt cannot be restored: its old content is in (\S+)\. "
+    with pytest.raises(FileError, match=words) as raised, atomic_files() as files:
         for path in two:
             files.add(path).write_text("new")
+    (backup,) = [path for path in two[0].parent.iterdir() if path not in two]
+    assert str(backup) in str(raised.value)
+    assert backup.read_text() == "old b"
+    monkeypatch.undo()
+    with atomic_files() as files:
+        files.add(two[1]).write_text("newer")
+    assert backup.read_text() == "old b"  # it does not count as abandoned
+
+
+def test_a_temporary_file_that_cannot_be_made_leaves_no_lock(two, monkeypatch):
+    make = os.open
+
+    def failing(path, flags, *mode):
+        if ".hexmend-" in str(path) and ".hexmend-lock-" not in str(path):
+            raise OSError(errno.ENOSPC, "No space left on device", str(path))
+        return make(path, flags, *mode)
+
+    monkeypatch.setattr(os, "open", failing)
+    with pytest.raises(FileError, match=r"^a\.txt: cannot be written: No space left"), atomic_files() as files:
+        files.add(two[0])
+    assert sorted(os.listdir(two[0].parent)) == ["a.txt", "b.txt"]
+
+
+def test_a_file_that_is_added_twice_is_one(two, monkeypatch):
+    new, replace = two[0].with_name("new.txt"), os.replace
+
+    def failing(source, path):
+        if path == two[0]:
+            raise OSError(errno.EBUSY, "busy", str(path))
+        replace(source, path)
+
+    monkeypatch.setattr(os, "replace", failing)
+    words = r"a\.txt: cannot be replaced: busy; new\.txt is as before"
+    with pytest.raises(FileError, match=words), atomic_files() as files:
+        for path in (two[0], new, new):
+            files.add(path).write_text("new")
+    assert sorted(os.listdir(two[0].parent)) == ["a.txt", "b.txt"]

@@ -34,4 +34,5 @@ register(
     limitations=deferred("hexmend.io.formats.abaqus.writer:limitations"),
     matches=_matches,
     locate=deferred("hexmend.io.formats.abaqus.coordinates:locate"),
+    included=deferred("hexmend.io.formats.abaqus.includes:included_files"),
 )

@@ -10,13 +10,12 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from hexmend.errors import HexmendError
 from hexmend.io.coordinates.edits import Edits, write_edited
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.deck_file import DeckFile, Reference
-from hexmend.io.formats.abaqus.includes import read_deck
+from hexmend.io.formats.abaqus.includes import included_files
 from hexmend.io.storage.atomic_files import AtomicFiles
 
 
@@ -44,14 +43,12 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: Atomi
 
     Raises
     ------
-    IncludedFileError
-        If the deck includes the target, which would be lost to it.
     CoordinatesError
         If a file with moved nodes is included twice.
+    IncludedFileError
+        If the copy of the deck would include itself.
     """
     root = deck.pieces[0].file
-    if any(is_same_file(one.path, target) for one in list(root.walk())[1:]):
-        raise IncludedFileError(target, f"is included by {root.path.name}", "Choose another name.")
     own = {one: part for one in root.walk() if len(part := _of_file(deck, edits, one))}
     paths = [one.path.resolve() for one in root.walk()]
     if twice := [one for one in own if paths.count(one.path.resolve()) > 1]:
@@ -129,7 +126,7 @@ def _new_names(root: DeckFile, own: Collection[DeckFile], target: Path) -> dict[
     No other file has the name, save one that the deck at the target includes, which these copies replace.
     """
     given = {one.path.resolve() for one in root.walk()}
-    free, renamed = _included_by(target) - given, {}
+    free, renamed = included_files(target) - given, {}
     taken = {target.resolve()}
     for one in list(root.walk())[1:]:
         if not any(file in own for file in one.walk()):
@@ -142,14 +139,6 @@ def _new_names(root: DeckFile, own: Collection[DeckFile], target: Path) -> dict[
         taken.add(path)
         renamed[one] = name
     return renamed
-
-
-def _included_by(target: Path) -> set[Path]:
-    """Files that a deck includes that is to be replaced; none for another file."""
-    try:
-        return {one.path.resolve() for piece in read_deck(target).pieces[:1] for one in list(piece.file.walk())[1:]}
-    except (HexmendError, OSError):
-        return set()
 
 
 def _renamed(file: DeckFile, suffix: str) -> str:
@@ -167,12 +156,19 @@ def _place(target: Path, name: str) -> Path:
 
 
 def _copied(file: DeckFile, renamed: dict[DeckFile, str], target: Path, files: AtomicFiles) -> list[str]:
-    """Copy an included file that stays as it is to where the new deck looks for it; returns notes."""
+    """Copy an included file that stays as it is to where the new deck looks for it; returns notes.
+
+    Raises `IncludedFileError` where the new deck has the name of this file: it would include itself.
+    """
     name, parent = Path(file.reference.name), file.reference.parent
     folder = Path(renamed.get(parent, parent.reference.name if parent.reference else "")).parent
     if name.is_absolute():
         return []
-    found = next((path for at in ("", folder) if (path := target.parent / at / name).is_file()), None)
+    places = [target.parent / at / name for at in ("", folder)]
+    if target.resolve() in [path.resolve() for path in places]:
+        deck = file.reference.parent.path.name
+        raise IncludedFileError(target, f"has the name of a file that {deck} includes", "Choose another name.")
+    found = next((path for path in places if path.is_file()), None)
     if found is not None or ".." in name.parts:
         same = found is not None and (is_same_file(file.path, found) or found.read_bytes() == file.data)
         return [] if same else [f"The new deck includes {name}, which was not copied: check that it is the right file."]

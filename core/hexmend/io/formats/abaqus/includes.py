@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from hexmend.errors import FileError
+from hexmend.errors import FileError, HexmendError
 from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.deck_file import DeckFile, Piece, Reference
@@ -35,6 +35,24 @@ def read_deck(path: Path) -> Deck:
     joined = _Joined(root)
     joined.add(root, ())
     return Deck(path, b"".join(joined.texts), tuple(joined.pieces), joined.hidden)
+
+
+def included_files(path: Path) -> set[Path]:
+    """Find the files that a deck includes, and those that they include.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    set of Path
+        With links resolved; empty for a file that is missing or cannot be read.
+    """
+    try:
+        return {one.path.resolve() for piece in read_deck(path).pieces[:1] for one in list(piece.file.walk())[1:]}
+    except (HexmendError, OSError):
+        return set()
 
 
 class _Joined:

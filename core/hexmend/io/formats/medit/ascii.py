@@ -25,6 +25,7 @@ def read(path: Path) -> Mesh:
     cursor.parse_count(cursor.next_word(), "the version")
     points = refs = None
     sections: dict[str, np.ndarray] = {}
+    skipped: list[str] = []
     dimension = 0
     while not cursor.at_end:
         line, key = cursor.location, cursor.next_word()
@@ -43,14 +44,14 @@ def read(path: Path) -> Mesh:
             count = cursor.parse_count(cursor.next_word(), f"the number of {section.name}")
             sections[section.name] = cursor.read_numbers(section.name, count, section.width, np.int64)
         elif key[:1].isalpha():
-            _skip(cursor)  # an unused section
+            skipped += [quoted(key)[1:-1]] if _skip(cursor) else []  # an unused section
         else:
             raise cursor.error(f"{quoted(key)} stands where a section should begin ({line})")
     if points is None:
         raise cursor.error("has no section Vertices")
     if "Hexahedra" not in sections and not cursor.data.rstrip().endswith(b"End"):
         raise cursor.error(f"ends at {cursor.location} without Hexahedra")
-    return to_mesh(path, points, refs, sections)
+    return to_mesh(path, points, refs, sections, skipped)
 
 
 def _to_references(cursor: ByteCursor, numbers: np.ndarray) -> np.ndarray:
@@ -63,13 +64,17 @@ def _to_references(cursor: ByteCursor, numbers: np.ndarray) -> np.ndarray:
     return numbers.astype(np.int64)
 
 
-def _skip(cursor: ByteCursor) -> None:
-    """Skip to the next word that begins with a letter."""
+def _skip(cursor: ByteCursor) -> bool:
+    """Skip to the next word that begins with a letter; returns False for a section without content, which is 0."""
+    words: list[str] = []  # the first two
     while not cursor.at_end:
-        mark = cursor.pos
-        if cursor.next_word()[:1].isalpha():
+        mark, word = cursor.pos, cursor.next_word()
+        if word[:1].isalpha():
             cursor.pos = mark
-            return
+            break
+        if len(words) < 2:
+            words.append(word)
+    return words not in ([], ["0"])
 
 
 def locate(path: Path) -> TextCoordinates:

@@ -21,12 +21,12 @@ _BY_CODE = {section.code: section for section in SECTIONS.values()}
 
 def read(path: Path) -> Mesh:
     """Read a binary Medit file of either byte order."""
-    return to_mesh(path, *_sections(ByteCursor(path, path.read_bytes(), is_text=False))[:3])
+    return to_mesh(path, *_sections(ByteCursor(path, path.read_bytes(), is_text=False))[:4])
 
 
 def locate(path: Path) -> BinaryCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
-    points, _, _, piece = _sections(ByteCursor(path, path.read_bytes(), is_text=False))
+    points, *_, piece = _sections(ByteCursor(path, path.read_bytes(), is_text=False))
     return BinaryCoordinates(path, points, (piece,))
 
 
@@ -44,11 +44,12 @@ def _types(cursor: ByteCursor) -> tuple[str, str, str, str]:
     return order, integer, real, f"{order}q" if version >= 3 else f"{order}i"
 
 
-def _sections(cursor: ByteCursor) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray], BinaryPiece]:
-    """Read coordinates, references, other sections by name, and the place of the coordinates."""
+def _sections(cursor: ByteCursor) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray], list[str], BinaryPiece]:
+    """Read coordinates, references, other sections by name, names of unused ones, and the place of coordinates."""
     order, integer, real, offset = _types(cursor)
     points = refs = piece = None
     sections: dict[str, np.ndarray] = {}
+    skipped: list[str] = []
     seen = 0
     while cursor.pos < len(cursor.data):
         at = cursor.pos
@@ -78,10 +79,11 @@ def _sections(cursor: ByteCursor) -> tuple[np.ndarray, np.ndarray, dict[str, np.
         elif not cursor.pos <= after <= len(cursor.data):
             raise cursor.error(f"the section of number {code} at byte {at} leads to byte {after}, outside the file")
         else:
-            cursor.pos = after  # an unused section
+            skipped += [f"number {code}"] if after - cursor.pos > np.dtype(integer).itemsize else []
+            cursor.pos = after  # an unused section; without content it is a count of 0
     if points is None:
         raise cursor.error(f"has no section Vertices among its {seen}")
-    return points, refs, sections, piece
+    return points, refs, sections, skipped, piece
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from hexmend.io.base.fixed_marks import needs_marks
 from hexmend.io.base.format import Capability
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.base.numbering import first_out_of_range
+from hexmend.io.coordinates.unread import some_names, unread_note
 from hexmend.mesh.mesh import Mesh
 
 
@@ -62,7 +64,9 @@ _FLAGS = (
 _NODE_SETS = {"Corners": "corners", "RequiredVertices": "required"}
 
 
-def to_mesh(path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str, np.ndarray]) -> Mesh:
+def to_mesh(
+    path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str, np.ndarray], skipped: Collection[str] = ()
+) -> Mesh:
     """Make a mesh of the sections of a file.
 
     Parameters
@@ -73,6 +77,8 @@ def to_mesh(path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str
         References of the nodes.
     sections : mapping of keyword to (rows, width) int array
         Nodes and cells are numbered from 1.
+    skipped : collection of str
+        Other sections, which are not read; a note names them.
 
     Returns
     -------
@@ -104,7 +110,8 @@ def to_mesh(path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str
         pinned = _mask(path, "RequiredVertices", node_sets["required"], len(points)).astype(bool)
     hexes = sections.get("Hexahedra", np.empty((0, 9), np.int64))
     blocks.append(Block("hex", hexes[:, :8] - 1, {REF: hexes[:, 8].copy()}))
-    content = Content(points, tuple(blocks), {REF: refs}, node_sets, pinned=pinned)
+    notes = (unread_note(f"sections ({some_names(dict.fromkeys(skipped))})"),) if skipped else ()
+    content = Content(points, tuple(blocks), {REF: refs}, node_sets, pinned=pinned, notes=notes)
     return mesh_of(path, content)
 
 

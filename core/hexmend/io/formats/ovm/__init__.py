@@ -15,6 +15,7 @@ from hexmend.io.base.cursor import ByteCursor, quoted, read_text_bytes
 from hexmend.io.base.format import Capability, register
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
+from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.ovm.writer import limitations, write
 from hexmend.io.formats.vtk.grid import TYPE_BY_KIND, WIDTH_BY_TYPE, Grid, to_mesh
 from hexmend.mesh.mesh import Mesh
@@ -76,9 +77,7 @@ def read(path: Path) -> Mesh:
     if "hex" not in found and others:
         raise cursor.error(f"holds no hexahedra, but {others:,} other polyhedra", "Hexmend works on hexahedra only.")
     if others:
-        notes.append(
-            f"{count_phrase(others, 'polyhedron of another kind is', 'polyhedra of other kinds are')} left out."
-        )
+        notes.append(unread_note(count_phrase(others, "polyhedron of another kind", "polyhedra of other kinds")))
     return to_mesh(path, _grid(points, found, node_data, cell_data, notes))
 
 
@@ -123,7 +122,7 @@ def _read_property(
         values = cursor.read_numbers(f"{entity} {quoted(name)}", count, width, np.float64 if real else np.int64)
         data[name] = values if vector else values[:, 0]
         return
-    notes.append(f"The property {quoted(name)} ({entity} {quoted(type)[1:-1]}) is left out.")
+    notes.append(unread_note(f"the property {quoted(name)} ({entity} {quoted(type)[1:-1]})"))
     while not cursor.at_end:
         before = cursor.pos
         if _PROPERTY.match(cursor.next_line()):

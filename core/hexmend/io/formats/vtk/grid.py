@@ -14,6 +14,7 @@ from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data,
 from hexmend.io.base.content import from_mesh as content_of
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.fixed_marks import with_marks
+from hexmend.io.coordinates.unread import unread_note
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
@@ -118,8 +119,8 @@ def to_content(path: Path, grid: Grid) -> Content:
             raise FileError(path, problem, "Hexmend works on hexahedral meshes only.")
         names = sorted({NAMES.get(int(number), f"type {number}") for number in types[unknown]})
         kinds = f"({', '.join(names)})"
-        some = count_phrase(unknown.size, f"cell of another kind {kinds} is", f"cells of other kinds {kinds} are")
-        notes.append(f"{some} left out.")
+        some = count_phrase(unknown.size, f"cell of another kind {kinds}", f"cells of other kinds {kinds}")
+        notes.append(unread_note(some))
     blocks.sort(key=lambda block: [*HEX_KINDS, *CELL_KINDS].index(block.kind))
     node_data, node_sets = _split_sets(grid.node_data)
     if all(block.kind != "hex20" and block.kind != "hex27" for block in blocks):

@@ -13,6 +13,7 @@ from hexmend.errors import FileError
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.format import Capability, register
+from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells
 from hexmend.io.formats.vtk.legacy_writer import write
@@ -66,7 +67,7 @@ class _LegacyReader:
         self._read("UNSTRUCTURED_GRID", ("POINTS", "CELLS", "CELL_TYPES"))
         types = self.sections["CELL_TYPES"]
         start, nodes = self._cells(types)
-        note = f"Arrays that are not of numbers, one row a node or cell, are left out: {', '.join(self.skipped)}."
+        note = unread_note(f"arrays that are not of numbers, one row a node or cell ({', '.join(self.skipped)})")
         data, notes = (*self.data.values(), self.field_data), (note,) if self.skipped else ()
         return Grid(self.sections["POINTS"], types, start, nodes, *data, notes)
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.vtk.grid import Grid
 
 #: Arrays that mark cells and nodes of other pieces, and the bits that do.
@@ -47,7 +48,7 @@ def merge_grids(grids: Sequence[Grid]) -> Grid:
     node_data, lost = _concatenate_common([grid.node_data for grid in grids])
     cell_data, more = _concatenate_common([grid.cell_data for grid in grids])
     if lost + more:
-        notes.append(f"Arrays that are missing or different in some pieces are left out: {', '.join(lost + more)}.")
+        notes.append(unread_note(f"arrays that are missing or different in some pieces ({', '.join(lost + more)})"))
     points, types = (np.concatenate([getattr(grid, name) for grid in grids]) for name in ("points", "types"))
     start = np.concatenate([[0], *(grid.start[1:] + begin for grid, begin in zip(grids, starts, strict=False))])
     nodes = np.concatenate([_shift_nodes(grid, int(begin)) for grid, begin in zip(grids, first, strict=False)])

@@ -10,6 +10,7 @@ import numpy as np
 
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.format import Capability, register
+from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtu_writer import write
@@ -55,7 +56,7 @@ def read_grids(path: Path) -> list[Grid]:
         for section in (top.first("FieldData"), *(piece.first("FieldData") for piece in pieces)):
             for array in section.arrays():
                 fields[array.get("Name") or f"array {len(fields)}"] = _read_field(document, array)
-    notes = (f"Arrays of strings, one for each node or cell, are left out: {', '.join(skipped)}.",) if skipped else ()
+    notes = (unread_note(f"arrays of strings, one for each node or cell ({', '.join(skipped)})"),) if skipped else ()
     return [replace(grids[0], field_data=fields, notes=notes), *grids[1:]]
 
 

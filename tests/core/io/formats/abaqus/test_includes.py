@@ -153,6 +153,19 @@ def test_a_file_that_the_deck_includes_is_not_overwritten(deck):
     assert before == {path: path.read_bytes() for path in deck.parent.rglob("*") if path.is_file()}
 
 
+@pytest.mark.parametrize("exists", [False, True])
+def test_a_copy_of_a_deck_never_includes_itself(deck, exists, tmp_path):
+    given, mesh = moved(deck)
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    if exists:
+        (folder / "material.inp").write_text("*MATERIAL, NAME=OTHER\n")
+    before = contents(folder / "material.inp")
+    with pytest.raises(FileError, match=r"material\.inp: has the name of a file that in\.inp includes"):
+        write_as_given(folder / "material.inp", mesh, Original(deck, given))
+    assert contents(folder / "material.inp") == before
+
+
 @pytest.fixture
 def three(tmp_path):
     """A deck, and two files with its nodes."""

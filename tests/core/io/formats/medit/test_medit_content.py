@@ -1,9 +1,12 @@
 """Medit has cells of first order: those of second order come with their corners, and nothing else."""
 
+import struct
+
 import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.cli.main import main
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
@@ -44,3 +47,26 @@ def test_that_cells_beside_the_hexes_lose_nodes_is_said(suffix, tmp_path):
     bare = grid(2)
     mesh = bare.replace(cells=(Cells("triangle6", np.array([[0, 2, 6, 1, 4, 3]])),))
     assert "nodes of second order" in io.unsupported_data(tmp_path / f"a{suffix}", mesh)
+
+
+def test_sections_that_are_not_read_are_named_and_not_lost_in_place(tmp_path):
+    path, loose = tmp_path / "a.mesh", np.vstack([grid(1).points, [[9.0, 9.0, 9.0]]])
+    io.write(path, Mesh(loose, grid(1).hexes))
+    assert io.read(path).notes == ()
+    path.write_text(path.read_text().replace("End", "Normals\n1\n0 0 1\nTangents 0\nAngleOfCornerBound\n60\nEnd"))
+    assert io.read(path).notes == ("Not read: sections (Normals, AngleOfCornerBound).",)
+    before = path.read_bytes()
+    assert main(["repair", str(path), "-o", str(path)]) == 3  # a node goes, so that the file is to be written anew
+    assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize("count", [0, 1])
+def test_binary_sections_that_are_not_read_are_named_by_their_numbers(count, tmp_path):
+    path = tmp_path / "a.meshb"
+    io.write(path, grid(1))
+    data, end = path.read_bytes(), struct.pack("<ii", 54, 0)
+    assert data.endswith(end)
+    section = struct.pack("<i", count) + count * struct.pack("<ddd", 0, 0, 1)
+    head = struct.pack("<ii", 60, len(data) - len(end) + 8 + len(section))
+    path.write_bytes(data.removesuffix(end) + head + section + end)
+    assert io.read(path).notes == (("Not read: sections (number 60).",) if count else ())

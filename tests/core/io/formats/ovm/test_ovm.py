@@ -76,7 +76,7 @@ def test_other_polyhedra_are_left_out_and_said(tmp_path):
     (tmp_path / "a.ovm").write_text(f"{head}Polyhedra\n2\n5 {five}\n{cells}")
     mesh = io.read(tmp_path / "a.ovm")
     assert mesh.n_hexes == 1
-    assert mesh.notes == ("1 polyhedron of another kind is left out.",)
+    assert mesh.notes == ("Not read: 1 polyhedron of another kind.",)
     (tmp_path / "a.ovm").write_text(f"{head}Polyhedra\n1\n5 {five}\n")
     with pytest.raises(FileError, match="holds no hexahedra, but 1 other polyhedra"):
         io.read(tmp_path / "a.ovm")
