@@ -28,9 +28,9 @@ T = TypeVar("T")
 
 #: Beginning of the name of a set where the name alone is a word with another meaning.
 SET = "set:"
-#: Fields of `Parameter` that `hexmend methods --json` does not list.
 #: Value that leaves the choice to the program.
 AUTO = "auto"
+#: Fields of `Parameter` that `hexmend methods --json` does not list.
 _NOT_IN_JSON = ("type", "no_limit", "suggestions", "sets", "automatic", "percent_of", "titles")
 _TRUE, _FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 

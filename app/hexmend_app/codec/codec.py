@@ -16,6 +16,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from hexmend.errors import HexmendError
+from hexmend.parameters import Parametrised, declared
 from hexmend_app.codec import config_table
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.conversion import Conversion, are_integers, entry_types, fixed_length
@@ -127,7 +128,11 @@ class Codec(Conversion):
         for name in [*fields, *data]:
             if (name in fields) != (name in data):
                 raise DecodeError(f"{where} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")
-        values = {name: self.decode(data[name], field_kind, f"{where}.{name}") for name, field_kind in fields.items()}
+        words = _words(kind)
+        values = {
+            name: one if (one := data[name]) in words.get(name, ()) else self.decode(one, of_type, f"{where}.{name}")
+            for name, of_type in fields.items()
+        }
         return kind(**values)
 
     def _decode_enum(self, data: Any, kind: type[Enum], where: str) -> Any:
@@ -162,6 +167,14 @@ def _fields(kind: type, version: int | None = None) -> dict[str, Any]:
     fields = [field for field in dataclasses.fields(kind) if field.init]
     return {field.name: types[field.name] for field in fields
             if version is None or field.metadata.get(_SINCE, 0) <= version}  # fmt: skip
+
+
+@cache
+def _words(kind: type) -> dict[str, list[str]]:
+    """Return the words that parameters of a dataclass may be in place of numbers, such as auto."""
+    if not issubclass(kind, Parametrised):
+        return {}
+    return {one.name: [word for word in (one.automatic, one.no_limit) if word] for one in declared(kind)}
 
 
 def _check(data: Any, kind: type, where: str) -> None:
