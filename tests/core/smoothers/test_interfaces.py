@@ -58,7 +58,7 @@ def test_volumes_of_materials_are_kept_with_their_interfaces(name):
 @pytest.mark.parametrize("name", SLIDING)
 def test_an_interface_that_slides_stays_on_itself_and_leaves_the_boundary(name):
     mesh = bumpy().with_rules(interfaces="slide")
-    after = smooth(mesh, name, max_iterations=30).mesh
+    after = smooth(mesh, name, max_iterations=60).mesh
     boundary = mesh.topology.boundary
     np.testing.assert_array_equal(after.points[boundary], mesh.points[boundary])
     on = mesh.materials.interface_nodes & ~boundary
@@ -99,7 +99,7 @@ def test_interfaces_slide_with_the_boundary_and_fixed_sets_stay():
     inner = mesh.materials.interface_nodes & ~mesh.topology.boundary
     middle = np.flatnonzero(inner)[:3]
     mesh = mesh.replace(node_sets={"middle": middle})
-    after = smooth(mesh, boundary="slide", fix="middle", max_iterations=30).mesh.points
+    after = smooth(mesh, boundary="slide", fix="middle", max_iterations=60).mesh.points
     np.testing.assert_array_equal(after[middle], mesh.points[middle])
     others = np.setdiff1d(np.flatnonzero(inner), middle)
     assert (after[others] != mesh.points[others]).any(axis=1).mean() > 0.5
@@ -142,7 +142,7 @@ def test_a_node_freed_from_an_interface_leaves_its_neighbours_sliding_on_it(name
     sliding = SlidingBoundary(mesh, outer=False)
     assert sliding.node_class[middle] == NodeClass.INSIDE
     assert (sliding.node_class[np.setdiff1d(inner, middle)] == NodeClass.PATCH).all()
-    after = smooth(mesh, name, max_iterations=30).mesh.points
+    after = smooth(mesh, name, max_iterations=60).mesh.points
     ring = np.intersect1d(mesh.topology.rings.of(np.array([middle])), inner)
     assert ring.size == 4
     assert (after[[middle, *ring]] != mesh.points[[middle, *ring]]).any(axis=1).all()

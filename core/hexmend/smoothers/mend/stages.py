@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
+from dataclasses import replace
 from itertools import islice
 
 import numpy as np
@@ -14,6 +15,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.parameters import AUTO
 from hexmend.quality import ElementQuality, measure
+from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.base import Steps
 from hexmend.smoothers.mend.balance import balance, raise_jacobian
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
@@ -59,21 +61,22 @@ class Stages:
         if not intermediate:
             return shape.outcome
         fixed_optimum, sliding, fixed = shape.points, None, None  # the optimum with the boundary fixed
-        kept = False  # the result with the boundary fixed is that of the run until sliding has reached its own
+        kept = None  # quality of the result with the boundary fixed, which is that of the run until sliding is better
         candidates = [mesh.points, fixed_optimum]
         if slides:
             if not measure(fixed_optimum, mesh.hexes).n_inverted:  # sliding ends no lower than the fixed boundary
                 fixed = yield from self._maxmin_stage(mesh, candidates, None)
                 if self.settings.balances:
-                    energy, kept = self._sound_energy(mesh, fixed_optimum, None), True
+                    energy = self._sound_energy(mesh, fixed_optimum, None)
                     given = (yield from balance(energy, fixed_optimum, given)).points
+                    kept = measure(given, mesh.hexes)
             bands = self._bands(mesh)
             sliding = SlidingBoundary(mesh, self.settings.feature_angle, bands[0], self.settings.slides)
             mesh = sliding.mesh
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
             steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
-            yield from _kept(islice(steps, MAXMIN.untangling_iterations), kept)
-            shape = yield from _kept(self._sliding_shape(sliding, optimiser.points), kept)
+            yield from _keeping(kept, mesh.hexes, islice(steps, MAXMIN.untangling_iterations))
+            shape = yield from _keeping(kept, mesh.hexes, self._sliding_shape(sliding, optimiser.points))
             candidates += [optimiser.points, shape.points]
         result = None
         if sliding is not None:
@@ -91,7 +94,7 @@ class Stages:
         active, sentences, quality = None, [], None
         if self.settings.balances and (result is None or not result.optimiser.envelope.released.any()):
             energy = self._sound_energy(mesh, points, sliding)
-            balanced = yield from _kept(balance(energy, points, given), kept)
+            balanced = yield from _keeping(kept, mesh.hexes, balance(energy, points, given))
             points = balanced.points
             sentences.append(balanced.message)
         if self.settings.maximises_minimum:
@@ -101,7 +104,7 @@ class Stages:
             quality = measure(points, mesh.hexes)
             sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
         decision = " ".join(filter(None, sentences))
-        if decision or kept or outcome is Outcome.NO_IMPROVEMENT:
+        if decision or kept is not None or outcome is Outcome.NO_IMPROVEMENT:
             yield Step(points, decision=decision, intermediate=True, quality=quality, active=active)
         return outcome
 
@@ -248,6 +251,22 @@ class Stages:
         return (yield from self._untangle(mesh, energy, quality, locked)).points
 
 
-def _kept(steps: Generator[Step, None, T], kept: bool) -> Generator[Step, None, T]:
-    """Yield steps, as infeasible ones if an earlier result is to be kept until they end."""
-    return (yield from infeasible(steps, every=1)) if kept else (yield from steps)
+def _keeping(
+    kept: ElementQuality | None, hexes: np.ndarray, steps: Generator[Step, None, T]
+) -> Generator[Step, None, T]:
+    """Yield steps of a mesh with hexes (m, 8), as infeasible ones while a figure is lower than one that is kept."""
+    if kept is None:
+        return (yield from steps)
+    while True:
+        try:
+            step = next(steps)
+        except StopIteration as end:
+            return end.value
+        quality = step.quality if step.quality is not None else measure(step.points, hexes)
+        yield replace(step, quality=quality, infeasible=step.infeasible or _is_lower(quality, kept))
+
+
+def _is_lower(now: ElementQuality, kept: ElementQuality) -> bool:
+    """Return True if a hex is inverted, or one of the least values is lower."""
+    pairs = (now.q, kept.q), (now.scaled_jacobian, kept.scaled_jacobian)
+    return now.n_inverted > 0 or any(new.min() < old.min() - WORSE_BY for new, old in pairs)
