@@ -16,7 +16,7 @@ from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints
 from hexmend.boundary.comparison import MAX_TARGET_DISTANCE
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
-from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges, ridges
 from hexmend.boundary.flat_parts import flat_motion
 from hexmend.boundary.normals import unit_vectors, vertex_normals
 from hexmend.boundary.restrictions import fixed_on_surface, freed_by_rules, interface_nodes, moving_with_surface
@@ -53,6 +53,8 @@ class SlidingBoundary(Band):
         Largest distance of the boundary's edge and face midpoints from the surface, in the mesh's unit.
     outer : bool
         Let the nodes of the boundary slide; else only those do for which the rules of the mesh say so.
+    sets_hold : bool
+        Nodes at edges between two sets never leave the surface, as those at marked edges.
 
     Attributes
     ----------
@@ -64,7 +66,8 @@ class SlidingBoundary(Band):
     releasable : (n,) bool
         True for corners found by angle, which may be made to slide; false for those that are marked or pinned.
     confined : (n,) bool
-        True for nodes that never leave the surface: those of interfaces and of edges that are marked.
+        True for nodes that never leave the surface: those of interfaces and of edges that are marked or, with
+        `sets_hold`, lie between sets.
     mesh : Mesh
         The given mesh with only corners, pinned nodes and unused nodes fixed; its sliding nodes lie on the target.
     nodes : (k,) int64
@@ -72,7 +75,12 @@ class SlidingBoundary(Band):
     """
 
     def __init__(
-        self, mesh: Mesh, feature_angle: FeatureAngle = FEATURE_ANGLE, max_deviation: float = np.inf, outer: bool = True
+        self,
+        mesh: Mesh,
+        feature_angle: FeatureAngle = FEATURE_ANGLE,
+        max_deviation: float = np.inf,
+        outer: bool = True,
+        sets_hold: bool = True,
     ):
         whole = boundary_with_kept_corners(mesh, feature_angle)
         stays = fixed_on_surface(mesh, outer)
@@ -94,7 +102,7 @@ class SlidingBoundary(Band):
         self.releasable = self.boundary.node_class == NodeClass.CORNER
         self.releasable[marked_corners(mesh)] = False
         self.confined = interface_nodes(mesh).copy()
-        self.confined[marked_edges(mesh)] = True
+        self.confined[marked_edges(mesh) if sets_hold else ridges(mesh)] = True
         self.releasable &= ~(stays | self.confined)
         self._group = self.surface.group_of(self.nodes)
         self._number = index_of(self.nodes, mesh.n_nodes)

@@ -141,11 +141,18 @@ def marked_edges(mesh: Mesh) -> np.ndarray:
 
     Faces of two references, as Medit has them, are of two sets.
     """
-    found = [edges_between_sets(mesh)]
+    found = [edges_between_sets(mesh), ridges(mesh)]
     for cells in mesh.cells:
         if cells.kind == "quad" and "medit:ref" in cells.data:
             edges, side = SurfaceEdges(cells.nodes, mesh.n_nodes), np.asarray(cells.data["medit:ref"])
             found.append(edges.nodes[side[edges.neighbours[:, 0]] != side[edges.neighbours[:, 1]]])
+    return np.concatenate(found)
+
+
+def ridges(mesh: Mesh) -> np.ndarray:
+    """Edges marked one by one, as ridges or required, (e, 2) int."""
+    found = [np.empty((0, 2), dtype=np.int64)]
+    for cells in mesh.cells:
         for flag in ("medit:ridge", "medit:required"):
             if cells.kind == "line" and flag in cells.data:
                 found.append(cells.nodes[np.asarray(cells.data[flag]) != 0])

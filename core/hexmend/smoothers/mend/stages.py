@@ -71,7 +71,8 @@ class Stages:
                     given = (yield from balance(energy, fixed_optimum, given)).points
                     kept = measure(given, mesh.hexes)
             bands = self._bands(mesh)
-            sliding = SlidingBoundary(mesh, self.settings.feature_angle, bands[0], self.settings.slides)
+            sets_hold = self.settings.surface_tolerance == AUTO  # a number says how far all of the boundary may move
+            sliding = SlidingBoundary(mesh, self.settings.feature_angle, bands[0], self.settings.slides, sets_hold)
             mesh = sliding.mesh
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
             steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
@@ -81,11 +82,12 @@ class Stages:
         result = None
         if sliding is not None:
             result = yield from self._untangle_off_surface(sliding, candidates)
+        has_left = result is not None
         if result is None:
             result = yield from self._maxmin_stage(mesh, candidates, sliding, fixed)
             if sliding is not None and self.settings.maximises_jacobian:
                 result = yield from self._raise_in_wider_bands(sliding, bands[1:], result)
-        if sliding is not None:
+        if sliding is not None and not has_left:
             result = yield from self._raise_off_surface(sliding, fixed_optimum, result)
         if self.goal == "time-step":
             result = yield from maximise_time_step(mesh, candidates, sliding, result)

@@ -8,6 +8,7 @@ import pytest
 from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.gallery import make
 from hexmend.io import read
+from hexmend.mesh.cells import Cells
 from hexmend.mesh.fixing import with_pinned
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
@@ -136,3 +137,16 @@ def test_nodes_may_leave_a_surface_without_a_limit_of_the_distance():
     result = smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance="unlimited"))
     assert result.before.inverted
     assert result.after.inverted == 0
+
+
+def test_edges_between_sets_are_left_only_with_a_tolerance_in_numbers():
+    mesh = grid(4)
+    quads = mesh.topology.boundary_faces
+    low = mesh.points[quads][:, :, 2].max(axis=1) <= 2  # the lower half of the sides and the bottom
+    mesh = mesh.replace(cells=(Cells("quad", quads, {"medit:ref": np.where(low, 1, 2)}),))
+    between = (mesh.points[:, 2] == 2) & mesh.topology.boundary
+    holding, released = (SlidingBoundary(mesh, sets_hold=hold) for hold in (True, False))
+    assert (holding.node_class[between] <= NodeClass.CURVE).all()
+    assert not holding.leavable[between].any()
+    assert released.leavable[between & ~released.mesh.fixed].all()
+    np.testing.assert_array_equal(holding.node_class, released.node_class)
