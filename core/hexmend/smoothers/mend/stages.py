@@ -64,15 +64,8 @@ class Stages:
         kept = None  # quality of the result with the boundary fixed, which is that of the run until sliding is better
         candidates = [mesh.points, fixed_optimum]
         if slides:
-            if not measure(fixed_optimum, mesh.hexes).n_inverted:  # sliding ends no lower than the fixed boundary
-                fixed = yield from self._maxmin_stage(mesh, candidates, None)
-                if self.settings.balances:
-                    energy = self._sound_energy(mesh, fixed_optimum, None)
-                    given = (yield from balance(energy, fixed_optimum, given)).points
-                    kept = measure(given, mesh.hexes)
-            bands = self._bands(mesh)
-            sets_hold = self.settings.surface_tolerance == AUTO  # a number says how far all of the boundary may move
-            sliding = SlidingBoundary(mesh, self.settings.feature_angle, bands[0], self.settings.slides, sets_hold)
+            fixed, given, kept = yield from self._raise_fixed(mesh, candidates, given)
+            sliding = self._sliding_boundary(mesh)
             mesh = sliding.mesh
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
             steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
@@ -86,7 +79,7 @@ class Stages:
         if result is None:
             result = yield from self._maxmin_stage(mesh, candidates, sliding, fixed)
             if sliding is not None and self.settings.maximises_jacobian:
-                result = yield from self._raise_in_wider_bands(sliding, bands[1:], result)
+                result = yield from self._raise_in_wider_bands(sliding, self._bands(mesh)[1:], result)
         if sliding is not None and not has_left:
             result = yield from self._raise_off_surface(sliding, fixed_optimum, result)
         if self.goal == "time-step":
@@ -109,6 +102,29 @@ class Stages:
         if decision or kept is not None or outcome is Outcome.NO_IMPROVEMENT:
             yield Step(points, decision=decision, intermediate=True, quality=quality, active=active)
         return outcome
+
+    def _raise_fixed(
+        self, mesh: Mesh, candidates: Sequence[np.ndarray], given: np.ndarray
+    ) -> Generator[Step, None, tuple[MaxMinResult | None, np.ndarray, ElementQuality | None]]:
+        """Raise with the boundary fixed, from the last of some points (n, 3), what sliding is to end no lower than.
+
+        Returns the result of raising the least scaled Jacobian, the points whose figures the result is not to lower,
+        `given` unless the goal is balanced, and their quality then.
+        """
+        optimum = candidates[-1]
+        if measure(optimum, mesh.hexes).n_inverted:
+            return None, given, None
+        fixed = yield from self._maxmin_stage(mesh, candidates, None)
+        if not self.settings.balances:
+            return fixed, given, None
+        balanced = yield from balance(self._sound_energy(mesh, optimum, None), optimum, given)
+        return fixed, balanced.points, measure(balanced.points, mesh.hexes)
+
+    def _sliding_boundary(self, mesh: Mesh) -> SlidingBoundary:
+        """The boundary in the narrowest band; a tolerance in numbers says how far its sets too may move."""
+        settings = self.settings
+        sets_hold = settings.surface_tolerance == AUTO
+        return SlidingBoundary(mesh, settings.feature_angle, self._bands(mesh)[0], settings.slides, sets_hold)
 
     def _shape(
         self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, intermediate: bool
