@@ -165,9 +165,8 @@ class Run(Iterator[Iteration]):
     def max_iterations(self) -> int:
         """Largest number of iterations that the run can have with its present limits."""
         at = self._stage_run
-        here = (
-            self.last.number if at.outcome is not None else at.stage_start.number + at.stage.stop.limit_of(at.smoother)
-        )
+        limit = at.stage_start.number + at.stage.stop.limit_of(at.smoother)
+        here = limit if at.outcome is None else self.last.number
         return here + sum(stage.stop.limit_of(stage.smoother) for stage in self._remaining_stages)
 
     @property

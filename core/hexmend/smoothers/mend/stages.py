@@ -75,12 +75,11 @@ class Stages:
         result = None
         if sliding is not None:
             result = yield from self._untangle_off_surface(sliding, candidates)
-        has_left = result is not None
         if result is None:
             result = yield from self._maxmin_stage(mesh, candidates, sliding, fixed)
             if sliding is not None and self.settings.maximises_jacobian:
                 result = yield from self._raise_in_wider_bands(sliding, self._bands(mesh)[1:], result)
-        if sliding is not None and not has_left:
+        if sliding is not None:
             result = yield from self._raise_off_surface(sliding, fixed_optimum, result)
         if self.goal == "time-step":
             result = yield from maximise_time_step(mesh, candidates, sliding, result)
