@@ -7,6 +7,7 @@ import sys
 import pytest
 
 from hexmend import gallery, io
+from hexmend.quality import measure
 
 #: Loaded for a few commands alone, and how long it takes.
 HEAVY = {
@@ -45,7 +46,17 @@ def folder(tmp_path_factory):
     mesh = gallery.make("cube", size=64, scramble=0.2)
     for suffix in (".vtk", ".vtu", ".mesh", ".meshb"):
         io.write(path / f"mesh{suffix}", mesh)
+    tangled = gallery.make("five-side", size=500, scramble=0.6)
+    assert measure(tangled.points, tangled.hexes).n_inverted > 10
+    io.write(path / "tangled.vtk", tangled)
     return path
+
+
+@pytest.mark.parametrize("words", [[], ["--boundary", "slide"], ["--set", "goal=scaled-jacobian"]])
+def test_a_tangled_mesh_is_mended_without_scipy(folder, tmp_path, words):
+    said, modules = program("smooth", str(folder / "tangled.vtk"), "-o", str(tmp_path / "out.vtk"), *words)
+    assert "no hex is inverted" in said
+    assert not {"scipy"} & set(modules)
 
 
 @pytest.mark.slow

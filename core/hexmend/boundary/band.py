@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hexmend.arrays import mask
-from hexmend.boundary.closest_point import NearPoints
+from hexmend.boundary.closest_point import NearPoints, means
 from hexmend.boundary.comparison import SkinSurface
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
@@ -104,7 +104,8 @@ class Band:
         They are the midpoints of edges (with each node twice) and of faces, then the nodes themselves.
         """
         nodes = np.tile(self.skin.nodes[:, None], 4)
-        return np.concatenate([np.tile(self.skin.edges.nodes, 2), self._faces, nodes])
+        samples = np.concatenate([np.tile(self.skin.edges.nodes, 2), self._faces, nodes])
+        return np.ascontiguousarray(samples, dtype=np.int32)
 
     def samples_at(self, nodes: np.ndarray) -> np.ndarray:
         """Find the samples of `samples` that move with some nodes (j,), as (k,) int64."""
@@ -130,9 +131,7 @@ class Band:
         """
         limit = np.broadcast_to(limit, indices.shape)
         if limit.size and limit.min() > 0:
-            x = points[self.samples[indices]].mean(axis=1)
-            every = len(indices) == len(self.samples)  # ascending
-            far = self.target.beyond(x, self._near_target, None if every else indices, limit)
+            far = self.target.beyond(means(points, self.samples[indices]), self._near_target, limit, indices)
         else:
             # A sample cannot be further away than it was at first plus its own move: no search for the others.
             moved = np.linalg.norm((points - self._start)[self.samples[indices]].mean(axis=1), axis=1)
@@ -167,9 +166,7 @@ class Band:
         indices = np.arange(len(initial)) if indices is None else indices
         limit = np.broadcast_to(limit, indices.shape)
         if limit.size and limit.min() > 0:
-            boundary = self.skin.with_points(points)
-            x = self._target_samples
-            far = boundary.beyond(x if every else x[samples], self._near_boundary, None if every else samples, limit)
+            far = self.skin.beyond(self._target_samples[samples], self._near_boundary, limit, indices, points)
         else:
             moved = np.einsum("sk,ski->si", weights[samples], (points - self._start)[nodes[samples]])
             far = initial[samples] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
@@ -202,10 +199,17 @@ class Band:
         if not np.isfinite(self.max_deviation):
             return NO_NODES
         initial, nodes, _ = self.initial_surface_deviation
-        own = np.arange(len(self.samples)) if changed is None else np.flatnonzero(changed[self.samples].any(axis=1))
-        boundary = self.boundary_deviation(points, own, self._allowed(self._initial_boundary_deviation[own]))
-        surface = self.surface_deviation(points, limit=self._allowed(initial))
-        return np.unique(np.concatenate([x.ravel() for x in (boundary.nodes, surface.nodes, nodes[surface.indices])]))
+        own = None if changed is None else np.flatnonzero(changed[self.samples].any(axis=1))
+        samples = self.samples if own is None else self.samples[own]
+        limits = self._allowed(self._initial_boundary_deviation if own is None else self._initial_boundary_deviation[own])
+        boundary = self.target.beyond(means(points, samples), self._near_target, limits, own)
+        near = self._near_boundary
+        surface = self.skin.beyond(self._target_samples, near, self._allowed(initial), points=points)
+        surface = np.flatnonzero(surface)
+        if not (surface.size or boundary.any()):
+            return NO_NODES
+        faces = self.skin.nodes_of_pieces(near.pieces[surface])
+        return np.unique(np.concatenate([x.ravel() for x in (samples[boundary], faces, nodes[surface])]))
 
     def _allowed(self, initial: np.ndarray) -> np.ndarray:
         return np.maximum(initial, self.max_deviation) * (1 + _ROUNDING)

@@ -14,8 +14,6 @@ from hexmend.mesh.validation import as_faces, as_points, points_like
 
 #: Squares of coordinates beyond this overflow.
 MAX_CLOSEST_COORDINATE = 1e150
-#: Share of samples that may be too far away, beyond which all are checked anew.
-_MAX_DOUBTFUL = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,77 +122,69 @@ class ClosestPointTrees:
 class NearPoints:
     """Points of trees that were near samples before: they tell which samples cannot be far away now, without a search.
 
-    What is found does not depend on them. A sample is at most as far away as it was at the last full check, plus the
-    moves since then of the sample and of the piece on which the point near to it lies.
+    What is found does not depend on them.
 
     Parameters
     ----------
     count : int
         Number of samples.
+
+    Attributes
+    ----------
+    pieces : (count,) int32
+        Number of the piece on which the point near to each sample lies; -1 for none.
     """
 
     def __init__(self, count: int):
-        self._pieces, self._weights = np.full(count, -1, dtype=np.int32), np.zeros((count, 3))
-        self._distances = np.full(count, np.inf)
-        self._x: np.ndarray | None = None  # samples and points of the trees at the last full check
-        self._points = np.empty((0, 3))
+        self.pieces, self._weights = np.full(count, -1, dtype=np.int32), np.zeros((count, 3))
 
     def store(self, found: ClosestPoints) -> None:
         """Store the closest points of all samples."""
-        self._pieces, self._weights = found.pieces.copy(), found.weights.copy()
+        self.pieces, self._weights = found.pieces.copy(), found.weights.copy()
 
     def beyond(
-        self, trees: ClosestPointTrees, x: np.ndarray, samples: np.ndarray | None, limits: np.ndarray
+        self,
+        trees: ClosestPointTrees,
+        points: np.ndarray,
+        x: np.ndarray,
+        limits: np.ndarray,
+        samples: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Find samples that are further than their limits from the first group of trees.
+        """Find samples that are further than their limits from the first group of trees; stores the closest points.
 
         Parameters
         ----------
         trees : ClosestPointTrees
-            Those of each call have the same pieces, at any points.
+            Those of each call have the same pieces.
+        points : (n, 3) float64
+            Points of the trees; they are fitted to these only where a search is needed.
         x : (k, 3) float64
-            Positions of the samples; finite. The same array means the same positions.
-        samples : (k,) int or None
-            Their numbers; None for all.
+            Positions of the samples; finite.
         limits : (k,) float64
             Not negative.
+        samples : (k,) int, optional
+            Their numbers; all by default.
 
         Returns
         -------
         (k,) bool
         """
-        if samples is not None:
-            return self._distances_of(trees, x, samples, limits) > limits
-        if self._x is not None:
-            bounds = self._bounds(trees, x)
-            doubtful = np.flatnonzero(bounds > limits)
-            if len(doubtful) < _MAX_DOUBTFUL * len(x):
-                far = np.zeros(len(x), dtype=bool)
-                far[doubtful] = self._distances_of(trees, x[doubtful], doubtful, limits[doubtful]) > limits[doubtful]
-                return far
-        self._distances = self._distances_of(trees, x, None, limits)
-        self._x, self._points = x, trees.points
-        return self._distances > limits
-
-    def _bounds(self, trees: ClosestPointTrees, x: np.ndarray) -> np.ndarray:
-        """Return upper bounds of the distances of all samples, (k,)."""
-        moves = np.linalg.norm(trees.points - self._points, axis=1)[trees.pieces].max(axis=1)
-        bounds = self._distances + moves[self._pieces]
-        return bounds if x is self._x else bounds + np.linalg.norm(x - self._x, axis=1)
-
-    def _distances_of(
-        self, trees: ClosestPointTrees, x: np.ndarray, samples: np.ndarray | None, limits: np.ndarray
-    ) -> np.ndarray:
-        """Return distances of samples, exact where they exceed their limits; store the points near to them."""
-        pieces, weights = self._pieces, self._weights
-        if samples is not None:
-            pieces, weights = pieces[samples], weights[samples]
-        distances, before = np.empty(len(x)), pieces.copy()
-        closest_point.near(trees.box_trees, x, np.ascontiguousarray(limits), pieces, weights, distances)
-        if samples is not None:
-            self._pieces[samples], self._weights[samples] = pieces, weights
-            self._distances[samples[pieces != before]] = np.inf  # not known at the points of the last full check
-        return distances
+        some = slice(None) if samples is None else samples
+        distances = np.empty(len(x))
+        closest_point.distances_from(points, trees.pieces, x, self.pieces[some], self._weights[some], distances)
+        far = distances > limits
+        doubtful = np.flatnonzero(far)
+        if not doubtful.size:
+            return far
+        if points is not trees.points:
+            trees = trees.with_points(points)
+        pieces, weights = np.empty(doubtful.size, dtype=np.int32), np.empty((doubtful.size, 3))
+        found, limits = np.empty(doubtful.size), limits[doubtful]
+        closest_point.near(trees.box_trees, x[doubtful], limits, pieces, weights, found)
+        far[doubtful] = found > limits
+        known = doubtful if samples is None else samples[doubtful]
+        self.pieces[known], self._weights[known] = pieces, weights
+        return far
 
 
 def triangulate(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -217,5 +207,21 @@ def triangulate(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.n
         return np.ascontiguousarray(points), faces, np.arange(len(faces))
     middle = len(points) + np.arange(len(faces), dtype=np.int32)
     around = np.stack([faces, np.roll(faces, -1, axis=1), np.repeat(middle[:, None], 4, axis=1)], axis=-1)
-    vertices = np.concatenate([points, points[faces].mean(axis=1)])
-    return vertices, around.reshape(-1, 3).astype(np.int32), np.repeat(np.arange(len(faces)), 4)
+    return vertices_of(points, faces), around.reshape(-1, 3).astype(np.int32), np.repeat(np.arange(len(faces)), 4)
+
+
+def vertices_of(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Return the vertices that `triangulate` does, (v, 3)."""
+    if faces.shape[1] == 3:
+        return np.ascontiguousarray(points)
+    vertices = np.empty((len(points) + len(faces), 3))
+    vertices[: len(points)] = points
+    vertices[len(points) :] = means(points, faces)
+    return vertices
+
+
+def means(points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+    """Return the mean of the four points (n, 3) of each row of nodes (k, 4) int32, which must exist, (k, 3)."""
+    x = np.empty((len(nodes), 3))
+    closest_point.means(points, nodes, x)
+    return x

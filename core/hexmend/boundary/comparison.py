@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.aliases import old_keywords
 from hexmend.boundary.classification import boundary_of
-from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, NearPoints, triangulate
+from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, NearPoints, triangulate, vertices_of
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, angle_in_degrees, dihedral_angles
 from hexmend.errors import MeshError
@@ -129,8 +129,7 @@ class SkinSurface:
     def with_points(self, points: np.ndarray) -> SkinSurface:
         """Return a surface of the same faces with other node positions (n, 3) float64."""
         other, points = copy.copy(self), points_like(points, self.points.shape)
-        vertices, _, _ = triangulate(points, self.faces)
-        other.points, other._trees = points, self._trees.with_points(vertices)
+        other.points, other._trees = points, self._trees.with_points(vertices_of(points, self.faces))
         return other
 
     def samples(self) -> np.ndarray:
@@ -179,9 +178,30 @@ class SkinSurface:
         """Return the points of the surface closest to x (k, 3), or any within `stop_distance`, (k, 3)."""
         return self._found(x, stop_distance).points
 
-    def beyond(self, x: np.ndarray, near: NearPoints, samples: np.ndarray | None, limits: np.ndarray) -> np.ndarray:
-        """Find points x (k, 3) that are further than limits (k,) from the surface, (k,) bool; see `NearPoints`."""
-        return near.beyond(self._trees, x, samples, limits)
+    def beyond(
+        self,
+        x: np.ndarray,
+        near: NearPoints,
+        limits: np.ndarray,
+        samples: np.ndarray | None = None,
+        points: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Find points x (k, 3) that are further than limits (k,) from the surface, (k,) bool.
+
+        Parameters
+        ----------
+        x, near, limits, samples
+            See `NearPoints.beyond`.
+        points : (n, 3) float64, optional
+            Positions of the surface's nodes; its own by default.
+        """
+        vertices = self._trees.points if points is None else vertices_of(points, self.faces)
+        return near.beyond(self._trees, vertices, x, limits, samples)
+
+    def nodes_of_pieces(self, pieces: np.ndarray) -> np.ndarray:
+        """Return the nodes of the faces on which pieces (k,), such as `NearPoints.pieces`, lie, (k, 4) or (k, 3)."""
+        pieces = self._trees.pieces[pieces]
+        return pieces if self.faces.shape[1] == 3 else self.faces[pieces[:, 2] - len(self.points)]
 
     def _found(self, x: np.ndarray, stop_distance: float) -> ClosestPoints:
         return self._trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance)

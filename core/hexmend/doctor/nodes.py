@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.doctor.close_pairs import close_pairs
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.doctor.removal import has_repeated_node, referenced_nodes, renumber_nodes
 from hexmend.mesh.mesh import Mesh
@@ -78,14 +79,13 @@ class HangingNodes(Problem):
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if quick:
             return NONE_FOUND
-        from scipy.spatial import cKDTree
-
         faces = mesh.topology.boundary_faces
         x = mesh.points[faces]
         middles = np.concatenate([(x + np.roll(x, -1, axis=1)).reshape(-1, 3) / 2, x.mean(axis=1)])
         nodes = np.flatnonzero(mesh.topology.boundary)
-        far, near = cKDTree(mesh.points[nodes]).query(middles, distance_upper_bound=_merge_distance(mesh))
-        return np.unique(nodes[near[np.isfinite(far)]])
+        pairs = close_pairs(np.concatenate([mesh.points[nodes], middles]), _merge_distance(mesh))
+        node, middle = pairs.T
+        return np.unique(nodes[node[(node < nodes.size) & (middle >= nodes.size)]])
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return self.finding(
@@ -122,11 +122,9 @@ def _merge_targets(mesh: Mesh) -> np.ndarray:
 
     Two nodes of one hex are not merged, because that would collapse the hex.
     """
-    from scipy.spatial import cKDTree
-
     n = mesh.n_nodes
     used = np.flatnonzero(referenced_nodes(mesh))
-    pairs = used[cKDTree(mesh.points[used]).query_pairs(_merge_distance(mesh), output_type="ndarray")]
+    pairs = used[close_pairs(mesh.points[used], _merge_distance(mesh))]
     target = np.arange(n)
     if not len(pairs):
         return target

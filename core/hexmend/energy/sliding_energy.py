@@ -52,12 +52,26 @@ class SlidingEnergy(MeshEnergy):
         self.faceted = self.sliding_nodes.size > 0
         self._rows = np.searchsorted(self.nodes, self.sliding_nodes)
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
+        self._projected: tuple[np.ndarray, np.ndarray] | None = None
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         there = super().moved(x, step, alpha)
-        nodes = self.sliding_nodes
-        there[nodes] = self.sliding.project(there[nodes] * self.unit, nodes) / self.unit
+        there[self.sliding_nodes] = self._on_surface(there[self.sliding_nodes])
         return there
+
+    def _on_surface(self, aims: np.ndarray) -> np.ndarray:
+        """Project positions of all sliding nodes, (k, 3) in mean edge lengths; those that are as last time are known.
+
+        Steps are tried again with some nodes' shares of them halved, and the others unchanged.
+        """
+        known, nodes = self._projected, self.sliding_nodes  # one read, as another thread may replace it
+        if known is None:
+            places = self.sliding.project(aims * self.unit, nodes) / self.unit
+        else:
+            places, new = known[1].copy(), np.flatnonzero((aims != known[0]).any(axis=1))
+            places[new] = self.sliding.project(aims[new] * self.unit, nodes[new]) / self.unit
+        self._projected = aims, places
+        return places
 
     def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
         """Compute the slope along a step (k, 3) after projection; steps of nodes that would ascend are set to 0.

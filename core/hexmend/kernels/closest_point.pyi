@@ -42,8 +42,18 @@ def closest(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(No
 
 def near(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
-    Write the distance (j,) of each of x (j, 3) from a point of the first tree.
+    A point of the first tree for each of x (j, 3): one within the limit (j,), or the closest one.
 
-    It is the point of piece (j,) int32, -1 for none, with barycentric weights (j, 3), if it is within the
-    limit (j,); else another one within it, or the closest one, which takes its place.
+    Writes its piece (j,) int32, its barycentric weights (j, 3) and its distance (j,).
+    """
+
+def distances_from(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Write the distance (j,) of each of x (j, 3) from a point: that of piece (j,) int32 with barycentric
+    weights (j, 3); infinite where the piece is -1.
+    """
+
+def means(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
+    """
+    Write the mean (j, 3) of the four points of each row of nodes (j, 4) int32, which must exist.
     """

@@ -32,9 +32,14 @@ void bind_closest_point(nb::module_ m) {
           "A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is\n"
           "not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3).");
     m.def("near", &near, "trees"_a, "x"_a, "limits"_a, "piece"_a, "weights"_a, "distances"_a, ReleaseGil(),
-          "Write the distance (j,) of each of x (j, 3) from a point of the first tree.\n\n"
-          "It is the point of piece (j,) int32, -1 for none, with barycentric weights (j, 3), if it is within the\n"
-          "limit (j,); else another one within it, or the closest one, which takes its place.");
+          "A point of the first tree for each of x (j, 3): one within the limit (j,), or the closest one.\n\n"
+          "Writes its piece (j,) int32, its barycentric weights (j, 3) and its distance (j,).");
+    m.def("distances_from", &distances_from, "points"_a, "pieces"_a, "x"_a, "piece"_a, "weights"_a, "distances"_a,
+          ReleaseGil(),
+          "Write the distance (j,) of each of x (j, 3) from a point: that of piece (j,) int32 with barycentric\n"
+          "weights (j, 3); infinite where the piece is -1.");
+    m.def("means", &means, "points"_a, "nodes"_a, "x"_a, ReleaseGil(),
+          "Write the mean (j, 3) of the four points of each row of nodes (j, 4) int32, which must exist.");
 }
 
 void bind_sliding_surface(nb::module_ m) {

@@ -186,22 +186,34 @@ void near(const BoxTrees &trees, Points x, Numbers limits, std::span<std::int32_
     expect(limits.size() == x.size() && piece.size() == x.size() && weights.size() == x.size() &&
                distances.size() == x.size(),
            "x, limits, piece, weights and distances have different lengths: expected a row a point");
-    auto count = static_cast<std::int32_t>(trees.pieces.size());
+    parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
+        ClosestPoint found = trees.closest(x[i], 0, limits[i] * limits[i]);
+        piece[i] = found.piece, weights[i] = found.weights, distances[i] = std::sqrt(found.square);
+    });
+}
+
+void distances_from(Points points, std::span<const Piece> pieces, Points x, Indices piece,
+                    std::span<const Barycentric> weights, std::span<double> distances) {
+    expect(piece.size() == x.size() && weights.size() == x.size() && distances.size() == x.size(),
+           "x, piece, weights and distances have different lengths: expected a row a point");
+    auto count = static_cast<std::int32_t>(pieces.size());
     for (std::int32_t of : piece) expect(of < count, "piece: a number is out of range");
     parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
-        double enough = limits[i] * limits[i];
-        if (piece[i] >= 0) {
-            auto [a, b, c] = trees.pieces[piece[i]];
-            Vector known = weights[i][0] * vector(trees.points[a]) + weights[i][1] * vector(trees.points[b]) +
-                           weights[i][2] * vector(trees.points[c]);
-            double far = square(known - vector(x[i]));
-            if (far <= enough) {
-                distances[i] = std::sqrt(far);
-                return;
-            }
-        }
-        ClosestPoint found = trees.closest(x[i], 0, enough);
-        piece[i] = found.piece, weights[i] = found.weights, distances[i] = std::sqrt(found.square);
+        distances[i] = INF;
+        if (piece[i] < 0) return;
+        auto [a, b, c] = pieces[piece[i]];
+        Vector known = weights[i][0] * vector(points[a]) + weights[i][1] * vector(points[b]) +
+                       weights[i][2] * vector(points[c]);
+        distances[i] = std::sqrt(square(known - vector(x[i])));
+    });
+}
+
+void means(Points points, std::span<const std::array<Node, 4>> nodes, std::span<Point> x) {
+    expect(x.size() == nodes.size(), "x: a row for each of nodes is expected");
+    parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
+        Vector sum = vector(points[nodes[i][0]]);
+        for (int k = 1; k < 4; ++k) sum = sum + vector(points[nodes[i][k]]);
+        x[i] = point(0.25 * sum);
     });
 }
 

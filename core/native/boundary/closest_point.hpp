@@ -48,9 +48,16 @@ void refit(Points points, std::span<const Piece> pieces, std::span<const TreeLin
 void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std::span<std::int32_t> piece,
              std::span<Point> places, std::span<Barycentric> weights);
 
-// Write the distance of a point of the first tree from each x: of that of a piece (-1 for none) with its weights if it
-// is within the limit, else of another one that is, or of the closest one, which then takes its place.
+// Write a point of the first tree: one within the limit of each x, or the closest one: its piece, its barycentric
+// weights and its distance from x.
 void near(const BoxTrees &trees, Points x, Numbers limits, std::span<std::int32_t> piece,
           std::span<Barycentric> weights, std::span<double> distances);
+
+// Write the distance of each x from the point of a piece with some weights; infinite where the piece is -1.
+void distances_from(Points points, std::span<const Piece> pieces, Points x, Indices piece,
+                    std::span<const Barycentric> weights, std::span<double> distances);
+
+// Write the mean of each four points.
+void means(Points points, std::span<const std::array<Node, 4>> nodes, std::span<Point> x);
 
 }  // namespace hexmend

@@ -58,6 +58,6 @@ def test_points_known_from_before_do_not_change_which_are_beyond_their_limits(mo
         moved = skin.with_points(slid(mesh, amplitude, seed).points)
         far = moved.distances(x) > limits
         assert 0 < np.count_nonzero(far) < len(x)
-        np.testing.assert_array_equal(moved.beyond(x[some], near, some, limits[some]), far[some])
-        np.testing.assert_array_equal(moved.beyond(x, near, None, limits), far)
-        np.testing.assert_array_equal(moved.beyond(x, near, None, limits), far)
+        np.testing.assert_array_equal(moved.beyond(x[some], near, limits[some], some), far[some])
+        np.testing.assert_array_equal(moved.beyond(x, near, limits), far)
+        np.testing.assert_array_equal(moved.beyond(x, near, limits), far)

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hexmend.arrays import index_of
 from hexmend.optimise.maxmin.directions import StepDirections
-
-if TYPE_CHECKING:
-    from scipy.sparse import csr_array
 
 #: Cost, in scaled Jacobian, of moving all nodes by their shortest edge: nodes without effect stay.
 MOVE_COST = 0.05
@@ -20,8 +16,6 @@ MOVE_COST = 0.05
 INITIAL_MARGIN = 0.3
 #: Violation from which on a model that was omitted is added.
 MAX_VIOLATION = 1e-7
-#: Options of HiGHS: its presolve takes longer than the solution of programs as small as these.
-_HIGHS = {"presolve": False, "simplex_dual_edge_weight_strategy": "devex"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,33 +101,85 @@ def solve(
     -------
     LPSolution or None
     """
-    from scipy.optimize import linprog
+    from hexmend.optimise.maxmin.simplex import GrowingProgram  # 10 ms that a command without such steps saves
 
-    cost, matrix, limits, bounds = build_program(nodes, directions, constraints, radius, may_decrease)
-    taken = limits < INITIAL_MARGIN * radius
+    program = build_program(nodes, directions, constraints, radius, may_decrease)
+    limits, matrix, solver = program.limits, program.matrix, GrowingProgram(program.cost, program.lower, program.upper)
+    taken, order = limits < INITIAL_MARGIN * radius, []
+    added = np.flatnonzero(taken)
     while True:
-        rows = np.flatnonzero(taken)
-        solved = linprog(cost, matrix[rows], limits[rows], bounds=bounds, method="highs-ds", options=_HIGHS)
-        if solved.status != 0:
+        solver.add_rows(*matrix.rows(added), limits[added])
+        order.append(added)
+        solved = solver.solve()
+        if solved is None:
             return None
-        below = (matrix @ solved.x > limits + MAX_VIOLATION) & ~taken
+        x, multipliers = solved
+        below = (matrix.product(x) > limits + MAX_VIOLATION) & ~taken
         if not below.any():
-            multipliers = np.zeros(limits.size)
-            multipliers[rows] = -solved.ineqlin.marginals
-            return LPSolution(solved.x[:-1], float(solved.x[-1]), multipliers)
+            of_all = np.zeros(limits.size)
+            of_all[np.concatenate(order)] = multipliers
+            return LPSolution(x[:-1], float(x[-1]), of_all)
         taken |= below
+        added = np.flatnonzero(below)
+
+
+@dataclass(frozen=True, eq=False)
+class SparseRows:
+    """Sparse matrix by rows, none of which is empty.
+
+    Parameters
+    ----------
+    start : (r + 1,) int
+        Where each row begins in the others.
+    columns : (k,) int
+    values : (k,) float64
+    """
+
+    start: np.ndarray
+    columns: np.ndarray
+    values: np.ndarray
+
+    def product(self, x: np.ndarray) -> np.ndarray:
+        """Multiply by a vector (u,), (r,)."""
+        if self.start.size == 1:
+            return np.empty(0)
+        return np.add.reduceat(self.values * x[self.columns], self.start[:-1])
+
+    def rows(self, which: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the start, columns and values of some rows (j,); a start for each."""
+        first, count = self.start[which], np.diff(self.start)[which]
+        start = np.cumsum(count) - count
+        at = np.arange(count.sum()) + np.repeat(first - start, count)
+        return start, self.columns[at], self.values[at]
+
+
+@dataclass(frozen=True, eq=False)
+class LinearProgram:
+    """Minimise cost · x with lower <= x <= upper and matrix x <= limits.
+
+    Parameters
+    ----------
+    cost, lower, upper : (u,) float64
+    matrix : SparseRows
+        Of (r, u) numbers.
+    limits : (r,) float64
+    """
+
+    cost: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+    matrix: SparseRows
+    limits: np.ndarray
 
 
 def build_program(
     nodes: np.ndarray, directions: StepDirections, constraints: LinearConstraints, radius: float, may_decrease: bool
-) -> tuple[np.ndarray, csr_array, np.ndarray, np.ndarray]:
-    """Build the linear program: costs (u,), matrix (r, u), its upper limits (r,), bounds (u, 2).
+) -> LinearProgram:
+    """Build the linear program of a step.
 
     Unknowns are the lengths in each direction, up to a radius, and the rise of the least, which comes last. A small
     price on each direction keeps nodes that need not move.
     """
-    from scipy.sparse import coo_array
-
     node_index = index_of(nodes, int(constraints.nodes.max(initial=0)) + 1)[constraints.nodes]
     model, place = np.nonzero(node_index >= 0)
     node_index = node_index[model, place]
@@ -144,11 +190,12 @@ def build_program(
     slopes = np.einsum("ki,ki->k", constraints.slopes[model[pair], place[pair]], directions.projected[direction])
     unknowns, models = directions.n_unknowns + 1, len(constraints.nodes)
     entries = np.concatenate([-slopes, constraints.has_gain])
-    rows = np.concatenate([model[pair], np.arange(models)])
-    columns = np.concatenate([directions.columns[direction], np.full(models, unknowns - 1)])
+    row = np.concatenate([model[pair], np.arange(models)])
+    column = np.concatenate([directions.columns[direction], np.full(models, unknowns - 1)])
+    place, entry = np.unique(row * unknowns + column, return_inverse=True)  # tied nodes share a column
+    row, column = np.divmod(place, unknowns)
+    matrix = SparseRows(np.searchsorted(row, np.arange(models + 1)), column, np.bincount(entry, entries, place.size))
     cost = np.full(unknowns, MOVE_COST / max(nodes.size, 1))
-    cost[-1] = -1.0
-    bounds = np.zeros((unknowns, 2))
-    bounds[:, 1] = radius
-    bounds[-1] = -2.0 if may_decrease else 0.0, 2.0
-    return cost, coo_array((entries, (rows, columns)), shape=(models, unknowns)).tocsr(), constraints.slack, bounds
+    lower, upper = np.zeros(unknowns), np.full(unknowns, radius)
+    cost[-1], lower[-1], upper[-1] = -1.0, -2.0 if may_decrease else 0.0, 2.0
+    return LinearProgram(cost, lower, upper, matrix, constraints.slack)

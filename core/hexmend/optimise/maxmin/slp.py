@@ -123,6 +123,13 @@ class MaxMinOptimiser:
         other.envelope = self.envelope
         return other
 
+    def fork(self) -> MaxMinOptimiser:
+        """Return an optimiser that continues from here by itself, with the same released nodes and band."""
+        other = MaxMinOptimiser(self.mesh, self.points, self.envelope.sliding, self.config, self.corners.measure)
+        other.envelope.release(np.flatnonzero(self.envelope.released))
+        other.envelope.limit_to(self.envelope.max_deviation)
+        return other
+
     def improve_to(self, points: np.ndarray) -> None:
         """Go on from other points (n, 3), if their least is higher."""
         before = self.corners.active_minimum, self.corners.values.copy()

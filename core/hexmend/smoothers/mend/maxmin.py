@@ -41,6 +41,12 @@ class MaxMinConfig:
         Initial limit on the distance of released nodes from the surface, in mean edge lengths.
     off_surface_factor : float
         Multiple of `acceptable` at which the phase off the surface ends; the return to the band loses part of it.
+    detours : int
+        More times that nodes leave the band, at most, while the least is below `acceptable`.
+    detour_factor : float
+        Width of the band in such a detour, as a multiple.
+    detour_iterations : int
+        Iterations of the run outside the band, at most.
     trial_iterations : int
         Iterations from the more promising of two starts, before the better of them goes on alone.
     untangling_iterations : int
@@ -57,6 +63,9 @@ class MaxMinConfig:
     worth_widening: float = 0.05
     off_surface_limit: float = 1.5
     off_surface_factor: float = 1.2
+    detours: int = 2
+    detour_factor: float = 2.0
+    detour_iterations: int = 30
     trial_iterations: int = 10
     untangling_iterations: int = 10
 
@@ -72,9 +81,10 @@ def maximise_minimum(
     release_below: float = -np.inf,
     groups: int = 1,
     infeasible: bool = False,
+    give_up_below: float = -np.inf,
     config: MaxMinConfig = MAXMIN,
 ) -> Generator[Step, None, ActiveCorners]:
-    """Raise the least value of the corners that can be moved.
+    """Raise the least value of the corners that can be moved; groups after the first take as many programs, at most.
 
     Parameters
     ----------
@@ -87,6 +97,8 @@ def maximise_minimum(
         Groups that are raised, at most.
     infeasible : bool
         Of the steps: see `Step`.
+    give_up_below : float
+        Ends where a group is stuck below it.
     config : MaxMinConfig
 
     Yields
@@ -99,18 +111,24 @@ def maximise_minimum(
     ActiveCorners
         The first group that was stuck: it limits the least of all.
     """
-    first = None
     yield Step(optimiser.points, {"least": optimiser.least}, intermediate=True, infeasible=infeasible)
+    first, programs, limit = None, 0, np.inf
     while True:
         for number, step in enumerate(optimiser.steps(target)):
             active = step if isinstance(step, ActiveCorners) else None
             if active is None and number % config.programs_per_iteration == 0:
                 yield step.step(infeasible)
+            programs += active is None
+            if first and programs > limit:
+                return first
         if not active.hexes.size or active.least >= target:
             break
         if active.least < release_below and optimiser.release(active):
             continue
-        first = first or active
+        if active.least < give_up_below:
+            break
+        if first is None:
+            first, limit = active, 2 * programs
         groups -= 1
         if active.least >= config.acceptable or not groups:
             break

@@ -51,9 +51,15 @@ def raise_within_tolerance(
 
 
 def improve_off_surface(
-    optimiser: MaxMinOptimiser, limits: Sequence[float], on_surface: MaxMinResult, config: MaxMinConfig = MAXMIN
+    optimiser: MaxMinOptimiser,
+    limits: Sequence[float],
+    on_surface: MaxMinResult,
+    wanted: float,
+    config: MaxMinConfig = MAXMIN,
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least with nodes of the boundary off the surface, then bring them back into its band.
+
+    Where it is still too low, nodes leave the band for shorter ways from the result on.
 
     Parameters
     ----------
@@ -64,6 +70,8 @@ def improve_off_surface(
         the least of them at which it is better than `on_surface` and no hex is inverted.
     on_surface : MaxMinResult
         The result without leaving the surface.
+    wanted : float
+        Least scaled Jacobian from which on there are no further ways.
     config : MaxMinConfig
 
     Yields
@@ -76,34 +84,57 @@ def improve_off_surface(
     MaxMinResult
         The better one: this, if it is back in a band, or `on_surface`.
     """
-    envelope = optimiser.envelope
-    target, groups = config.off_surface_factor * config.acceptable, config.max_groups_off_surface
-    least_on_surface = on_surface.optimiser.corners.movable_minimum
-    reached = None
+    far = config.off_surface_limit * optimiser.mesh.mean_edge_length
+    result = yield from _detour(optimiser, limits, far, on_surface, config)
+    for _ in range(config.detours):
+        least = result.optimiser.corners.movable_minimum
+        if least >= wanted:
+            break
+        fork = result.optimiser.fork()
+        limit = limits[0] if result is on_surface else fork.envelope.max_deviation
+        detour = _detour(fork, [limit], config.detour_factor * limit, result, config, config.detour_iterations)
+        result = yield from detour
+        if result.optimiser.corners.movable_minimum - least < config.worth_widening * max(least, 0.1):
+            break
+    if result is on_surface:
+        least = result.optimiser.corners.movable_minimum
+        yield Step(result.optimiser.points, {"least": least}, intermediate=True)
+    return result
+
+
+def _detour(
+    optimiser: MaxMinOptimiser,
+    limits: Sequence[float],
+    far: float,
+    reached: MaxMinResult,
+    config: MaxMinConfig,
+    iterations: int | None = None,
+) -> Generator[Step, None, MaxMinResult]:
+    """Raise the least in a band as wide as `far`, and return to one of the limits; `reached` if that is no gain."""
+    envelope, least_before = optimiser.envelope, reached.optimiser.corners.movable_minimum
+    target, groups, within = config.off_surface_factor * config.acceptable, config.max_groups_off_surface, None
     envelope.limit_to(limits[-1])
-    with envelope.relaxed(config.off_surface_limit * optimiser.mesh.mean_edge_length):
-        yield from maximise_minimum(optimiser, target, config.acceptable, groups, infeasible=True, config=config)
+    with envelope.relaxed(far):
+        rising = maximise_minimum(optimiser, target, config.acceptable, groups, True, least_before, config)
+        yield from islice(rising, iterations)
         for limit in reversed(limits):
             for step in islice(optimiser.return_to_band(limit), 0, None, config.programs_per_iteration):
                 yield step.step(infeasible=True)
             least = optimiser.corners.movable_minimum
-            if not _is_within(optimiser, limit) or least < least_on_surface or (reached and not least > 0):
+            if not _is_within(optimiser, limit) or least < least_before or (within and not least > 0):
                 break
-            reached = limit, optimiser.points
-    if reached is None:
-        yield Step(on_surface.optimiser.points, {"least": least_on_surface}, intermediate=True)
-        return on_surface
-    envelope.limit_to(reached[0])
-    optimiser.move_to(reached[1])
-    active = yield from maximise_minimum(
-        optimiser, release_below=config.acceptable, groups=config.max_groups, config=config
-    )
-    return MaxMinResult(optimiser, active)
+            within = limit, optimiser.points
+    if within is None:
+        return reached
+    optimiser.move_to(within[1])
+    return (yield from raise_within_tolerance(optimiser, within[0], config))
 
 
 def _is_within(optimiser: MaxMinOptimiser, limit: float) -> bool:
-    """Return True if the boundary is in a band and none of its quads is turned over."""
+    """Return True if the boundary is in a band and none of its quads is turned over, but at released nodes."""
     envelope, points = optimiser.envelope, optimiser.points
-    if envelope.sliding.flipped_quads(envelope.sliding.points, points).size:
+    sliding = envelope.sliding
+    turned = sliding.boundary.faces[sliding.flipped_quads(sliding.points, points)]
+    if not envelope.released[turned].any(axis=1).all():
         return False
     return envelope.largest_deviation(points) <= limit * (1 + optimiser.config.band_excess)

@@ -251,7 +251,7 @@ class Stages:
         optimiser = MaxMinOptimiser(sliding.mesh, start, sliding)
         inverted = measure(result.optimiser.points, sliding.mesh.hexes).n_inverted > 0
         limits = self._limits(sliding.mesh) if inverted else [tolerance]
-        return (yield from improve_off_surface(optimiser, limits, result))
+        return (yield from improve_off_surface(optimiser, limits, result, wanted))
 
     def _untangle(
         self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, locked: np.ndarray

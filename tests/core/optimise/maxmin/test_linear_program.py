@@ -40,11 +40,12 @@ def test_nodes_that_need_not_move_stay():
     nodes, directions = along_x(5, 7)
     found = solve(nodes, directions, LinearConstraints(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1)
     np.testing.assert_allclose(found.lengths, [0, 0, 0.1, 0], atol=1e-12)
-    cost, _, _, bounds = build_program(
+    program = build_program(
         nodes, directions, LinearConstraints(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1, False
     )
-    np.testing.assert_allclose(cost, [MOVE_COST / 2] * 4 + [-1])
-    np.testing.assert_allclose(bounds, [[0, 0.1]] * 4 + [[0, 2]])
+    np.testing.assert_allclose(program.cost, [MOVE_COST / 2] * 4 + [-1])
+    np.testing.assert_allclose(program.lower, 0)
+    np.testing.assert_allclose(program.upper, [0.1] * 4 + [2])
 
 
 def test_two_corners_hold_each_other_where_they_want_opposite_ways():

@@ -40,7 +40,7 @@ def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
     *_, limit = other.steps()
     assert isinstance(limit, ActiveCorners)
     steps = list(
-        improve_off_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [room], MaxMinResult(other, limit))
+        improve_off_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [room], MaxMinResult(other, limit), 0.2)
     )
     assert steps
     assert all(step.intermediate for step in steps)
@@ -53,7 +53,7 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     other.corners.values[:] = 1.0  # as good as can be: nothing is better
-    walk = improve_off_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [1e-9], MaxMinResult(other, limit))
+    walk = improve_off_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [1e-9], MaxMinResult(other, limit), 0.2)
     steps = []
     while True:
         try:
@@ -81,7 +81,7 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
         MaxMinOptimiser, "return_to_band", lambda *given: (made.append(step.points) or step for step in into(*given))
     )
     optimiser = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    steps = list(improve_off_surface(optimiser, [room], MaxMinResult(other, limit), config))
+    steps = list(improve_off_surface(optimiser, [room], MaxMinResult(other, limit), 0.2, config))
     assert len(made) > MAXMIN.programs_per_iteration
     shown = [k for k, points in enumerate(made) if any(step.infeasible and step.points is points for step in steps)]
     assert shown == list(range(0, len(made), MAXMIN.programs_per_iteration))
@@ -93,7 +93,7 @@ def test_what_is_better_off_the_surface_and_back_in_its_band_is_taken():
     sliding = SlidingBoundary(mesh, max_deviation=room)
     other, off = (MaxMinOptimiser(sliding.mesh, mesh.points, sliding) for _ in range(2))
     limit = ActiveCorners(other.corners.active_minimum, np.array([0]), np.array([0]))
-    walk = improve_off_surface(off, [room], MaxMinResult(other, limit), replace(MAXMIN, acceptable=0.3))
+    walk = improve_off_surface(off, [room], MaxMinResult(other, limit), 0.2, replace(MAXMIN, acceptable=0.3))
     while True:
         try:
             next(walk)

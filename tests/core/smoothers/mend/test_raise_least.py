@@ -61,6 +61,21 @@ def test_where_the_aim_is_reached_nothing_is_left_behind(least, frozen):
     assert raising.frozen == frozen
 
 
+def test_groups_after_the_first_take_no_more_steps_than_it_did():
+    raising = StandIn([limit_at(0.01 * k) for k in range(1, 9)], steps=4)
+    _, limit = walked(raising, 0.5, groups=8)
+    assert raising.frozen == [0.01, 0.02]
+    assert limit.least == 0.01
+
+
+@pytest.mark.parametrize(("below", "frozen"), [(0.01, [0.01, 0.02]), (0.015, []), (0.5, [])])
+def test_it_gives_up_where_the_first_group_is_stuck_too_low(below, frozen):
+    raising = StandIn([limit_at(0.01 * k) for k in range(1, 9)])
+    _, limit = walked(raising, 0.5, groups=3, give_up_below=below)
+    assert raising.frozen == frozen
+    assert limit.least == 0.01
+
+
 def test_nothing_follows_where_nothing_limits():
     raising = StandIn([limit_at(-1.0, 0)])
     assert walked(raising, 0.5, 0.5, groups=5)[1].least == -1.0

@@ -1,0 +1,56 @@
+"""Linear programs that grow: rows are added to a program that is solved already, and few steps lead on from there."""
+
+from __future__ import annotations
+
+import highspy
+import numpy as np
+
+_OPTIONS = {
+    "output_flag": False,
+    "presolve": "off",  # takes longer than the solution of programs as small as these
+    "solver": "simplex",
+    "simplex_strategy": 1,  # the dual method
+    "simplex_dual_edge_weight_strategy": 1,  # Devex
+    "threads": 1,
+}
+
+
+class _Quiet(highspy.Highs):
+    def __init__(self) -> None:
+        super(highspy.Highs, self).__init__()  # that of Highs registers callbacks, which prints a line
+
+
+class GrowingProgram:
+    """Minimise cost · x with lower <= x <= upper and rows A x <= limits that are added step by step.
+
+    Parameters
+    ----------
+    cost, lower, upper : (u,) float64
+    """
+
+    def __init__(self, cost: np.ndarray, lower: np.ndarray, upper: np.ndarray):
+        self._solver = _Quiet()
+        for name, value in _OPTIONS.items():
+            self._solver.setOptionValue(name, value)
+        model = highspy.HighsLp()
+        model.num_col_, model.num_row_ = cost.size, 0
+        model.col_cost_, model.col_lower_, model.col_upper_ = cost, lower, upper
+        model.a_matrix_.start_ = np.zeros(cost.size + 1, dtype=np.int32)
+        self._solver.passModel(model)
+
+    def add_rows(self, start: np.ndarray, columns: np.ndarray, values: np.ndarray, limits: np.ndarray) -> None:
+        """Add rows: start (r,) int of each in columns (k,) int and values (k,) float64, and their limits (r,)."""
+        below = np.full(limits.size, -np.inf)
+        start, columns = start.astype(np.int32), columns.astype(np.int32)
+        self._solver.addRows(limits.size, below, limits, columns.size, start, columns, values)
+
+    def solve(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """Return x (u,) and the multipliers of the rows in the order in which they were added, not negative.
+
+        None where there is no solution.
+        """
+        self._solver.run()
+        if self._solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:
+            return None
+        found = self._solver.getSolution()
+        return np.array(found.col_value), -np.array(found.row_dual)
