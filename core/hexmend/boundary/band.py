@@ -201,7 +201,9 @@ class Band:
         initial, nodes, _ = self.initial_surface_deviation
         own = None if changed is None else np.flatnonzero(changed[self.samples].any(axis=1))
         samples = self.samples if own is None else self.samples[own]
-        limits = self._allowed(self._initial_boundary_deviation if own is None else self._initial_boundary_deviation[own])
+        limits = self._allowed(
+            self._initial_boundary_deviation if own is None else self._initial_boundary_deviation[own]
+        )
         boundary = self.target.beyond(means(points, samples), self._near_target, limits, own)
         near = self._near_boundary
         surface = self.skin.beyond(self._target_samples, near, self._allowed(initial), points=points)

@@ -9,6 +9,7 @@ import numpy as np
 from hexmend.arrays import index_of
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.sparsity import BlockSparsity
+from hexmend.kernels import conjugate_gradients
 from hexmend.mesh.mesh import Mesh
 
 #: Places of xx xy xz yy yz zz in a matrix of 3 rows.
@@ -101,8 +102,7 @@ class Reduction:
         dtype = full.off_diagonal.dtype
         turn, (scaled, scale), (turned, row, column), slots = self._turned_blocks(full)
         full.off_diagonal[scaled] *= scale
-        blocks = full.off_diagonal[turned].reshape(-1, 3, 3)
-        full.off_diagonal[turned] = (turn[row].transpose(0, 2, 1) @ blocks @ turn[column]).reshape(-1, 9)
+        conjugate_gradients.turn_blocks(turn.reshape(-1, 9), turned, row, column, full.off_diagonal)
         own = turn[slots].transpose(0, 2, 1) @ unpack_symmetric(full.diagonal[slots]) @ turn[slots]
         full.diagonal[slots] = own.reshape(-1, 9)[:, _UPPER]
         matrix = self._merged(full) if self.has_ties else full
@@ -132,7 +132,7 @@ class Reduction:
             scaled = np.flatnonzero((bent[row] | bent[column]) & ~turned)
             turned = np.flatnonzero(turned)
             scale = (diagonal[row[scaled], :, None] * diagonal[column[scaled], None]).reshape(-1, 9)
-            others = turned, row[turned], column[turned]
+            others = turned.astype(np.int32), row[turned].astype(np.int32), column[turned]
             self._turned[dtype] = turn, (scaled, scale), others, np.flatnonzero(bent)
         return self._turned[dtype]
 

@@ -11,6 +11,7 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
+from hexmend.kernels import conjugate_gradients
 
 #: Length of the probing step for directional derivatives, in mean edge lengths.
 _PROBE_LENGTH = 1e-5
@@ -124,7 +125,7 @@ class SlidingEnergy(MeshEnergy):
         slides = mask(sparsity.order[self._rows], sparsity.nodes.size)
         row = np.repeat(np.arange(slides.size), np.diff(sparsity.row_start))
         at = np.flatnonzero(slides[row] | slides[sparsity.columns])
-        return at, row[at], sparsity.columns[at]
+        return at.astype(np.int32), row[at].astype(np.int32), sparsity.columns[at]
 
 
 class SlidingHessian(Hessian):
@@ -152,8 +153,7 @@ class SlidingHessian(Hessian):
         of_slot = np.broadcast_to(np.eye(3, dtype=dtype), (matrix.order.size, 3, 3)).copy()
         of_slot[slots] = along
         at, row, column = energy.sliding_blocks
-        blocks = of_slot[row] @ matrix.off_diagonal[at].reshape(-1, 3, 3) @ of_slot[column]
-        matrix.off_diagonal[at] = blocks.reshape(-1, 9)
+        conjugate_gradients.turn_blocks(of_slot.reshape(-1, 9), at, row, column, matrix.off_diagonal)
         own = along @ unpack_symmetric(matrix.diagonal[slots]) @ along
         size = np.abs(np.trace(own, axis1=1, axis2=2) / np.maximum(np.trace(along, axis1=1, axis2=2), 1))
         size = np.where(size > 0, size, 1)[:, None, None]  # a scale between the extreme eigenvalues

@@ -1,6 +1,7 @@
 #include "bindings/arrays.hpp"
 #include "linear/conjugate_gradients.hpp"
 #include "linear/sparsity.hpp"
+#include "linear/turned_blocks.hpp"
 #include "mesh/csr.hpp"
 
 namespace hexmend {
@@ -19,6 +20,9 @@ template <class Real> void bind_for(nb::module_ m) {
     m.def("product", &product<Real>, "pattern"_a, "off_diagonal"_a, "diagonal"_a, "order"_a, "x"_a, "y"_a, ReleaseGil(),
           "Product A x of x (k, 3) in double precision; writes y (k, 3).\n\n"
           "Row k of x and y belongs to slot order[k].");
+    m.def("turn_blocks", &turn_blocks<Real>, "turn"_a, "at"_a, "rows"_a, "columns"_a, "off_diagonal"_a, ReleaseGil(),
+          "Replace the blocks `at` (j,) int32, which stand in rows and columns (j,) int32, by T_row^T B T_column.\n\n"
+          "turn (k, 9): the matrix T of each slot; off_diagonal (blocks + 1, 9). Numbers must exist.");
 }
 
 }  // namespace

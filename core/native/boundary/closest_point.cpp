@@ -202,8 +202,8 @@ void distances_from(Points points, std::span<const Piece> pieces, Points x, Indi
         distances[i] = INF;
         if (piece[i] < 0) return;
         auto [a, b, c] = pieces[piece[i]];
-        Vector known = weights[i][0] * vector(points[a]) + weights[i][1] * vector(points[b]) +
-                       weights[i][2] * vector(points[c]);
+        Vector known =
+            weights[i][0] * vector(points[a]) + weights[i][1] * vector(points[b]) + weights[i][2] * vector(points[c]);
         distances[i] = std::sqrt(square(known - vector(x[i])));
     });
 }

@@ -145,6 +145,15 @@ class SparseRows:
             return np.empty(0)
         return np.add.reduceat(self.values * x[self.columns], self.start[:-1])
 
+    def summed(self, width: int) -> SparseRows:
+        """Add values at one place; the matrix has so many columns."""
+        count = self.start.size - 1
+        row = np.repeat(np.arange(count), np.diff(self.start))
+        place, entry = np.unique(row * width + self.columns, return_inverse=True)
+        row, column = np.divmod(place, width)
+        values = np.bincount(entry, self.values, place.size)
+        return SparseRows(np.searchsorted(row, np.arange(count + 1)), column, values)
+
     def rows(self, which: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the start, columns and values of some rows (j,); a start for each."""
         first, count = self.start[which], np.diff(self.start)[which]
@@ -181,21 +190,41 @@ def build_program(
     price on each direction keeps nodes that need not move.
     """
     node_index = index_of(nodes, int(constraints.nodes.max(initial=0)) + 1)[constraints.nodes]
-    model, place = np.nonzero(node_index >= 0)
+    slopes, first_of_node = _summed_slopes(constraints)
+    model, place = np.nonzero((node_index >= 0) & first_of_node)
     node_index = node_index[model, place]
     first = np.searchsorted(directions.node_index, np.arange(nodes.size + 1))
     count = first[node_index + 1] - first[node_index]  # directions of the node
     pair = np.repeat(np.arange(node_index.size), count)
     direction = np.arange(pair.size) + np.repeat(first[node_index] - np.cumsum(count) + count, count)
-    slopes = np.einsum("ki,ki->k", constraints.slopes[model[pair], place[pair]], directions.projected[direction])
-    unknowns, models = directions.n_unknowns + 1, len(constraints.nodes)
-    entries = np.concatenate([-slopes, constraints.has_gain])
-    row = np.concatenate([model[pair], np.arange(models)])
-    column = np.concatenate([directions.columns[direction], np.full(models, unknowns - 1)])
-    place, entry = np.unique(row * unknowns + column, return_inverse=True)  # tied nodes share a column
-    row, column = np.divmod(place, unknowns)
-    matrix = SparseRows(np.searchsorted(row, np.arange(models + 1)), column, np.bincount(entry, entries, place.size))
+    values = -np.einsum("ki,ki->k", slopes[model[pair], place[pair]], directions.projected[direction])
+    unknowns = directions.n_unknowns + 1
+    matrix = _with_gains(model[pair], directions.columns[direction], values, constraints.has_gain, unknowns)
+    if directions.unknown is not None:  # tied nodes share a column
+        matrix = matrix.summed(unknowns)
     cost = np.full(unknowns, MOVE_COST / max(nodes.size, 1))
     lower, upper = np.zeros(unknowns), np.full(unknowns, radius)
     cost[-1], lower[-1], upper[-1] = -1.0, -2.0 if may_decrease else 0.0, 2.0
     return LinearProgram(cost, lower, upper, matrix, constraints.slack)
+
+
+def _summed_slopes(constraints: LinearConstraints) -> tuple[np.ndarray, np.ndarray]:
+    """Return slopes (r, 4, 3) of which the first of equal nodes has all, and (r, 4) bool: nodes that are the first."""
+    nodes, slopes = constraints.nodes, constraints.slopes.copy()
+    first = np.ones(nodes.shape, dtype=bool)
+    for later in range(1, 4):
+        for earlier in range(later):
+            same = np.flatnonzero((nodes[:, earlier] == nodes[:, later]) & first[:, later])
+            slopes[same, earlier] += slopes[same, later]
+            first[same, later] = False
+    return slopes, first
+
+
+def _with_gains(
+    row: np.ndarray, column: np.ndarray, values: np.ndarray, gains: np.ndarray, unknowns: int
+) -> SparseRows:
+    """Make rows of some values (k,), whose rows ascend, that end with gains (r,) in the last column."""
+    start = np.searchsorted(row, np.arange(gains.size + 1))
+    ends = start[1:]
+    columns, values = np.insert(column, ends, unknowns - 1), np.insert(values, ends, gains)
+    return SparseRows(start + np.arange(gains.size + 1), columns, values)

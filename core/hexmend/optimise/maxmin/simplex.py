@@ -42,7 +42,9 @@ class GrowingProgram:
         """Add rows: start (r,) int of each in columns (k,) int and values (k,) float64, and their limits (r,)."""
         below = np.full(limits.size, -np.inf)
         start, columns = start.astype(np.int32), columns.astype(np.int32)
-        self._solver.addRows(limits.size, below, limits, columns.size, start, columns, values)
+        status = self._solver.addRows(limits.size, below, limits, columns.size, start, columns, values)
+        if status == highspy.HighsStatus.kError:
+            raise ValueError("HiGHS refuses the rows: expected columns that exist, each once in a row")
 
     def solve(self) -> tuple[np.ndarray, np.ndarray] | None:
         """Return x (u,) and the multipliers of the rows in the order in which they were added, not negative.

@@ -31,6 +31,8 @@ class ReleaseConfig:
 
     Parameters
     ----------
+    starts : int
+        Points from which hexes are untangled at the least distance, at most: those with the fewest inverted first.
     rounds : int
         Times that nodes are freed and hexes untangled at one distance, at most: each time around the hexes that are
         still inverted.
@@ -40,6 +42,7 @@ class ReleaseConfig:
         Steps off the surface per iteration of the run.
     """
 
+    starts: int = 2
     rounds: int = 3
     steps: tuple[float, ...] = (0.3, 0.5, 0.75, 1.0)
     steps_per_iteration: int = 10

@@ -13,6 +13,7 @@ from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_config import SLP
 from hexmend.parameters import AUTO
 from hexmend.quality import ElementQuality, measure
 from hexmend.quality.regressions import WORSE_BY
@@ -212,28 +213,35 @@ class Stages:
         None where no hex is inverted, or nodes must not leave the surface, or none is mended by that.
         """
         tolerance, hexes = self._off_surface_tolerance(sliding.mesh), sliding.mesh.hexes
-        inverted = [measure(points, hexes).n_inverted for points in candidates]
-        start = candidates[int(np.argmin(inverted))]
-        if not min(inverted) or not tolerance > 0:
+        starts = sorted(candidates, key=lambda points: measure(points, hexes).n_inverted)
+        if not measure(starts[0], hexes).n_inverted or not tolerance > 0:
             return None
         limits = self._limits(sliding.mesh)
-        points, released = yield from untangle_released(sliding, start, self._untangled, limits)
-        if measure(points, hexes).n_inverted:
+        trials = [(start, limits[:1]) for start in starts[: RELEASE.starts]] + [(starts[0], limits[1:])]
+        for start, within in trials:
+            points, released = yield from untangle_released(sliding, start, self._untangled, within)
+            if not measure(points, hexes).n_inverted:
+                break
+        else:
             return None
-        optimiser = MaxMinOptimiser(sliding.mesh, points, sliding)
-        limit = max(tolerance, optimiser.envelope.largest_deviation(points))
+        far = MaxMinOptimiser(sliding.mesh, points, sliding).envelope.largest_deviation(points)
+        enough = (limit for limit in limits if far <= limit * (1 + SLP.band_excess))
+        limit = min(enough, default=far)
         shape = yield from infeasible(self._sliding_shape(sliding.without_nodes(released, limit), points))
         optimiser = MaxMinOptimiser(sliding.mesh, shape.points, sliding)
         optimiser.release_nodes(released)
         if not self.settings.maximises_jacobian and optimiser.corners.active_minimum >= MAXMIN.barrier_safe:
             return MaxMinResult(optimiser, NO_CORNERS)
-        return (yield from raise_within_tolerance(optimiser, limit))
+        result = yield from raise_within_tolerance(optimiser, limit)
+        return (yield from raise_within_tolerance(optimiser, tolerance)) if limit < tolerance else result
 
     def _limits(self, mesh: Mesh) -> list[float]:
         """Distances from the surface that the boundary may have where hexes are inverted, ascending."""
+        limits = [share * mesh.mean_edge_length for share in RELEASE.steps]
         if self.settings.surface_tolerance in (AUTO, UNLIMITED):
-            return [share * mesh.mean_edge_length for share in RELEASE.steps]
-        return [self.settings.absolute_tolerance(mesh)]
+            return limits
+        tolerance = self.settings.absolute_tolerance(mesh)
+        return [*(limit for limit in limits if limit < tolerance), tolerance]
 
     def _off_surface_tolerance(self, mesh: Mesh) -> float:
         """Distance from the surface that nodes may have where it holds the least down."""

@@ -13,6 +13,7 @@ from hexmend.optimise.maxmin.corner_set import MovableCorners
 from hexmend.optimise.maxmin.corner_values import scaled_jacobians
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.quality import measure
+from hexmend.quality.regressions import WORSE_BY
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.messages import limit_message
@@ -58,6 +59,7 @@ def test_it_does_no_harm_wherever_it_is_stopped(name, goal, boundary, amplitude,
     inverted_after, least_after, q_after = figures(result.mesh)
     assert inverted_after <= inverted
     if inverted_after == inverted:
+        least, q = least - WORSE_BY, q - WORSE_BY
         assert least_after >= least or q_after >= q
         if goal in ("balanced", "scaled-jacobian"):
             assert least_after >= least

@@ -40,7 +40,9 @@ def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
     *_, limit = other.steps()
     assert isinstance(limit, ActiveCorners)
     steps = list(
-        improve_off_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [room], MaxMinResult(other, limit), 0.2)
+        improve_off_surface(
+            MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [room], MaxMinResult(other, limit), 0.2
+        )
     )
     assert steps
     assert all(step.intermediate for step in steps)
@@ -53,7 +55,9 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     other.corners.values[:] = 1.0  # as good as can be: nothing is better
-    walk = improve_off_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [1e-9], MaxMinResult(other, limit), 0.2)
+    walk = improve_off_surface(
+        MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [1e-9], MaxMinResult(other, limit), 0.2
+    )
     steps = []
     while True:
         try:
