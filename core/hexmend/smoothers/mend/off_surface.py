@@ -67,7 +67,8 @@ def improve_off_surface(
         Where this begins.
     limits : sequence of float
         Distances from the surface that the boundary may have, ascending, in the mesh's unit of length: the result has
-        the least of them at which it is better than `on_surface` and no hex is inverted.
+        the least of them at which it is better than `on_surface` and no hex is inverted or, if none is there,
+        acceptable.
     on_surface : MaxMinResult
         The result without leaving the surface.
     wanted : float
@@ -91,7 +92,9 @@ def improve_off_surface(
         if least >= wanted:
             break
         fork = result.optimiser.fork()
-        limit = limits[0] if result is on_surface else fork.envelope.max_deviation
+        limit = fork.envelope.max_deviation
+        if result is on_surface:
+            limit = limits[-1] if least > 0 else limits[0]
         detour = _detour(fork, [limit], config.detour_factor * limit, result, config, config.detour_iterations)
         result = yield from detour
         if result.optimiser.corners.movable_minimum - least < config.worth_widening * max(least, 0.1):
@@ -114,6 +117,7 @@ def _detour(
     envelope, least_before = optimiser.envelope, reached.optimiser.corners.movable_minimum
     target, groups, within = config.off_surface_factor * config.acceptable, config.max_groups_off_surface, None
     envelope.limit_to(limits[-1])
+    enough = 0.0 if least_before <= 0 else config.acceptable
     with envelope.relaxed(far):
         rising = maximise_minimum(optimiser, target, config.acceptable, groups, True, least_before, config)
         yield from islice(rising, iterations)
@@ -121,7 +125,7 @@ def _detour(
             for step in islice(optimiser.return_to_band(limit), 0, None, config.programs_per_iteration):
                 yield step.step(infeasible=True)
             least = optimiser.corners.movable_minimum
-            if not _is_within(optimiser, limit) or least < least_before or (within and not least > 0):
+            if not _is_within(optimiser, limit) or least < least_before or (within and not least > enough):
                 break
             within = limit, optimiser.points
     if within is None:

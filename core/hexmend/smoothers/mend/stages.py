@@ -258,7 +258,7 @@ class Stages:
             return result
         optimiser = MaxMinOptimiser(sliding.mesh, start, sliding)
         inverted = measure(result.optimiser.points, sliding.mesh.hexes).n_inverted > 0
-        limits = self._limits(sliding.mesh) if inverted else [tolerance]
+        limits = self._limits(sliding.mesh) if inverted else [self._bands(sliding.mesh)[-1], tolerance]
         return (yield from improve_off_surface(optimiser, limits, result, wanted))
 
     def _untangle(

@@ -162,6 +162,14 @@ def test_the_result_is_said_with_what_was_possible():
     assert f"it is kept at {least.jacobian:.4f} at least, and the least q(H) at {least.quality:.4f}." in result.message
 
 
+def test_what_the_floors_cost_is_said_in_numbers():
+    mesh = make("kershaw", size=216)
+    result, shape = smooth(mesh, Mend()), smooth(mesh, Mend(goal="shape", p=1.0))
+    cost = shape.after.q_mean - result.after.q_mean
+    assert cost > 0.05
+    assert f"Both together cost {cost:.4f} of q mean, which would be {shape.after.q_mean:.4f} without." in result.message
+
+
 SLIDING = {
     "ball": lambda: slid(ball(3), 0.4, 3),
     "cylinder": lambda: slid(cylinder(16, 2), 0.4, 3),
