@@ -172,9 +172,10 @@ def _message(path: CentralPath, top: Least, mean_without: float) -> str:
         f"The least scaled Jacobian of the corners that can be moved can be {top.jacobian:.4f}; it is kept at "
         f"{kept.jacobian:.4f} at least, and the least q(H) at {kept.quality:.4f}."
     )
-    if mean_without - mean < _COSTS:
+    cost = mean_without - mean
+    if cost < _COSTS:
         return message
-    return f"{message} Both together cost {mean_without - mean:.4f} of q mean, which would be {mean_without:.4f} without."
+    return f"{message} Both together cost {cost:.4f} of q mean, which would be {mean_without:.4f} without."
 
 
 def _return_towards(path: CentralPath, given: np.ndarray, start: Floors, shares: tuple[float, ...]) -> Iterator[Step]:
