@@ -167,7 +167,9 @@ def test_what_the_floors_cost_is_said_in_numbers():
     result, shape = smooth(mesh, Mend()), smooth(mesh, Mend(goal="shape", p=1.0))
     cost = shape.after.q_mean - result.after.q_mean
     assert cost > 0.05
-    assert f"Both together cost {cost:.4f} of q mean, which would be {shape.after.q_mean:.4f} without." in result.message
+    assert (
+        f"Both together cost {cost:.4f} of q mean, which would be {shape.after.q_mean:.4f} without." in result.message
+    )
 
 
 SLIDING = {
