@@ -172,7 +172,7 @@ class NearPoints:
         some = slice(None) if samples is None else samples
         distances = np.empty(len(x))
         closest_point.distances_from(points, trees.pieces, x, self.pieces[some], self._weights[some], distances)
-        far = distances > limits
+        far = ~(distances <= limits)  # nothing is near a sample that is not finite
         doubtful = np.flatnonzero(far)
         if not doubtful.size:
             return far
@@ -181,7 +181,7 @@ class NearPoints:
         pieces, weights = np.empty(doubtful.size, dtype=np.int32), np.empty((doubtful.size, 3))
         found, limits = np.empty(doubtful.size), limits[doubtful]
         closest_point.near(trees.box_trees, x[doubtful], limits, pieces, weights, found)
-        far[doubtful] = found > limits
+        far[doubtful] = ~(found <= limits)
         known = doubtful if samples is None else samples[doubtful]
         self.pieces[known], self._weights[known] = pieces, weights
         return far

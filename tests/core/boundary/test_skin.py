@@ -61,3 +61,11 @@ def test_points_known_from_before_do_not_change_which_are_beyond_their_limits(mo
         np.testing.assert_array_equal(moved.beyond(x[some], near, limits[some], some), far[some])
         np.testing.assert_array_equal(moved.beyond(x, near, limits), far)
         np.testing.assert_array_equal(moved.beyond(x, near, limits), far)
+
+
+def test_a_sample_that_is_nowhere_is_beyond_its_limit_before_and_after_one_is_known(skin):
+    x, near = skin.samples()[:3].copy(), NearPoints(3)
+    for first in (x[0].copy(), np.full(3, np.nan), x[0].copy()):
+        x[0] = first
+        expected = [not np.isfinite(first).all(), False, False]
+        np.testing.assert_array_equal(skin.beyond(x, near, np.full(3, 1e-6)), expected)
