@@ -139,7 +139,7 @@ class Band:
         indices, limit = indices[far], limit[far]
         nodes = self.samples[indices]
         x = points[nodes].mean(axis=1)
-        closest = self.target.closest(x, max(float(limit.min(initial=np.inf)), 0.0))
+        closest = self.target.closest(x, max(float(limit.min(initial=np.inf)), 0.0), self._near_target.pieces[indices])
         return _deviations_above(limit, indices, x, closest, nodes, np.full(nodes.shape, 0.25))
 
     def surface_deviation(
@@ -175,7 +175,8 @@ class Band:
             return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
         x = self._target_samples[indices]
         enough = max(float(limit.min(initial=np.inf)), 0.0)
-        closest, nodes, weights = self.skin.with_points(points).closest_on(x, enough)
+        known = self._near_boundary.pieces[indices]
+        closest, nodes, weights = self.skin.with_points(points).closest_on(x, enough, known=known)
         return _deviations_above(limit, indices, x, closest, nodes, weights)
 
     def nodes_outside_band(self, points: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:

@@ -22,7 +22,7 @@ class ClosestPoints:
 
     Parameters
     ----------
-    places : (k, 3) float64
+    points : (k, 3) float64
         Positions of the closest points.
     pieces : (k,) int32
         Number of the triangle or segment of each.
@@ -85,7 +85,9 @@ class ClosestPointTrees:
         closest_point.refit(points, self.pieces, self.links, other.boxes)
         return other
 
-    def closest(self, x: np.ndarray, group: np.ndarray, stop_distance: float = 0.0) -> ClosestPoints:
+    def closest(
+        self, x: np.ndarray, group: np.ndarray, stop_distance: float = 0.0, known: np.ndarray | None = None
+    ) -> ClosestPoints:
         """Find the point of a group that is closest to each given point.
 
         Parameters
@@ -95,6 +97,8 @@ class ClosestPointTrees:
             Group to be searched for each point.
         stop_distance : float
             The search ends at any point within this distance.
+        known : (k,) int32, optional
+            Piece of the group that is near to each point, and shortens the search; -1 for none.
 
         Returns
         -------
@@ -109,7 +113,8 @@ class ClosestPointTrees:
         group = as_set(group, "group", len(self.roots))
         if len(group) != len(x):
             raise MeshError(f"there are {len(group)} groups: expected one for each of {len(x)} places")
-        piece, places, weights = np.empty(len(x), dtype=np.int32), np.empty_like(x), np.empty_like(x)
+        piece = np.full(len(x), -1, dtype=np.int32) if known is None else known.copy()
+        places, weights = np.empty_like(x), np.empty_like(x)
         closest_point.closest(self.box_trees, x, self.roots[group], stop_distance, piece, places, weights)
         if len(piece) and piece.min() < 0:
             wrong = x[np.flatnonzero(piece < 0)[0]].tolist()
@@ -178,11 +183,11 @@ class NearPoints:
             return far
         if points is not trees.points:
             trees = trees.with_points(points)
-        pieces, weights = np.empty(doubtful.size, dtype=np.int32), np.empty((doubtful.size, 3))
+        known = doubtful if samples is None else samples[doubtful]
+        pieces, weights = self.pieces[known], np.empty((doubtful.size, 3))
         found, limits = np.empty(doubtful.size), limits[doubtful]
         closest_point.near(trees.box_trees, x[doubtful], limits, pieces, weights, found)
         far[doubtful] = ~(found <= limits)
-        known = doubtful if samples is None else samples[doubtful]
         self.pieces[known], self._weights[known] = pieces, weights
         return far
 

@@ -142,7 +142,11 @@ class SkinSurface:
         return np.linalg.norm(self.closest(x) - x, axis=1)
 
     def closest_on(
-        self, x: np.ndarray, stop_distance: float = 0.0, near: NearPoints | None = None
+        self,
+        x: np.ndarray,
+        stop_distance: float = 0.0,
+        near: NearPoints | None = None,
+        known: np.ndarray | None = None,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Find the points of the surface closest to x, with the nodes of their faces.
 
@@ -153,6 +157,8 @@ class SkinSurface:
             The search ends at any point within this distance.
         near : NearPoints, optional
             Stores what is found.
+        known : (k,) int32, optional
+            See `ClosestPointTrees.closest`.
 
         Returns
         -------
@@ -162,7 +168,7 @@ class SkinSurface:
         weights : (k, 4) or (k, 3) float64
             Weights of these nodes, whose mean is the point.
         """
-        found = self._found(x, stop_distance)
+        found = self._found(x, stop_distance, known)
         if near is not None:
             near.store(found)
         pieces, width = self._trees.pieces[found.pieces], self.faces.shape[1]
@@ -174,9 +180,9 @@ class SkinSurface:
             weights += np.where(nodes == pieces[:, end, None], found.weights[:, end, None], 0.0)
         return found.points, nodes, weights
 
-    def closest(self, x: np.ndarray, stop_distance: float = 0.0) -> np.ndarray:
+    def closest(self, x: np.ndarray, stop_distance: float = 0.0, known: np.ndarray | None = None) -> np.ndarray:
         """Return the points of the surface closest to x (k, 3), or any within `stop_distance`, (k, 3)."""
-        return self._found(x, stop_distance).points
+        return self._found(x, stop_distance, known).points
 
     def beyond(
         self,
@@ -203,8 +209,8 @@ class SkinSurface:
         pieces = self._trees.pieces[pieces]
         return pieces if self.faces.shape[1] == 3 else self.faces[pieces[:, 2] - len(self.points)]
 
-    def _found(self, x: np.ndarray, stop_distance: float) -> ClosestPoints:
-        return self._trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance)
+    def _found(self, x: np.ndarray, stop_distance: float, known: np.ndarray | None) -> ClosestPoints:
+        return self._trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance, known)
 
     def check_near(self, mesh: Mesh) -> None:
         """Raise `MeshError` unless the boundary of a mesh lies near the surface."""

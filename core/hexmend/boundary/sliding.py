@@ -106,6 +106,7 @@ class SlidingBoundary(Band):
         self.releasable &= ~(stays | self.confined)
         self._group = self.surface.group_of(self.nodes)
         self._number = index_of(self.nodes, mesh.n_nodes)
+        self._known = np.full(mesh.n_nodes, -1, dtype=np.int32)
         if target is not None:
             start, mesh = self.projected(start), mesh.with_points(self.projected(mesh.points))
         super().__init__(mesh.surface_points, self.boundary.faces, start, target, max_deviation)
@@ -342,8 +343,11 @@ class SlidingBoundary(Band):
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> ClosestPoints:
         x = as_points(x, "places of sliding nodes")
+        of, group = (self.nodes, self._group) if nodes is None else (nodes, self._group[self._number[nodes]])
         try:
-            return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
+            found = self.surface.trees.closest(x, group, known=self._known[of])
+            self._known[of] = found.pieces  # the next place of a node is near this one
+            return found
         except MeshError:
             far = np.flatnonzero(~(np.abs(x) < MAX_CLOSEST_COORDINATE).all(axis=1))
             if not far.size:

@@ -37,14 +37,16 @@ def closest(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(No
     The point closest to each of x (j, 3) in the tree of its root (j,).
 
     A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is
-    not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3).
+    not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3). On entry, piece has
+    one of the tree that is near and shortens the search, or -1.
     """
 
 def near(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
     A point of the first tree for each of x (j, 3): one within the limit (j,), or the closest one.
 
-    Writes its piece (j,) int32, its barycentric weights (j, 3) and its distance (j,).
+    Writes its piece (j,) int32, its barycentric weights (j, 3) and its distance (j,). On entry, piece has
+    one that is near and shortens the search, or -1.
     """
 
 def distances_from(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:

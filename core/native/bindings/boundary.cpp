@@ -30,10 +30,12 @@ void bind_closest_point(nb::module_ m) {
           ReleaseGil(),
           "The point closest to each of x (j, 3) in the tree of its root (j,).\n\n"
           "A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is\n"
-          "not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3).");
+          "not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3). On entry, piece has\n"
+          "one of the tree that is near and shortens the search, or -1.");
     m.def("near", &near, "trees"_a, "x"_a, "limits"_a, "piece"_a, "weights"_a, "distances"_a, ReleaseGil(),
           "A point of the first tree for each of x (j, 3): one within the limit (j,), or the closest one.\n\n"
-          "Writes its piece (j,) int32, its barycentric weights (j, 3) and its distance (j,).");
+          "Writes its piece (j,) int32, its barycentric weights (j, 3) and its distance (j,). On entry, piece has\n"
+          "one that is near and shortens the search, or -1.");
     m.def("distances_from", &distances_from, "points"_a, "pieces"_a, "x"_a, "piece"_a, "weights"_a, "distances"_a,
           ReleaseGil(),
           "Write the distance (j,) of each of x (j, 3) from a point: that of piece (j,) int32 with barycentric\n"

@@ -98,7 +98,7 @@ Barycentric nearest(const Vector &u, const Vector &v, const Vector &p) {
     return edges[std::min_element(far, far + 3) - far];
 }
 
-// Replace `best` if piece `number` is closer to x.
+// Replace `best` if piece `number` is closer to x; of two that are as close, the first is best.
 void improve(ClosestPoint &best, Points points, const Piece &piece, std::int32_t number, const Point &x) {
     Vector a = vector(points[piece[0]]), u = vector(points[piece[1]]) - a, p = vector(x) - a, place;
     Barycentric weights;
@@ -114,19 +114,26 @@ void improve(ClosestPoint &best, Points points, const Piece &piece, std::int32_t
             if (weights[k] == 1) place = vector(points[piece[k]]);  // exactly
     }
     double far = square(place - vector(x));
-    if (far < best.square) best = {far, number, point(place), weights};
+    if (far < best.square || (far == best.square && number < best.piece)) best = {far, number, point(place), weights};
+}
+
+// Refuse pieces that do not exist; -1 is none.
+void expect_known(std::span<const std::int32_t> known, std::size_t pieces) {
+    auto count = static_cast<std::int32_t>(pieces);
+    for (std::int32_t piece : known) expect(piece < count, "piece: a number is out of range");
 }
 
 }  // namespace
 
-ClosestPoint BoxTrees::closest(const Point &x, std::int32_t root, double enough) const {
+ClosestPoint BoxTrees::closest(const Point &x, std::int32_t root, double enough, std::int32_t known) const {
     ClosestPoint best;
+    if (known >= 0) improve(best, points, pieces[known], known, x);
     std::pair<std::int32_t, double> waiting[DEEPEST];
     int size = 0;
     waiting[size++] = {root, square_to(boxes[root], x)};
     while (size && best.square > enough) {
         auto [at, square] = waiting[--size];
-        if (square >= best.square) continue;
+        if (square > best.square) continue;
         auto [link, count] = links[at];
         if (count) {
             for (std::int32_t i = link; i < link + count; ++i) improve(best, points, pieces[i], i, x);
@@ -175,8 +182,9 @@ void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std:
     expect(
         roots.size() == x.size() && piece.size() == x.size() && places.size() == x.size() && weights.size() == x.size(),
         "x, roots, piece, places and weights have different lengths: expected a row a point");
+    expect_known(piece, trees.pieces.size());
     parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
-        ClosestPoint found = trees.closest(x[i], roots[i], enough * enough);
+        ClosestPoint found = trees.closest(x[i], roots[i], enough * enough, piece[i]);
         piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
     });
 }
@@ -186,8 +194,9 @@ void near(const BoxTrees &trees, Points x, Numbers limits, std::span<std::int32_
     expect(limits.size() == x.size() && piece.size() == x.size() && weights.size() == x.size() &&
                distances.size() == x.size(),
            "x, limits, piece, weights and distances have different lengths: expected a row a point");
+    expect_known(piece, trees.pieces.size());
     parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
-        ClosestPoint found = trees.closest(x[i], 0, limits[i] * limits[i]);
+        ClosestPoint found = trees.closest(x[i], 0, limits[i] * limits[i], piece[i]);
         piece[i] = found.piece, weights[i] = found.weights, distances[i] = std::sqrt(found.square);
     });
 }
@@ -196,8 +205,7 @@ void distances_from(Points points, std::span<const Piece> pieces, Points x, Indi
                     std::span<const Barycentric> weights, std::span<double> distances) {
     expect(piece.size() == x.size() && weights.size() == x.size() && distances.size() == x.size(),
            "x, piece, weights and distances have different lengths: expected a row a point");
-    auto count = static_cast<std::int32_t>(pieces.size());
-    for (std::int32_t of : piece) expect(of < count, "piece: a number is out of range");
+    expect_known(piece, pieces.size());
     parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
         distances[i] = INF;
         if (piece[i] < 0) return;

@@ -33,8 +33,8 @@ struct BoxTrees {
     std::span<const TreeLink> links;
 
     // The point closest to x in the tree with that root, or any point at a squared distance of at most `enough`; none
-    // where x is not finite.
-    ClosestPoint closest(const Point &x, std::int32_t root, double enough = 0) const;
+    // where x is not finite. A known piece of the tree that is near shortens the search; -1 where there is none.
+    ClosestPoint closest(const Point &x, std::int32_t root, double enough = 0, std::int32_t known = -1) const;
 };
 
 // Build trees: returns the order of the pieces (k,), boxes (b, 6) and links (b, 2) of all trees, and the root of each.
@@ -44,12 +44,13 @@ std::tuple<IntArray, OwnedArray<double, 6>, OwnedArray<std::int32_t, 2>, IntArra
 // Update the boxes of trees after their points have moved.
 void refit(Points points, std::span<const Piece> pieces, std::span<const TreeLink> links, std::span<Box> boxes);
 
-// Write the piece, closest point and barycentric weights of each x; `enough` is a distance that counts as closest.
+// Write the piece, closest point and barycentric weights of each x; `enough` is a distance that counts as closest. On
+// entry `piece` has a piece of that tree that is near, or -1: it shortens the search.
 void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std::span<std::int32_t> piece,
              std::span<Point> places, std::span<Barycentric> weights);
 
 // Write a point of the first tree: one within the limit of each x, or the closest one: its piece, its barycentric
-// weights and its distance from x.
+// weights and its distance from x. On entry `piece` has a piece that is near, or -1.
 void near(const BoxTrees &trees, Points x, Numbers limits, std::span<std::int32_t> piece,
           std::span<Barycentric> weights, std::span<double> distances);
 

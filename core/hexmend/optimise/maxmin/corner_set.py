@@ -29,7 +29,7 @@ class MovableCorners:
     mesh : Mesh
     measure : CornerMeasure
     values : (m, 8) float64
-        Value of each corner, including those that cannot be moved.
+        Value of each corner, including those that cannot be moved; `set_values` changes them.
     frozen : (m, 8) bool
         Corners that could be moved, but whose nodes all stay.
     """
@@ -45,15 +45,17 @@ class MovableCorners:
         """Take over the fixed marks of a mesh with the same hexes."""
         self.mesh = mesh
         self._locked = fixed_tetrahedra(mesh.hexes, ~mesh.free)
+        self._find_active()
 
+    @property
     def active_values(self) -> np.ndarray:
-        """The values, +inf for corners that are frozen or cannot be moved, (m, 8) float64."""
-        return np.where(self._locked | self.frozen, np.inf, self.values)
+        """The values, +inf for corners that are frozen or cannot be moved, (m, 8) float64; not to be changed."""
+        return self._active
 
     @property
     def active_minimum(self) -> float:
         """The least of the active values; +inf where there is none."""
-        return float(self.active_values().min(initial=np.inf))
+        return float(self._least_of_hex.min(initial=np.inf))
 
     @property
     def movable_minimum(self) -> float:
@@ -73,10 +75,12 @@ class MovableCorners:
             self._stays = with_ties_fixed(self.mesh.linear_motion, self._stays)
         moves = self.mesh.free & ~self._stays
         self.frozen = ~moves[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2) & ~self._locked
+        self._find_active()
 
     def unfreeze(self) -> None:
         """Let all free nodes move again."""
         self.frozen[:] = self._stays[:] = False
+        self._find_active()
 
     def movable(self, nodes: np.ndarray) -> np.ndarray:
         """Select those of some nodes that are free and not frozen, with the nodes that move with them, (k,) int."""
@@ -110,4 +114,14 @@ class MovableCorners:
 
     def update(self, points: np.ndarray, hexes: np.ndarray) -> None:
         """Compute the values of some hexes (k,) at points (n, 3)."""
-        self.values[hexes] = self.measure.values(points, self.mesh.hexes[hexes])
+        self.set_values(hexes, self.measure.values(points, self.mesh.hexes[hexes]))
+
+    def set_values(self, hexes: np.ndarray, values: np.ndarray) -> None:
+        """Replace the values of some hexes (k,) by others (k, 8)."""
+        self.values[hexes] = values
+        active = np.where(self._locked[hexes] | self.frozen[hexes], np.inf, values)
+        self._active[hexes], self._least_of_hex[hexes] = active, active.min(axis=1, initial=np.inf)
+
+    def _find_active(self) -> None:
+        self._active = np.where(self._locked | self.frozen, np.inf, self.values)
+        self._least_of_hex = self._active.min(axis=1, initial=np.inf)

@@ -16,6 +16,8 @@ MOVE_COST = 0.05
 INITIAL_MARGIN = 0.3
 #: Violation from which on a model that was omitted is added.
 MAX_VIOLATION = 1e-7
+#: Coefficient from which on HiGHS refuses a row (its option large_matrix_value).
+MAX_COEFFICIENT = 1e15
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +106,8 @@ def solve(
     from hexmend.optimise.maxmin.simplex import GrowingProgram  # 10 ms that a command without such steps saves
 
     program = build_program(nodes, directions, constraints, radius, may_decrease)
+    if not np.abs(program.matrix.values).max(initial=0.0) < MAX_COEFFICIENT:
+        return None  # a node is so far away that no step can be found with the others
     limits, matrix, solver = program.limits, program.matrix, GrowingProgram(program.cost, program.lower, program.upper)
     taken, order = limits < INITIAL_MARGIN * radius, []
     added = np.flatnonzero(taken)

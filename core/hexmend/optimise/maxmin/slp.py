@@ -92,6 +92,8 @@ class MaxMinOptimiser:
         Their values at these points.
     envelope : Envelope
         The band in which the boundary stays.
+    programs : int
+        Number of linear programs that were solved.
     """
 
     def __init__(
@@ -104,7 +106,7 @@ class MaxMinOptimiser:
     ):
         self.config = config
         self.points, self.corners = points, MovableCorners(mesh, points, measure)
-        self.envelope = Envelope(mesh.n_nodes, sliding)
+        self.envelope, self.programs = Envelope(mesh.n_nodes, sliding), 0
         self._begin()
 
     @property
@@ -137,7 +139,7 @@ class MaxMinOptimiser:
         if self.corners.active_minimum > before[0]:
             self.points = points
         else:
-            self.corners.values[:] = before[1]
+            self.corners.set_values(np.arange(self.mesh.n_hexes), before[1])
 
     def move_to(self, points: np.ndarray) -> None:
         """Go on from other points (n, 3)."""
@@ -156,7 +158,7 @@ class MaxMinOptimiser:
         self._begin()
         gains = [np.inf] * config.window
         while self._radius > config.min_radius and self.corners.active_minimum < target:
-            values, least, radius = self.corners.active_values().ravel(), self.corners.active_minimum, self._radius
+            values, least, radius = self.corners.active_values.ravel(), self.corners.active_minimum, self._radius
             band = float(np.clip(config.active_band * radius, config.min_active_band, config.max_active_band))
             low = np.flatnonzero(values < least + band)
             whole = low.size <= self._max_corners
@@ -178,7 +180,7 @@ class MaxMinOptimiser:
     def return_to_band(self, max_deviation: float) -> Iterator[MaxMinStep]:
         """Bring the boundary nearer to the surface until it is in its band, with the least loss of the minimum.
 
-        Frozen corners are free again.
+        Where that takes too many steps, the loss no longer counts. Frozen corners are free again.
 
         Parameters
         ----------
@@ -188,19 +190,35 @@ class MaxMinOptimiser:
         config = self.config
         self._begin()
         self.corners.unfreeze()
+        careful, distances = True, list[float]()
         corners, envelope, edge = self.corners, self.envelope, self.mesh.mean_edge_length
-        allowed = max_deviation * (1 + config.return_tolerance)
+        allowed, share = max_deviation * (1 + config.return_tolerance), config.return_step
         while self._radius > config.min_radius and (far := envelope.largest_deviation(self.points)) > allowed:
+            distances.append(far)
+            if _too_slow(distances, max_deviation, config):
+                if not careful:
+                    break
+                careful, distances, self._radius = False, [], config.initial_radius
             radius = self._radius
-            envelope.limit_to(max(max_deviation, far - config.return_step * radius * edge))
-            near = corners.active_values().ravel() < corners.active_minimum + config.min_active_band
+            envelope.limit_to(max(max_deviation, far - share * radius * edge))
+            near = corners.active_values.ravel() < corners.active_minimum + config.min_active_band
             low = np.flatnonzero(near)[: self._max_corners]
             outside = envelope.nodes_outside_band(self.points)
-            _, points, moved = self._step(low, config.min_active_band, outside[self.mesh.free[outside]])
+            least = corners.active_minimum
+            promised, points, moved = self._step(low, config.min_active_band, outside[self.mesh.free[outside]])
+            if points is self.points and share > config.min_return_step:
+                share *= config.shrink  # edges at these nodes may be much shorter than others
+                continue
             if envelope.largest_deviation(points) > far - config.accept * (far - envelope.max_deviation):
                 self._radius *= config.shrink
                 continue
-            corners.update(points, corners.hexes_at(moved))
+            hexes = corners.hexes_at(moved)
+            before = corners.values[hexes]
+            corners.update(points, hexes)
+            if careful and corners.active_minimum < least + promised - config.return_loss:
+                corners.set_values(hexes, before)
+                self._radius *= config.shrink
+                continue
             envelope.track(self.points, points, moved)
             self.points, self._radius = points, min(config.grow * self._radius, config.max_radius)
             yield MaxMinStep(points, self.least, low.size, radius)
@@ -240,13 +258,14 @@ class MaxMinOptimiser:
 
         Returns the gain that it promises, all points with these nodes moved and projected, and the numbers of these.
         """
+        self.programs += 1
         corners, envelope, radius, least = self.corners, self.envelope, self._radius, self.corners.active_minimum
         nodes = corners.movable(np.unique(corners.nodes_of(low)))
         if outside is not None:
             nodes = np.union1d(nodes, outside)
         around = corners.hexes_at(nodes)
         near = (8 * around[:, None] + np.arange(8)).ravel()
-        near = near[corners.active_values().ravel()[near] - least < band + self.config.max_slope * radius]
+        near = near[corners.active_values.ravel()[near] - least < band + self.config.max_slope * radius]
         corner_nodes = corners.nodes_of(near)
         models = corners.measure.models(self.points, corner_nodes)
         size, motion = shortest_edges(self.points, self.mesh.hexes[around]), self.mesh.linear_motion
@@ -289,7 +308,7 @@ class MaxMinOptimiser:
         if share > config.accept:
             self.points = points
             return gain
-        corners.values[hexes] = before
+        corners.set_values(hexes, before)
         return 0.0
 
     def _active_corners(self) -> ActiveCorners:
@@ -297,3 +316,10 @@ class MaxMinOptimiser:
         order = np.argsort(-weights, kind="stable")
         order = order[weights[order] > self.config.min_multiplier]
         return ActiveCorners(self.corners.active_minimum, corners[order] // 8, corners[order] % 8)
+
+
+def _too_slow(distances: list[float], max_deviation: float, config: SLPConfig) -> bool:
+    """Return True if the distances from a band fall so slowly that it is not reached."""
+    if len(distances) <= config.return_window:
+        return False
+    return distances[-1] - max_deviation > config.return_pace * (distances[-1 - config.return_window] - max_deviation)

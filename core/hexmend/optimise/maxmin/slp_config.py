@@ -35,8 +35,13 @@ class SLPConfig:
         Value from which on a corner is sound, so that small gains are not worth their time.
     min_multiplier : float
         From which on a corner is active; the sum of all is 1.
-    return_step : float
-        By how many radii, in mean edge lengths, a boundary outside its band is brought nearer at a time.
+    return_step, min_return_step : float
+        By how many radii, in mean edge lengths, a boundary outside its band is brought nearer at a time: less where the
+        program has no solution, down to the second.
+    return_loss : float
+        By how much the least may be lower after such a step than its models say.
+    return_window, return_pace : int, float
+        Steps are too slow where so many programs have not brought the excess over the band below that share of it.
     return_tolerance, band_excess : float
         Shares of the band's width by which a boundary may exceed it: where the return to it ends, and where its result
         is judged, as the last steps may keep the band to rounding errors of the linear program only.
@@ -55,14 +60,18 @@ class SLPConfig:
     max_active_band: float = 0.1
     max_slope: float = 8.0
     initial_corners: int = 300
-    max_corners: int = 1_200
+    max_corners: int = 600
     no_gain: float = 1e-6
     window: int = 10
-    min_gain: float = 2e-5
+    min_gain: float = 2e-4
     min_gain_acceptable: float = 1e-3
     acceptable: float = 0.2
     min_multiplier: float = 1e-3
     return_step: float = 0.2
+    min_return_step: float = 0.005
+    return_loss: float = 0.01
+    return_window: int = 40
+    return_pace: float = 0.95
     return_tolerance: float = 1e-6
     band_excess: float = 1e-5
 

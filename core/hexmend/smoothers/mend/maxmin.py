@@ -41,12 +41,16 @@ class MaxMinConfig:
         Initial limit on the distance of released nodes from the surface, in mean edge lengths.
     off_surface_factor : float
         Multiple of `acceptable` at which the phase off the surface ends; the return to the band loses part of it.
+    returned_share : float
+        Share of the least so far that a boundary back in its band must have, to be raised further there.
     detours : int
         More times that nodes leave the band, at most, while the least is below `acceptable`.
-    detour_factor : float
-        Width of the band in such a detour, as a multiple.
-    detour_iterations : int
-        Iterations of the run outside the band, at most.
+    detour_factors : tuple of float
+        Width of the band in such a detour, as a multiple: the next one where a detour has brought nothing.
+    target_growth : float
+        Factor of the least at which a detour ends, with the next width.
+    detour_programs, programs_between : int
+        Linear programs outside the band, at most, and within it before the next detour.
     trial_iterations : int
         Iterations from the more promising of two starts, before the better of them goes on alone.
     untangling_iterations : int
@@ -63,9 +67,12 @@ class MaxMinConfig:
     worth_widening: float = 0.05
     off_surface_limit: float = 1.5
     off_surface_factor: float = 1.2
-    detours: int = 2
-    detour_factor: float = 2.0
-    detour_iterations: int = 30
+    returned_share: float = 0.5
+    detours: int = 8
+    detour_factors: tuple[float, ...] = (2.0, 3.0, 4.0)
+    target_growth: float = 1.3
+    detour_programs: int = 90
+    programs_between: int = 60
     trial_iterations: int = 10
     untangling_iterations: int = 10
 
@@ -82,8 +89,9 @@ def maximise_minimum(
     groups: int = 1,
     infeasible: bool = False,
     give_up_below: float = -np.inf,
+    max_programs: float = np.inf,
     config: MaxMinConfig = MAXMIN,
-) -> Generator[Step, None, ActiveCorners]:
+) -> Generator[Step, None, ActiveCorners | None]:
     """Raise the least value of the corners that can be moved; groups after the first take as many programs, at most.
 
     Parameters
@@ -99,6 +107,8 @@ def maximise_minimum(
         Of the steps: see `Step`.
     give_up_below : float
         Ends where a group is stuck below it.
+    max_programs : float
+        Linear programs, at most.
     config : MaxMinConfig
 
     Yields
@@ -108,18 +118,17 @@ def maximise_minimum(
 
     Returns
     -------
-    ActiveCorners
-        The first group that was stuck: it limits the least of all.
+    ActiveCorners or None
+        The first group that was stuck: it limits the least of all. None if none was after `max_programs`.
     """
     yield Step(optimiser.points, {"least": optimiser.least}, intermediate=True, infeasible=infeasible)
-    first, programs, limit = None, 0, np.inf
+    first, begin, limit = None, optimiser.programs, max_programs
     while True:
         for number, step in enumerate(optimiser.steps(target)):
             active = step if isinstance(step, ActiveCorners) else None
             if active is None and number % config.programs_per_iteration == 0:
                 yield step.step(infeasible)
-            programs += active is None
-            if first and programs > limit:
+            if optimiser.programs - begin > limit:
                 return first
         if not active.hexes.size or active.least >= target:
             break
@@ -128,7 +137,7 @@ def maximise_minimum(
         if active.least < give_up_below:
             break
         if first is None:
-            first, limit = active, 2 * programs
+            first, limit = active, min(limit, 2 * (optimiser.programs - begin))
         groups -= 1
         if active.least >= config.acceptable or not groups:
             break

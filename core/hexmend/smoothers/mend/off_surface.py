@@ -6,21 +6,30 @@ from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
+import numpy as np
+
 from hexmend.iteration import Step
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.smoothers.mend.maxmin import MAXMIN, MaxMinConfig, maximise_minimum
+from hexmend.smoothers.mend.release import infeasible
 
 
 @dataclass(frozen=True, eq=False)
 class MaxMinResult:
-    """Result of raising the least scaled Jacobian: the optimiser at its end, and the corners that limit it."""
+    """Result of raising the least scaled Jacobian: the optimiser, and the corners that limit it.
+
+    None are named where it was not raised as far as it goes.
+    """
 
     optimiser: MaxMinOptimiser
-    active: ActiveCorners
+    active: ActiveCorners | None
 
 
 def raise_within_tolerance(
-    optimiser: MaxMinOptimiser, max_deviation: float, config: MaxMinConfig = MAXMIN
+    optimiser: MaxMinOptimiser,
+    max_deviation: float,
+    max_programs: float = np.inf,
+    config: MaxMinConfig = MAXMIN,
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least of a mesh of which some nodes have left the surface already.
 
@@ -31,6 +40,8 @@ def raise_within_tolerance(
     max_deviation : float
         Distance from the surface that the boundary may have, in the mesh's unit of length; where it is further away,
         that distance.
+    max_programs : float
+        Linear programs, at most.
     config : MaxMinConfig
 
     Yields
@@ -45,7 +56,11 @@ def raise_within_tolerance(
     envelope.limit_to(max(max_deviation, envelope.largest_deviation(optimiser.points)))
     with envelope.relaxed(envelope.max_deviation):  # quads at released nodes may go round an edge of the surface
         active = yield from maximise_minimum(
-            optimiser, release_below=config.acceptable, groups=config.max_groups, config=config
+            optimiser,
+            release_below=config.acceptable,
+            groups=config.max_groups,
+            max_programs=max_programs,
+            config=config,
         )
     return MaxMinResult(optimiser, active)
 
@@ -85,8 +100,9 @@ def improve_off_surface(
     MaxMinResult
         The better one: this, if it is back in a band, or `on_surface`.
     """
-    far = config.off_surface_limit * optimiser.mesh.mean_edge_length
-    result = yield from _detour(optimiser, limits, far, on_surface, config)
+    far, factors = config.off_surface_limit * optimiser.mesh.mean_edge_length, iter(config.detour_factors)
+    target = config.off_surface_factor * config.acceptable
+    result, factor = (yield from _detour(optimiser, limits, far, target, on_surface, config)), next(factors)
     for _ in range(config.detours):
         least = result.optimiser.corners.movable_minimum
         if least >= wanted:
@@ -95,43 +111,62 @@ def improve_off_surface(
         limit = fork.envelope.max_deviation
         if result is on_surface:
             limit = limits[-1] if least > 0 else limits[0]
-        detour = _detour(fork, [limit], config.detour_factor * limit, result, config, config.detour_iterations)
-        result = yield from detour
+        result = yield from _detour(fork, [limit], factor * limit, target, result, config, config.detour_programs)
         if result.optimiser.corners.movable_minimum - least < config.worth_widening * max(least, 0.1):
-            break
+            factor, target = next(factors, None), config.target_growth * target
+            if factor is None:
+                break
     if result is on_surface:
         least = result.optimiser.corners.movable_minimum
         yield Step(result.optimiser.points, {"least": least}, intermediate=True)
-    return result
+    return (yield from raise_to_the_end(result, config))
+
+
+def raise_to_the_end(result: MaxMinResult, config: MaxMinConfig = MAXMIN) -> Generator[Step, None, MaxMinResult]:
+    """Raise the least as far as it goes within the band that the optimiser has, if that was not done."""
+    if result.active is not None:
+        return result
+    optimiser = result.optimiser
+    return (yield from raise_within_tolerance(optimiser, optimiser.envelope.max_deviation, config=config))
 
 
 def _detour(
     optimiser: MaxMinOptimiser,
     limits: Sequence[float],
     far: float,
+    target: float,
     reached: MaxMinResult,
     config: MaxMinConfig,
-    iterations: int | None = None,
+    max_programs: float = np.inf,
 ) -> Generator[Step, None, MaxMinResult]:
-    """Raise the least in a band as wide as `far`, and return to one of the limits; `reached` if that is no gain."""
+    """Raise the least to a target in a band as wide as `far`, and return to a limit; `reached` if that is no gain."""
     envelope, least_before = optimiser.envelope, reached.optimiser.corners.movable_minimum
-    target, groups, within = config.off_surface_factor * config.acceptable, config.max_groups_off_surface, None
+    groups, within = config.max_groups_off_surface, None
     envelope.limit_to(limits[-1])
-    enough = 0.0 if least_before <= 0 else config.acceptable
+    enough, share = 0.0 if least_before <= 0 else config.acceptable, config.returned_share
     with envelope.relaxed(far):
-        rising = maximise_minimum(optimiser, target, config.acceptable, groups, True, least_before, config)
-        yield from islice(rising, iterations)
+        yield from maximise_minimum(
+            optimiser, target, config.acceptable, groups, True, least_before, max_programs, config
+        )
         for limit in reversed(limits):
             for step in islice(optimiser.return_to_band(limit), 0, None, config.programs_per_iteration):
                 yield step.step(infeasible=True)
             least = optimiser.corners.movable_minimum
-            if not _is_within(optimiser, limit) or least < least_before or (within and not least > enough):
+            lowest = max(least_before, enough) if within else least_before - (1 - share) * abs(least_before)
+            if not _is_within(optimiser, limit) or least < lowest:
                 break
             within = limit, optimiser.points
     if within is None:
         return reached
     optimiser.move_to(within[1])
-    return (yield from raise_within_tolerance(optimiser, within[0], config))
+    rising = raise_within_tolerance(optimiser, within[0], config.programs_between, config)
+    if not optimiser.corners.movable_minimum < least_before:
+        return (yield from rising)
+    result = yield from infeasible(rising, every=1)  # until it is higher than what is reached
+    if not optimiser.corners.movable_minimum > least_before:
+        return reached
+    yield Step(optimiser.points, {"least": optimiser.corners.movable_minimum}, intermediate=True)
+    return result
 
 
 def _is_within(optimiser: MaxMinOptimiser, limit: float) -> bool:

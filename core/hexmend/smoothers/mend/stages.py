@@ -24,7 +24,12 @@ from hexmend.smoothers.mend.maxmin import MAXMIN, NO_CORNERS, active_set, maximi
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
-from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface, raise_within_tolerance
+from hexmend.smoothers.mend.off_surface import (
+    MaxMinResult,
+    improve_off_surface,
+    raise_to_the_end,
+    raise_within_tolerance,
+)
 from hexmend.smoothers.mend.release import RELEASE, T, infeasible, untangle_released
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
 from hexmend.smoothers.mend.starts import raise_from_better
@@ -232,8 +237,10 @@ class Stages:
         optimiser.release_nodes(released)
         if not self.settings.maximises_jacobian and optimiser.corners.active_minimum >= MAXMIN.barrier_safe:
             return MaxMinResult(optimiser, NO_CORNERS)
-        result = yield from raise_within_tolerance(optimiser, limit)
-        return (yield from raise_within_tolerance(optimiser, tolerance)) if limit < tolerance else result
+        result = yield from raise_within_tolerance(optimiser, limit, MAXMIN.programs_between)
+        if not limit < tolerance:
+            return result
+        return (yield from raise_within_tolerance(optimiser, tolerance, MAXMIN.programs_between))
 
     def _limits(self, mesh: Mesh) -> list[float]:
         """Distances from the surface that the boundary may have where hexes are inverted, ascending."""
@@ -254,8 +261,10 @@ class Stages:
         """Let nodes leave the surface, from points `start` (n, 3) on, where the result on it is low."""
         tolerance, wanted = self._off_surface_tolerance(sliding.mesh), MAXMIN.acceptable
         wanted = wanted if self.settings.maximises_jacobian else min(wanted, MAXMIN.barrier_safe)
-        if result is None or not tolerance > 0 or result.optimiser.corners.movable_minimum >= wanted:
-            return result
+        if result is None:
+            return None
+        if not tolerance > 0 or result.optimiser.corners.movable_minimum >= wanted:
+            return (yield from raise_to_the_end(result))
         optimiser = MaxMinOptimiser(sliding.mesh, start, sliding)
         inverted = measure(result.optimiser.points, sliding.mesh.hexes).n_inverted > 0
         limits = self._limits(sliding.mesh) if inverted else [self._bands(sliding.mesh)[-1], tolerance]

@@ -16,7 +16,7 @@ def test_fixed_corners_are_not_raised():
     mesh = scrambled(grid(3), 0.4, 1)
     corners = MovableCorners(mesh, mesh.points)
     values = scaled_jacobians(mesh.points, mesh.hexes)
-    np.testing.assert_array_equal(np.isfinite(corners.active_values()), movable(mesh))
+    np.testing.assert_array_equal(np.isfinite(corners.active_values), movable(mesh))
     assert corners.active_minimum == corners.movable_minimum == values[movable(mesh)].min()
     locked = corners.locked_below(np.inf)
     assert sorted(locked) == sorted(np.flatnonzero(~movable(mesh)))
@@ -58,7 +58,7 @@ def test_a_node_that_is_freed_makes_its_corners_movable():
     freed = mesh.with_fixed(np.zeros(mesh.n_nodes, dtype=bool))
     corners.set_mesh(freed)
     assert corners.mesh is freed
-    assert np.isfinite(corners.active_values()).all()
+    assert np.isfinite(corners.active_values).all()
 
 
 def test_corners_are_of_one_group_where_they_share_free_nodes():

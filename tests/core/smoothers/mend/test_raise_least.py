@@ -20,10 +20,12 @@ class StandIn:
         self.points, self.least = np.zeros((8, 3)), -1.0
         self._limits, self._steps, self._releases = iter(limits), steps, releases
         self.asked, self.frozen, self.released = [], [], []
+        self.programs = 0
 
     def steps(self, aim):
         self.asked.append(aim)
         for number in range(self._steps):
+            self.programs += 1
             yield MaxMinStep(self.points, float(number), 5, 0.1)
         yield next(self._limits)
 
