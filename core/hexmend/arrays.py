@@ -72,6 +72,48 @@ def largest_norm(vectors: np.ndarray) -> float:
     return float(np.sqrt(np.square(vectors).sum(axis=1).max()))
 
 
+def row_norms(vectors: np.ndarray) -> np.ndarray:
+    """Compute the norms of vectors (k, 3), (k,); several times as fast as NumPy's for so short rows.
+
+    >>> row_norms(np.array([[3.0, 4.0, 0.0], [0.0, 0.0, 1.0]])).tolist()
+    [5.0, 1.0]
+    """
+    return np.sqrt(np.einsum("ki,ki->k", vectors, vectors))
+
+
+def any_of_rows(marks: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Mark rows (k, w) of numbers of which one at least is marked in `marks` (n,) bool, (k,) bool; see `row_norms`.
+
+    >>> any_of_rows(np.array([True, False, False]), np.array([[1, 2], [2, 0]])).tolist()
+    [False, True]
+    """
+    found = marks[rows[:, 0]]
+    for column in range(1, rows.shape[1]):
+        found |= marks[rows[:, column]]
+    return found
+
+
+def largest_of_rows(values: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Find the largest of `values` (n,) among the numbers of each row (k, w), (k,); see `row_norms`.
+
+    >>> largest_of_rows(np.array([3.0, 1.0, 2.0]), np.array([[1, 2], [2, 0]])).tolist()
+    [2.0, 3.0]
+    """
+    largest = values[rows[:, 0]]
+    for column in range(1, rows.shape[1]):
+        np.maximum(largest, values[rows[:, column]], out=largest)
+    return largest
+
+
+def differing_rows(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Mark rows (k, 3) that differ, (k,) bool; see `row_norms`.
+
+    >>> differing_rows(np.zeros((2, 3)), np.array([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]])).tolist()
+    [False, True]
+    """
+    return (a[:, 0] != b[:, 0]) | (a[:, 1] != b[:, 1]) | (a[:, 2] != b[:, 2])
+
+
 def mask(numbers: np.ndarray, n: int) -> np.ndarray:
     """Mark some of the numbers below n, (n,) bool.
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.arrays import mask
+from hexmend.arrays import any_of_rows, mask, row_norms
 from hexmend.boundary.closest_point import NearPoints, means
 from hexmend.boundary.comparison import SkinSurface
 
@@ -109,7 +109,7 @@ class Band:
 
     def samples_at(self, nodes: np.ndarray) -> np.ndarray:
         """Find the samples of `samples` that move with some nodes (j,), as (k,) int64."""
-        return np.flatnonzero(mask(nodes, len(self.points))[self.samples].any(axis=1))
+        return np.flatnonzero(any_of_rows(mask(nodes, len(self.points)), self.samples))
 
     def boundary_deviation(
         self, points: np.ndarray, indices: np.ndarray, limit: float | np.ndarray = 0.0
@@ -134,11 +134,11 @@ class Band:
             far = self.target.beyond(means(points, self.samples[indices]), self._near_target, limit, indices)
         else:
             # A sample cannot be further away than it was at first plus its own move: no search for the others.
-            moved = np.linalg.norm((points - self._start)[self.samples[indices]].mean(axis=1), axis=1)
+            moved = row_norms(means(points - self._start, self.samples[indices]))
             far = self._initial_boundary_deviation[indices] + moved > np.maximum(limit, 0.0)
         indices, limit = indices[far], limit[far]
         nodes = self.samples[indices]
-        x = points[nodes].mean(axis=1)
+        x = means(points, nodes)
         closest = self.target.closest(x, max(float(limit.min(initial=np.inf)), 0.0), self._near_target.pieces[indices])
         return _deviations_above(limit, indices, x, closest, nodes, np.full(nodes.shape, 0.25))
 
@@ -169,7 +169,7 @@ class Band:
             far = self.skin.beyond(self._target_samples[samples], self._near_boundary, limit, indices, points)
         else:
             moved = np.einsum("sk,ski->si", weights[samples], (points - self._start)[nodes[samples]])
-            far = initial[samples] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
+            far = initial[samples] + row_norms(moved) > np.maximum(limit, 0.0)
         indices, limit = indices[far], limit[far]
         if not indices.size:
             return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
@@ -200,7 +200,7 @@ class Band:
         if not np.isfinite(self.max_deviation):
             return NO_NODES
         initial, nodes, _ = self.initial_surface_deviation
-        own = None if changed is None else np.flatnonzero(changed[self.samples].any(axis=1))
+        own = None if changed is None else np.flatnonzero(any_of_rows(changed, self.samples))
         samples = self.samples if own is None else self.samples[own]
         limits = self._allowed(
             self._initial_boundary_deviation if own is None else self._initial_boundary_deviation[own]
@@ -252,7 +252,8 @@ def _deviations_above(
     limit: np.ndarray, indices: np.ndarray, x: np.ndarray, closest: np.ndarray, nodes: np.ndarray, weights: np.ndarray
 ) -> Deviations:
     """Deviations of the samples x (k, 3) whose distance from the closest points (k, 3) exceeds a limit (k,)."""
-    distances = np.linalg.norm(x - closest, axis=1)
+    away = x - closest
+    distances = row_norms(away)
     out = distances > limit
-    directions = (x - closest)[out] / np.maximum(distances[out], np.finfo(float).tiny)[:, None]
+    directions = away[out] / np.maximum(distances[out], np.finfo(float).tiny)[:, None]
     return Deviations(indices[out], distances[out], directions, nodes[out], weights[out])

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.aliases import reads_old_names
-from hexmend.arrays import index_of, mask
+from hexmend.arrays import differing_rows, index_of, mask
 from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import NodeClass, classify
 from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints, triangulate
@@ -364,7 +364,7 @@ def _undone(before: np.ndarray, after: np.ndarray, rejected: Callable[[np.ndarra
     """Move rejected nodes back to their positions before a step, until none of those that have moved is rejected."""
     while True:
         nodes = rejected(after)
-        nodes = nodes[(after[nodes] != before[nodes]).any(axis=1)]
+        nodes = nodes[differing_rows(after[nodes], before[nodes])]
         if not nodes.size:
             return after
         after = after.copy()

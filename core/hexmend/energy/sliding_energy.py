@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import mask
+from hexmend.arrays import differing_rows, mask, row_norms
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
@@ -69,7 +69,7 @@ class SlidingEnergy(MeshEnergy):
         if known is None:
             places = self.sliding.project(aims * self.unit, nodes) / self.unit
         else:
-            places, new = known[1].copy(), np.flatnonzero((aims != known[0]).any(axis=1))
+            places, new = known[1].copy(), np.flatnonzero(differing_rows(aims, known[0]))
             places[new] = self.sliding.project(aims[new] * self.unit, nodes[new]) / self.unit
         self._projected = aims, places
         return places
@@ -82,7 +82,7 @@ class SlidingEnergy(MeshEnergy):
         """
         gradient = super().gradient(x, delta)
         rows, nodes, unit = self._rows, self.sliding_nodes, self.unit
-        size = np.linalg.norm(step[rows], axis=1)
+        size = row_norms(step[rows])
         lengths = 1.0 if self.node_lengths is None else np.minimum(self.node_lengths[rows], 1.0)
         far = _PROBE_LENGTH * lengths / np.maximum(size, np.finfo(float).tiny)[:, None]
         aims = (x[nodes] + far * step[rows]) * unit
@@ -99,7 +99,7 @@ class SlidingEnergy(MeshEnergy):
         self, x: np.ndarray, there: np.ndarray, changed: np.ndarray | None = None
     ) -> np.ndarray | None:
         nodes = self.sliding.rejected_nodes(x * self.unit, there * self.unit, changed)
-        nodes = nodes[(x[nodes] != there[nodes]).any(axis=1)]
+        nodes = nodes[differing_rows(x[nodes], there[nodes])]
         return mask(nodes, len(x)) if nodes.size else None
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.arrays import euclidean_norm
+from hexmend.arrays import differing_rows, euclidean_norm
 from hexmend.energy import MeshEnergy
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten
@@ -190,7 +190,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
     moved = None
     for _ in range(DESCENT.halvings):
         before, moved = moved, energy.moved(x, share[energy.nodes, None] * step)
-        changed = None if before is None else (before != moved).any(axis=1)
+        changed = None if before is None else differing_rows(before, moved)
         worsened = ~(energy.hex_energies(moved, delta) + energy.barriers(moved) <= limit)
         infeasible = energy.infeasible_nodes(x, moved, changed)
         halved = np.zeros(len(x), dtype=bool) if infeasible is None else infeasible.copy()

@@ -103,6 +103,47 @@ void corner_qualities(Points points, Hexes hexes, ArrayView<double, 8> q) {
     });
 }
 
+void corner_jacobians(Points points, Hexes hexes, ArrayView<double, 8> jacobians) {
+    expect(jacobians.size() == hexes.size(), "jacobians: a row of each of the hexes is expected");
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gather_corners<Lanes>(points, hexes, first, count);
+        EdgeLengths edges(x);
+        unroll<8>([&](auto t) {
+            constexpr auto &e = AT_APEX[t];
+            Lanes size = edges.lengths[e[0]] * edges.lengths[e[1]] * edges.lengths[e[2]];
+            Lanes value = size > 0.0 ? determinant(x.template edges<t>()) / size : broadcast<Lanes>(-1.0);
+            for (int i = 0; i < count; ++i) jacobians[first + i][t] = value[i];
+        });
+    });
+}
+
+void jacobian_gradients(Points points, ArrayView<const Node, 4> corners, std::span<double> jacobians,
+                        ArrayView<double, 12> derivatives) {
+    expect(jacobians.size() == corners.size() && derivatives.size() == corners.size(),
+           "jacobians and derivatives: a row of each of the corners is expected");
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        auto at = [&](int k) { return vector(points[corners[i][k]]); };
+        V3<double> apex = at(0);
+        M3<double> s{at(1) - apex, at(2) - apex, at(3) - apex};
+        double size = length(s.u) * length(s.v) * length(s.w);
+        auto &out = derivatives[i];
+        if (!(size > 0)) {
+            jacobians[i] = -1, out.fill(0);
+            continue;
+        }
+        double value = jacobians[i] = determinant(s) / size;
+        M3<double> across = cofactors(s);
+        V3<double> total;  // ds/du = (v x w)/(|u||v||w|) - s u/|u|^2, and so on round; of the apex minus their sum
+        const V3<double> *edges[] = {&s.u, &s.v, &s.w}, *areas[] = {&across.u, &across.v, &across.w};
+        for (int k = 0; k < 3; ++k) {
+            V3<double> by_edge = (1 / size) * *areas[k] - (value / square(*edges[k])) * *edges[k];
+            total += by_edge;
+            out[3 * k + 3] = by_edge.x, out[3 * k + 4] = by_edge.y, out[3 * k + 5] = by_edge.z;
+        }
+        out[0] = -total.x, out[1] = -total.y, out[2] = -total.z;
+    }
+}
+
 double mean_edge_length(Points points, Hexes hexes) {
     std::vector<double> totals((hexes.size() + HEXES_PER_CHUNK - 1) / HEXES_PER_CHUNK);
     parallel_chunks(hexes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {

@@ -6,7 +6,7 @@ import copy
 
 import numpy as np
 
-from hexmend.arrays import mask
+from hexmend.arrays import any_of_rows, largest_of_rows, mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.optimise.maxmin.linear_program import LinearConstraints, lower_bounds
 
@@ -39,7 +39,7 @@ class DeviationTracker:
         other.points = points
         other.distances, other._away = self.distances.copy(), self._away.copy()
         touched = mask(nodes, len(points))
-        other._update(np.flatnonzero(touched[self._nodes].any(axis=1)))
+        other._update(np.flatnonzero(any_of_rows(touched, self._nodes)))
         return other
 
     def exceeds(self, before: DeviationTracker, nodes: np.ndarray, max_deviation: float) -> bool:
@@ -59,12 +59,12 @@ class DeviationTracker:
         sliding = self.sliding
         which = sliding.samples_at(np.flatnonzero(moves))
         beyond = sliding.boundary_deviation(
-            self.points, which, max_deviation - moves[sliding.samples[which]].max(axis=1, initial=0.0)
+            self.points, which, max_deviation - largest_of_rows(moves, sliding.samples[which])
         )
         models = lower_bounds(
             beyond.nodes, max_deviation - beyond.distances, -beyond.weights[:, :, None] * beyond.directions[:, None]
         )
-        reach = moves[self._nodes].max(axis=1, initial=0.0)
+        reach = largest_of_rows(moves, self._nodes)
         near = np.flatnonzero((reach > 0) & (self.distances > 0) & (self.distances + reach > max_deviation))
         slopes = self._weights[near, :, None] * self._away[near, None]
         return models.concatenate(lower_bounds(self._nodes[near], max_deviation - self.distances[near], slopes))

@@ -106,11 +106,14 @@ class Envelope:
         """Follow a move of nodes (k,) from `before` to `points`, faster than by finding all distances anew."""
         self._tracker = self._track(before).after_move(points, nodes)
 
-    def largest_deviation(self, points: np.ndarray) -> float:
-        """The larger of the distances of the boundary at points (n, 3) from the surface, and of the surface from it."""
+    def largest_deviation(self, points: np.ndarray, above: float = 0.0) -> float:
+        """The larger of the distances of the boundary at points (n, 3) from the surface, and of the surface from it.
+
+        0 if that is no larger than `above`, which is found without a search for most places.
+        """
         if self.sliding is None:
             return 0.0
-        return max(float(places.distances.max(initial=0.0)) for places in self._deviations(points, 0.0))
+        return max(float(places.distances.max(initial=0.0)) for places in self._deviations(points, above))
 
     def nodes_outside_band(self, points: np.ndarray) -> np.ndarray:
         """Nodes at which the boundary at points (n, 3) is outside its band, ascending, (k,) int."""

@@ -193,7 +193,7 @@ class MaxMinOptimiser:
         careful, distances = True, list[float]()
         corners, envelope, edge = self.corners, self.envelope, self.mesh.mean_edge_length
         allowed, share = max_deviation * (1 + config.return_tolerance), config.return_step
-        while self._radius > config.min_radius and (far := envelope.largest_deviation(self.points)) > allowed:
+        while self._radius > config.min_radius and (far := envelope.largest_deviation(self.points, allowed)) > allowed:
             distances.append(far)
             if _too_slow(distances, max_deviation, config):
                 if not careful:
@@ -209,7 +209,7 @@ class MaxMinOptimiser:
             if points is self.points and share > config.min_return_step:
                 share *= config.shrink  # edges at these nodes may be much shorter than others
                 continue
-            if envelope.largest_deviation(points) > far - config.accept * (far - envelope.max_deviation):
+            if envelope.largest_deviation(points, allowed) > far - config.accept * (far - envelope.max_deviation):
                 self._radius *= config.shrink
                 continue
             hexes = corners.hexes_at(moved)

@@ -53,7 +53,7 @@ def raise_within_tolerance(
     MaxMinResult
     """
     envelope = optimiser.envelope
-    envelope.limit_to(max(max_deviation, envelope.largest_deviation(optimiser.points)))
+    envelope.limit_to(max(max_deviation, envelope.largest_deviation(optimiser.points, max_deviation)))
     with envelope.relaxed(envelope.max_deviation):  # quads at released nodes may go round an edge of the surface
         active = yield from maximise_minimum(
             optimiser,
@@ -176,4 +176,5 @@ def _is_within(optimiser: MaxMinOptimiser, limit: float) -> bool:
     turned = sliding.boundary.faces[sliding.flipped_quads(sliding.points, points)]
     if not envelope.released[turned].any(axis=1).all():
         return False
-    return envelope.largest_deviation(points) <= limit * (1 + optimiser.config.band_excess)
+    allowed = limit * (1 + optimiser.config.band_excess)
+    return envelope.largest_deviation(points, allowed) <= allowed
