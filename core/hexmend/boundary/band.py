@@ -8,12 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.arrays import any_of_rows, mask, row_norms
+from hexmend.arrays import any_of_rows, differing_rows, mask, row_norms
 from hexmend.boundary.closest_point import NearPoints, means
 from hexmend.boundary.comparison import SkinSurface
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
 _ROUNDING = 1e-9
+#: Distance of samples of a surface of its own, in mean edge lengths of the boundary, if it has more.
+_SAMPLE_DISTANCE = 0.5
 NO_NODES = np.empty(0, dtype=np.int64)
 
 
@@ -229,7 +231,15 @@ class Band:
 
     @cached_property
     def _target_samples(self) -> np.ndarray:
-        return self._start[self.samples].mean(axis=1) if self._given is None else self._given.samples()
+        """Samples of the surface, (s, 3): those of a finer one are thinned, as the boundary cannot follow its details.
+
+        In each cell of a lattice the sample that is furthest from the boundary at first is kept.
+        """
+        if self._given is None:
+            return means(self._start, self.samples)
+        x, start = self._given.samples(), self.skin.with_points(self._start)
+        cell = _SAMPLE_DISTANCE * float(row_norms(np.diff(self._start[self.skin.edges.nodes], axis=1)[:, 0]).mean())
+        return x[furthest_in_cells(x, start.distances(x), cell)] if cell > 0 else x
 
     @cached_property
     def _initial_boundary_deviation(self) -> np.ndarray:
@@ -246,6 +256,33 @@ class Band:
         x = self._target_samples
         closest, nodes, weights = self.skin.with_points(self._start).closest_on(x, near=self._near_boundary)
         return InitialDistances(np.linalg.norm(x - closest, axis=1), nodes, weights)
+
+
+def furthest_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.ndarray:
+    """Find the point with the largest distance in each cell of a cubic lattice.
+
+    Parameters
+    ----------
+    x : (k, 3) float64
+    distances : (k,) float64
+    cell : float
+        Edge of a cell.
+
+    Returns
+    -------
+    (j,) int64
+        Numbers of these points, ascending.
+
+    Examples
+    --------
+    >>> furthest_in_cells(np.array([[0.1, 0, 0], [0.2, 0, 0], [1.5, 0, 0]]), np.array([1.0, 2.0, 0.0]), 1.0).tolist()
+    [1, 2]
+    """
+    place = np.floor((x - x.min(axis=0, initial=np.inf)) / cell)
+    order = np.lexsort((-distances, *place.T))
+    first = np.ones(order.size, dtype=bool)
+    first[1:] = differing_rows(place[order[1:]], place[order[:-1]])
+    return np.sort(order[first])
 
 
 def _deviations_above(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from hexmend.arrays import differing_rows, index_of, mask
 from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import NodeClass, classify
 from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints, triangulate
-from hexmend.boundary.comparison import MAX_TARGET_DISTANCE
+from hexmend.boundary.comparison import MAX_TARGET_DISTANCE, SkinSurface
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges, ridges
@@ -89,7 +89,7 @@ class SlidingBoundary(Band):
         if target is None:
             self.surface = PartitionedSurface(start, self.boundary)
         else:
-            given = PartitionedSurface(target.points, classify(target.points, target.faces, feature_angle))
+            given = _partitioned(target, feature_angle)
             self.surface = given.attached(start, self.boundary, MAX_TARGET_DISTANCE * mesh.mean_edge_length)
         self.node_class = self.surface.node_class
         moves_with = moving_with_surface(mesh, whole.faces)
@@ -219,7 +219,8 @@ class SlidingBoundary(Band):
         quads_at = order[np.searchsorted(at[order], 0) :].astype(np.int32)
         start = np.searchsorted(at[quads_at], np.arange(self.nodes.size + 1)).astype(np.int32)
         quads = kernels.BoundaryQuads(start, quads_at, faces, self.outward)
-        return kernels.SlidingSurface(self._number, trees.roots[self._group], trees.box_trees, quads)
+        known = np.full(self.nodes.size, -1, dtype=np.int32)
+        return kernels.SlidingSurface(self._number, trees.roots[self._group], trees.box_trees, quads, known)
 
     @cached_property
     def curved_nodes(self) -> np.ndarray:
@@ -358,6 +359,12 @@ class SlidingBoundary(Band):
                 f"node {node} cannot slide: no place of the surface is closest to {x[row].tolist()}; expected finite "
                 f"coordinates below {MAX_CLOSEST_COORDINATE:g}. Correct its place, or pin it."
             ) from None
+
+
+@lru_cache(maxsize=2)
+def _partitioned(target: SkinSurface, feature_angle: FeatureAngle) -> PartitionedSurface:
+    """Curves and patches of a surface; kept, as a run and its report need those of a large one more than once."""
+    return PartitionedSurface(target.points, classify(target.points, target.faces, feature_angle))
 
 
 def _undone(before: np.ndarray, after: np.ndarray, rejected: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from functools import cached_property
 
 import numpy as np
 
@@ -60,6 +61,12 @@ class PartitionedSurface:
         smooth = vertex_normals(vertices, triangles, patch), curve_tangents(points, boundary)[:, [0, 1, 1]]
         self._flat, self._smooth = (np.concatenate(both)[self.trees.order] for both in (flat, smooth))
         self._group = group[self.trees.order]
+
+    @cached_property
+    def _patches_and_curves(self) -> ClosestPointTrees:
+        """Trees of all patches, group 0, and of all curves, group 1."""
+        curve = self._group >= self.n_patches
+        return ClosestPointTrees(self.trees.points, self.trees.pieces, curve.astype(np.int32))
 
     def group_of(self, nodes: np.ndarray) -> np.ndarray:
         """Return the group of `trees` on which each of some nodes slides.
@@ -126,8 +133,7 @@ class PartitionedSurface:
         Surface
         """
         node_class, part = boundary.node_class.copy(), np.full(len(boundary.node_class), -1, dtype=np.int32)
-        curve = self._group >= self.n_patches
-        nearest = ClosestPointTrees(self.trees.points, self.trees.pieces, curve.astype(np.int32))
+        nearest = self._patches_and_curves
         if not self.n_curves:
             node_class[node_class == NodeClass.CURVE] = NodeClass.PATCH
         steps = (NodeClass.CURVE, NodeClass.PATCH, reach / 4), (NodeClass.PATCH, NodeClass.CORNER, reach)

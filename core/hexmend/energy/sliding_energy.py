@@ -15,6 +15,9 @@ from hexmend.kernels import conjugate_gradients
 
 #: Length of the probing step for directional derivatives, in mean edge lengths.
 _PROBE_LENGTH = 1e-5
+#: Distance from its patch or curve from which on a node with a linear motion has left it, in mean edge lengths; files
+#: may hold seven digits.
+_RIM_TOLERANCE = 2e-7
 #: Share of a rising slope along the tangent up to which the slope after projection may rise.
 _KEPT_RISE = 1.01
 
@@ -51,6 +54,7 @@ class SlidingEnergy(MeshEnergy):
         self.sliding = sliding
         self.sliding_nodes = sliding.curved_nodes if flat_is_linear else sliding.nodes
         self.faceted = self.sliding_nodes.size > 0
+        self._linear_nodes = np.setdiff1d(sliding.nodes, self.sliding_nodes, assume_unique=True)
         self._rows = np.searchsorted(self.nodes, self.sliding_nodes)
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
         self._projected: tuple[np.ndarray, np.ndarray] | None = None
@@ -98,9 +102,20 @@ class SlidingEnergy(MeshEnergy):
     def infeasible_nodes(
         self, x: np.ndarray, there: np.ndarray, changed: np.ndarray | None = None
     ) -> np.ndarray | None:
-        nodes = self.sliding.rejected_nodes(x * self.unit, there * self.unit, changed)
+        points = there * self.unit
+        nodes = self.sliding.rejected_nodes(x * self.unit, points, changed)
+        nodes = np.concatenate([nodes, self._past_their_rim(points, changed)])
         nodes = nodes[differing_rows(x[nodes], there[nodes])]
         return mask(nodes, len(x)) if nodes.size else None
+
+    def _past_their_rim(self, points: np.ndarray, changed: np.ndarray | None) -> np.ndarray:
+        """Nodes with a linear motion that have left their flat patch or straight curve, across its rim, (k,) int64.
+
+        The band alone would let them: they are in the plane or on the line still, and near the surface.
+        """
+        nodes = self._linear_nodes if changed is None else self._linear_nodes[changed[self._linear_nodes]]
+        away = row_norms(self.sliding.project(points[nodes], nodes) - points[nodes])
+        return nodes[away > _RIM_TOLERANCE * self.unit]
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         gradient = super().gradient(x, delta)

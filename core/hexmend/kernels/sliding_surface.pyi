@@ -28,10 +28,11 @@ class BoundaryQuads:
 class SlidingSurface:
     """Curves and patches, with the nodes that slide on them."""
 
-    def __init__(self, slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], trees: hexmend.kernels.closest_point.BoxTrees, quads: BoundaryQuads) -> None:
+    def __init__(self, slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], trees: hexmend.kernels.closest_point.BoxTrees, quads: BoundaryQuads, known: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')]) -> None:
         """
         slots (n,) int32 numbers the nodes that slide, -1 for others; roots (k,) int32 are the roots of the
-        trees of their curves and patches. Arrays are not copied.
+        trees of their curves and patches; known (k,) int32 has a piece near to each, or -1, and is changed: it
+        shortens searches. Arrays are not copied.
         """
 
 def flipped_quads(before: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], after: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], quads: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], outward: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], flipped: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:

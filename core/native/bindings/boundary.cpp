@@ -67,14 +67,18 @@ void bind_sliding_surface(nb::module_ m) {
     nb::class_<SlidingSurface>(m, "SlidingSurface", "Curves and patches, with the nodes that slide on them.")
         .def(
             "__init__",
-            [](SlidingSurface *self, Indices slots, Indices roots, const BoxTrees &trees, const BoundaryQuads &quads) {
+            [](SlidingSurface *self, Indices slots, Indices roots, const BoxTrees &trees, const BoundaryQuads &quads,
+               std::span<std::int32_t> known) {
                 expect(quads.start.size() == roots.size() + 1, "quads: rows of each of the roots are expected");
-                new (self) SlidingSurface{slots, roots, trees, quads};
+                expect(known.size() == roots.size(), "known: one for each of the roots is expected");
+                expect_known(known, trees.pieces.size());
+                new (self) SlidingSurface{slots, roots, trees, quads, known};
             },
-            "slots"_a, "roots"_a, "trees"_a, "quads"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
+            "slots"_a, "roots"_a, "trees"_a, "quads"_a, "known"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
             "slots (n,) int32 numbers the nodes that slide, -1 for others; roots (k,) int32 are the roots of the\n"
-            "trees of their curves and patches. Arrays are not copied.");
+            "trees of their curves and patches; known (k,) int32 has a piece near to each, or -1, and is changed: it\n"
+            "shortens searches. Arrays are not copied.");
     m.def("flipped_quads", &flipped_quads, "before"_a, "after"_a, "quads"_a, "outward"_a, "flipped"_a, ReleaseGil(),
           "Write flipped (f,) bool: True for a quad that is flipped at the points after and was not before.");
 }

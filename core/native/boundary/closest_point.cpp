@@ -117,13 +117,12 @@ void improve(ClosestPoint &best, Points points, const Piece &piece, std::int32_t
     if (far < best.square || (far == best.square && number < best.piece)) best = {far, number, point(place), weights};
 }
 
-// Refuse pieces that do not exist; -1 is none.
+}  // namespace
+
 void expect_known(std::span<const std::int32_t> known, std::size_t pieces) {
     auto count = static_cast<std::int32_t>(pieces);
     for (std::int32_t piece : known) expect(piece < count, "piece: a number is out of range");
 }
-
-}  // namespace
 
 ClosestPoint BoxTrees::closest(const Point &x, std::int32_t root, double enough, std::int32_t known) const {
     ClosestPoint best;
@@ -142,7 +141,8 @@ ClosestPoint BoxTrees::closest(const Point &x, std::int32_t root, double enough,
         std::pair<std::int32_t, double> one{at + 1, square_to(boxes[at + 1], x)};
         std::pair<std::int32_t, double> other{link, square_to(boxes[link], x)};
         if (one.second < other.second) std::swap(one, other);
-        waiting[size++] = one, waiting[size++] = other;  // the nearer is popped first
+        if (one.second <= best.square) waiting[size++] = one;
+        if (other.second <= best.square) waiting[size++] = other;  // the nearer is popped first
     }
     return best;
 }

@@ -37,6 +37,9 @@ struct BoxTrees {
     ClosestPoint closest(const Point &x, std::int32_t root, double enough = 0, std::int32_t known = -1) const;
 };
 
+// Throw std::invalid_argument for a piece that does not exist; -1 is none.
+void expect_known(std::span<const std::int32_t> known, std::size_t pieces);
+
 // Build trees: returns the order of the pieces (k,), boxes (b, 6) and links (b, 2) of all trees, and the root of each.
 std::tuple<IntArray, OwnedArray<double, 6>, OwnedArray<std::int32_t, 2>, IntArray> build_trees(
     Points points, std::span<const Piece> pieces, Indices start);

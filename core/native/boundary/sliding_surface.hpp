@@ -2,6 +2,8 @@
 // flip a boundary quad.
 #pragma once
 
+#include <atomic>
+
 #include "boundary/closest_point.hpp"
 #include "simd/vectors.hpp"
 
@@ -50,13 +52,18 @@ struct SlidingSurface {
     Indices roots;   // (k,): root box of the tree of each sliding node's curve or patch
     BoxTrees trees;  // of all curves and patches
     BoundaryQuads quads;
+    std::span<std::int32_t>
+        known;  // (k,): piece on which each was last, -1 for none: the next is near, and found sooner
 
     bool slides(Node i) const { return slots[i] >= 0; }
 
     // The point of node i's curve or patch closest to x; x itself where it is not finite.
     Point project(Node i, const Point &x) const {
-        ClosestPoint found = trees.closest(x, roots[slots[i]]);
-        return found.piece < 0 ? x : found.place;
+        std::atomic_ref<std::int32_t> last(known[slots[i]]);
+        ClosestPoint found = trees.closest(x, roots[slots[i]], 0, last.load(std::memory_order_relaxed));
+        if (found.piece < 0) return x;
+        last.store(found.piece, std::memory_order_relaxed);
+        return found.place;
     }
 
     // The projection of x, or the node's present position where the move would flip a quad.

@@ -72,8 +72,14 @@ def test_arrays_of_another_type_or_shape_are_refused_by_name():
     with pytest.raises(ValueError, match=r"^outward: "):
         BoundaryQuads(np.zeros(1, np.int32), np.zeros(0, np.int32), none, points)
     quads = BoundaryQuads(np.zeros(1, np.int32), np.zeros(0, np.int32), none, points[:0])
+    trees, one = BoxTrees(points, pieces, boxes, links), np.zeros(1, np.int32)
     with pytest.raises(ValueError, match=r"^quads: "):
-        SlidingSurface(np.zeros(4, np.int32), np.zeros(1, np.int32), BoxTrees(points, pieces, boxes, links), quads)
+        SlidingSurface(np.zeros(4, np.int32), one, trees, quads, one)
+    quads = BoundaryQuads(np.zeros(2, np.int32), np.zeros(0, np.int32), none, points[:0])
+    with pytest.raises(ValueError, match=r"^known: "):
+        SlidingSurface(np.zeros(4, np.int32), one, trees, quads, one[:0])
+    with pytest.raises(ValueError, match=r"^piece: "):
+        SlidingSurface(np.zeros(4, np.int32), one, trees, quads, one + 1)
 
 
 def test_a_surface_wants_tangents_and_tangents_a_surface():

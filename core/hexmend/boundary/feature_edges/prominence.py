@@ -105,5 +105,6 @@ def _joined(row: np.ndarray, key: np.ndarray, start: np.ndarray, items: np.ndarr
 
 def _unique_pairs(row: np.ndarray, key: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
     """Drop repeated pairs of a row and a key below n."""
-    pairs = np.unique(row.astype(np.int64) * n + key)
-    return pairs // n, pairs % n
+    pairs = np.sort(row.astype(np.int64) * n + key)  # NumPy's unique takes ten times as long
+    pairs = pairs[np.append(True, pairs[1:] != pairs[:-1])] if pairs.size else pairs
+    return np.divmod(pairs, n)

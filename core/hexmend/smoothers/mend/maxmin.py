@@ -34,9 +34,12 @@ class MaxMinConfig:
         Share of the surface tolerance that the boundary uses at most while nodes slide.
     bands : tuple of float
         Narrower bands, in mean edge lengths, in which the least is raised first; a wider one follows where it raises
-        the least by `worth_widening`.
+        the least by `worth_widening`. They are the same for all tolerances, so that a larger one begins with what a
+        smaller one reaches.
     worth_widening : float
         Gain of the least, as a share of it or of 0.1, from which on the boundary may be further from its surface.
+    off_surface_tolerances : tuple of float
+        Tolerances, in mean edge lengths, that are tried first where nodes leave the surface within a larger one.
     off_surface_limit : float
         Initial limit on the distance of released nodes from the surface, in mean edge lengths.
     off_surface_factor : float
@@ -63,8 +66,9 @@ class MaxMinConfig:
     max_groups: int = 10
     max_groups_off_surface: int = 30
     surface_share: float = 1 / 3
-    bands: tuple[float, ...] = (0.045, 0.1)
+    bands: tuple[float, ...] = (0.045, 0.1, 1 / 3)
     worth_widening: float = 0.05
+    off_surface_tolerances: tuple[float, ...] = (0.1, 0.3)
     off_surface_limit: float = 1.5
     off_surface_factor: float = 1.2
     returned_share: float = 0.5

@@ -130,6 +130,20 @@ def raise_to_the_end(result: MaxMinResult, config: MaxMinConfig = MAXMIN) -> Gen
     return (yield from raise_within_tolerance(optimiser, optimiser.envelope.max_deviation, config=config))
 
 
+def raise_further(
+    result: MaxMinResult, max_deviation: float, config: MaxMinConfig = MAXMIN
+) -> Generator[Step, None, MaxMinResult]:
+    """Raise the least in a wider band, where that gains enough; else return `result`."""
+    if not result.optimiser.envelope.max_deviation * (1 + result.optimiser.config.band_excess) < max_deviation:
+        return result
+    least = result.optimiser.corners.movable_minimum
+    higher = yield from infeasible(raise_within_tolerance(result.optimiser.fork(), max_deviation, config=config))
+    if higher.optimiser.corners.movable_minimum - least < config.worth_widening * max(least, 0.1):
+        return result
+    yield Step(higher.optimiser.points, {"least": higher.optimiser.corners.movable_minimum}, intermediate=True)
+    return higher
+
+
 def _detour(
     optimiser: MaxMinOptimiser,
     limits: Sequence[float],

@@ -27,6 +27,7 @@ from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.off_surface import (
     MaxMinResult,
     improve_off_surface,
+    raise_further,
     raise_to_the_end,
     raise_within_tolerance,
 )
@@ -265,10 +266,21 @@ class Stages:
             return None
         if not tolerance > 0 or result.optimiser.corners.movable_minimum >= wanted:
             return (yield from raise_to_the_end(result))
-        optimiser = MaxMinOptimiser(sliding.mesh, start, sliding)
-        inverted = measure(result.optimiser.points, sliding.mesh.hexes).n_inverted > 0
-        limits = self._limits(sliding.mesh) if inverted else [self._bands(sliding.mesh)[-1], tolerance]
-        return (yield from improve_off_surface(optimiser, limits, result, wanted))
+        mesh = sliding.mesh
+        if measure(result.optimiser.points, mesh.hexes).n_inverted:
+            optimiser = MaxMinOptimiser(mesh, start, sliding)
+            return (yield from improve_off_surface(optimiser, self._limits(mesh), result, wanted))
+        nearer = [share * mesh.mean_edge_length for share in MAXMIN.off_surface_tolerances]
+        reached = result.optimiser.envelope.max_deviation / (1 + SLP.band_excess)
+        nearer = [limit for limit in nearer if reached <= limit < tolerance / (1 + SLP.band_excess)]
+        for limit in [*nearer, tolerance]:
+            config = replace(MAXMIN, detours=0) if limit < tolerance else MAXMIN
+            optimiser = MaxMinOptimiser(mesh, start, sliding)
+            limits = [MAXMIN.surface_share * limit, limit]
+            result = yield from improve_off_surface(optimiser, limits, result, wanted, config)
+            if result.optimiser.corners.movable_minimum >= wanted:
+                break
+        return (yield from raise_further(result, tolerance)) if self.settings.maximises_jacobian else result
 
     def _untangle(
         self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, locked: np.ndarray
