@@ -14,7 +14,7 @@ from hexmend.boundary.comparison import SkinSurface
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
 _ROUNDING = 1e-9
-#: Distance of samples of a surface of its own, in mean edge lengths of the boundary, if it has more.
+#: Edge of the cells in which samples of a surface that was read are thinned, in mean edge lengths of the boundary.
 _SAMPLE_DISTANCE = 0.5
 NO_NODES = np.empty(0, dtype=np.int64)
 
@@ -168,14 +168,14 @@ class Band:
         indices = np.arange(len(initial)) if indices is None else indices
         limit = np.broadcast_to(limit, indices.shape)
         if limit.size and limit.min() > 0:
-            far = self.skin.beyond(self._target_samples[samples], self._near_boundary, limit, indices, points)
+            far = self.skin.beyond(self.target_samples[samples], self._near_boundary, limit, indices, points)
         else:
             moved = np.einsum("sk,ski->si", weights[samples], (points - self._start)[nodes[samples]])
             far = initial[samples] + row_norms(moved) > np.maximum(limit, 0.0)
         indices, limit = indices[far], limit[far]
         if not indices.size:
             return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
-        x = self._target_samples[indices]
+        x = self.target_samples[indices]
         enough = max(float(limit.min(initial=np.inf)), 0.0)
         known = self._near_boundary.pieces[indices]
         closest, nodes, weights = self.skin.with_points(points).closest_on(x, enough, known=known)
@@ -209,7 +209,7 @@ class Band:
         )
         boundary = self.target.beyond(means(points, samples), self._near_target, limits, own)
         near = self._near_boundary
-        surface = self.skin.beyond(self._target_samples, near, self._allowed(initial), points=points)
+        surface = self.skin.beyond(self.target_samples, near, self._allowed(initial), points=points)
         surface = np.flatnonzero(surface)
         if not (surface.size or boundary.any()):
             return NO_NODES
@@ -227,39 +227,39 @@ class Band:
     @cached_property
     def _near_boundary(self) -> NearPoints:
         """Points of the boundary near samples of the surface at some earlier node positions."""
-        return NearPoints(len(self._target_samples))
+        return NearPoints(len(self.target_samples))
 
     @cached_property
-    def _target_samples(self) -> np.ndarray:
+    def target_samples(self) -> np.ndarray:
         """Samples of the surface, (s, 3): those of a finer one are thinned, as the boundary cannot follow its details.
 
-        In each cell of a lattice the sample that is furthest from the boundary at first is kept.
+        In each cell of a lattice the samples that are furthest from the boundary and nearest to it at first are kept.
         """
         if self._given is None:
             return means(self._start, self.samples)
         x, start = self._given.samples(), self.skin.with_points(self._start)
         cell = _SAMPLE_DISTANCE * float(row_norms(np.diff(self._start[self.skin.edges.nodes], axis=1)[:, 0]).mean())
-        return x[furthest_in_cells(x, start.distances(x), cell)] if cell > 0 else x
+        return x[extremes_in_cells(x, start.distances(x), cell)] if cell > 0 else x
 
     @cached_property
     def _initial_boundary_deviation(self) -> np.ndarray:
         """Distance of `samples` from the surface before sliding, (s,)."""
         if self._given is None:
             return np.zeros(len(self.samples))
-        return self.target.distances(self._start[self.samples].mean(axis=1))
+        return self.target.distances(means(self._start, self.samples))
 
     @cached_property
     def initial_surface_deviation(self) -> InitialDistances:
         """Distances of the surface's samples from the boundary before sliding."""
         if self._given is None:
             return InitialDistances(np.zeros(len(self.samples)), self.samples, np.full(self.samples.shape, 0.25))
-        x = self._target_samples
+        x = self.target_samples
         closest, nodes, weights = self.skin.with_points(self._start).closest_on(x, near=self._near_boundary)
         return InitialDistances(np.linalg.norm(x - closest, axis=1), nodes, weights)
 
 
-def furthest_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.ndarray:
-    """Find the point with the largest distance in each cell of a cubic lattice.
+def extremes_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.ndarray:
+    """Find the points with the largest and with the least distance in each cell of a cubic lattice.
 
     Parameters
     ----------
@@ -275,14 +275,15 @@ def furthest_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.n
 
     Examples
     --------
-    >>> furthest_in_cells(np.array([[0.1, 0, 0], [0.2, 0, 0], [1.5, 0, 0]]), np.array([1.0, 2.0, 0.0]), 1.0).tolist()
-    [1, 2]
+    >>> x = np.array([[0.1, 0, 0], [0.2, 0, 0], [0.3, 0, 0], [1.5, 0, 0]])
+    >>> extremes_in_cells(x, np.array([1.0, 2.0, 3.0, 0.0]), 1.0).tolist()
+    [0, 2, 3]
     """
     place = np.floor((x - x.min(axis=0, initial=np.inf)) / cell)
-    order = np.lexsort((-distances, *place.T))
-    first = np.ones(order.size, dtype=bool)
-    first[1:] = differing_rows(place[order[1:]], place[order[:-1]])
-    return np.sort(order[first])
+    order = np.lexsort((distances, *place.T))
+    changes = np.ones(order.size + 1, dtype=bool)
+    changes[1:-1] = differing_rows(place[order[1:]], place[order[:-1]])
+    return np.sort(order[changes[1:] | changes[:-1]])
 
 
 def _deviations_above(

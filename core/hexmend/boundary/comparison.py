@@ -12,6 +12,7 @@ from hexmend.boundary.classification import boundary_of
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, NearPoints, triangulate, vertices_of
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, angle_in_degrees, dihedral_angles
+from hexmend.boundary.surface import PartitionedSurface
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_faces, as_points, points_like
@@ -111,6 +112,8 @@ class SkinSurface:
     nodes : (b,) int64
         Nodes of the faces, ascending.
     edges : SurfaceEdges
+    derived : dict
+        Curves and patches by feature angle, for those who slide on the surface.
 
     Raises
     ------
@@ -122,6 +125,7 @@ class SkinSurface:
         points = as_points(points)
         faces = as_faces(faces, len(points))
         self.points, self.faces, self.name = points, faces, name
+        self.derived: dict[float | str, PartitionedSurface] = {}
         self.nodes, self.edges = np.unique(faces), SurfaceEdges(faces, len(points))
         vertices, triangles, _ = triangulate(points, faces)
         self._trees = ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
@@ -130,6 +134,7 @@ class SkinSurface:
         """Return a surface of the same faces with other node positions (n, 3) float64."""
         other, points = copy.copy(self), points_like(points, self.points.shape)
         other.points, other._trees = points, self._trees.with_points(vertices_of(points, self.faces))
+        other.derived = {}
         return other
 
     def samples(self) -> np.ndarray:

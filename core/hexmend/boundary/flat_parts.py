@@ -13,7 +13,7 @@ from hexmend.mesh.linear_motion import LinearMotion
 #: Largest distance of nodes from the plane of a flat patch or the line of a straight curve, in mean edge lengths.
 FLATNESS_TOLERANCE = 1e-9
 #: The same for nodes that slide: files may hold seven digits. A node keeps its distance.
-_SLIDING_TOLERANCE = 1e-7
+SLIDING_TOLERANCE = 1e-7
 
 
 class FlatPart(NamedTuple):
@@ -80,7 +80,7 @@ def flat_motion(points: np.ndarray, boundary: Boundary, sliding: np.ndarray, mea
     LinearMotion
     """
     slides, nodes, projectors = mask(sliding, len(points)), [], []
-    for part in flat_parts(points, boundary, mean_edge, _SLIDING_TOLERANCE):
+    for part in flat_parts(points, boundary, mean_edge, SLIDING_TOLERANCE):
         own_class = NodeClass.PATCH if part.directions.shape[1] == 2 else NodeClass.CURVE
         own = part.nodes[slides[part.nodes] & (boundary.node_class[part.nodes] == own_class)]
         nodes.append(own)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
@@ -106,7 +106,7 @@ class SlidingBoundary(Band):
         self.releasable &= ~(stays | self.confined)
         self._group = self.surface.group_of(self.nodes)
         self._number = index_of(self.nodes, mesh.n_nodes)
-        self._known = np.full(mesh.n_nodes, -1, dtype=np.int32)
+        self._known = np.full(mesh.n_nodes, -1, dtype=np.int32)  # piece on which each node was last
         if target is not None:
             start, mesh = self.projected(start), mesh.with_points(self.projected(mesh.points))
         super().__init__(mesh.surface_points, self.boundary.faces, start, target, max_deviation)
@@ -361,10 +361,13 @@ class SlidingBoundary(Band):
             ) from None
 
 
-@lru_cache(maxsize=2)
 def _partitioned(target: SkinSurface, feature_angle: FeatureAngle) -> PartitionedSurface:
-    """Curves and patches of a surface; kept, as a run and its report need those of a large one more than once."""
-    return PartitionedSurface(target.points, classify(target.points, target.faces, feature_angle))
+    """Curves and patches of a surface, which keeps them: a run and its report need those of a large one again."""
+    known = target.derived.get(feature_angle)
+    if known is None:
+        boundary = classify(target.points, target.faces, feature_angle)
+        known = target.derived[feature_angle] = PartitionedSurface(target.points, boundary)
+    return known
 
 
 def _undone(before: np.ndarray, after: np.ndarray, rejected: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:

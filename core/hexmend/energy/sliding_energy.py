@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend.arrays import differing_rows, mask, row_norms
 from hexmend.boundary import SlidingBoundary
+from hexmend.boundary.flat_parts import SLIDING_TOLERANCE
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
@@ -15,9 +16,6 @@ from hexmend.kernels import conjugate_gradients
 
 #: Length of the probing step for directional derivatives, in mean edge lengths.
 _PROBE_LENGTH = 1e-5
-#: Distance from its patch or curve from which on a node with a linear motion has left it, in mean edge lengths; files
-#: may hold seven digits.
-_RIM_TOLERANCE = 2e-7
 #: Share of a rising slope along the tangent up to which the slope after projection may rise.
 _KEPT_RISE = 1.01
 
@@ -104,18 +102,25 @@ class SlidingEnergy(MeshEnergy):
     ) -> np.ndarray | None:
         points = there * self.unit
         nodes = self.sliding.rejected_nodes(x * self.unit, points, changed)
-        nodes = np.concatenate([nodes, self._past_their_rim(points, changed)])
+        nodes = np.concatenate([nodes, self._past_their_rim(x * self.unit, points, changed)])
         nodes = nodes[differing_rows(x[nodes], there[nodes])]
         return mask(nodes, len(x)) if nodes.size else None
 
-    def _past_their_rim(self, points: np.ndarray, changed: np.ndarray | None) -> np.ndarray:
+    def _past_their_rim(self, before: np.ndarray, points: np.ndarray, changed: np.ndarray | None) -> np.ndarray:
         """Nodes with a linear motion that have left their flat patch or straight curve, across its rim, (k,) int64.
 
-        The band alone would let them: they are in the plane or on the line still, and near the surface.
+        The band alone would let them: they are in the plane or on the line still, and near the surface. A node that was
+        outside may come nearer.
         """
         nodes = self._linear_nodes if changed is None else self._linear_nodes[changed[self._linear_nodes]]
-        away = row_norms(self.sliding.project(points[nodes], nodes) - points[nodes])
-        return nodes[away > _RIM_TOLERANCE * self.unit]
+        away = self._distances(points, nodes)
+        outside = away > 3 * SLIDING_TOLERANCE * self.unit
+        nodes, away = nodes[outside], away[outside]
+        return nodes[away > self._distances(before, nodes)] if nodes.size else nodes
+
+    def _distances(self, points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+        """Distances of sliding nodes (k,) from their curves and patches, (k,)."""
+        return row_norms(self.sliding.project(points[nodes], nodes) - points[nodes])
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         gradient = super().gradient(x, delta)

@@ -8,6 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from hexmend.arrays import differing_rows
 from hexmend.boundary import SlidingBoundary
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
 from hexmend.mesh.mesh import Mesh
@@ -137,7 +138,7 @@ class Sweeps:
             moved = points.copy()
             answer = sweep(moved, stays)
             beyond = np.empty(0, dtype=np.int64) if self.sliding is None else self.sliding.nodes_outside_band(moved)
-            beyond = beyond[(moved[beyond] != points[beyond]).any(axis=1)]
+            beyond = beyond[differing_rows(moved[beyond], points[beyond])]
             if not beyond.size:
                 return moved, answer
             stays = stays.copy()

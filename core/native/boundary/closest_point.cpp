@@ -98,7 +98,8 @@ Barycentric nearest(const Vector &u, const Vector &v, const Vector &p) {
     return edges[std::min_element(far, far + 3) - far];
 }
 
-// Replace `best` if piece `number` is closer to x; of two that are as close, the first is best.
+// Replace `best` if piece `number` is closer to x; of two that are as close, the first is best, but at distance 0 the
+// search ends at either.
 void improve(ClosestPoint &best, Points points, const Piece &piece, std::int32_t number, const Point &x) {
     Vector a = vector(points[piece[0]]), u = vector(points[piece[1]]) - a, p = vector(x) - a, place;
     Barycentric weights;

@@ -19,7 +19,7 @@ def band_of(shift=0.0, size=1.0, target=True):
 def test_distances_at_first_are_those_from_samples_of_the_surface_to_the_boundary():
     mesh, band = band_of(0.25)
     far, nodes, weights = band.initial_surface_deviation
-    samples = band._target_samples
+    samples = band.target_samples
     boundary = SkinSurface(mesh.points, mesh.topology.boundary_faces)
     assert far.shape == (len(samples),)
     np.testing.assert_allclose(far, boundary.distances(samples), atol=1e-12)
@@ -30,13 +30,13 @@ def test_distances_at_first_are_those_from_samples_of_the_surface_to_the_boundar
 
 def test_a_finer_surface_has_fewer_samples_of_which_none_is_far_from_one_that_is_as_far_from_the_boundary():
     mesh, band = band_of(0.25)
-    every, kept = band.target.samples(), band._target_samples
+    every, kept = band.target.samples(), band.target_samples
     boundary = SkinSurface(mesh.points, mesh.topology.boundary_faces)
-    assert len(kept) < 0.5 * len(every)
+    assert len(kept) < 0.6 * len(every)
     far, far_kept = boundary.distances(every), boundary.distances(kept)
     for x, distance in zip(every, far, strict=True):
         near = np.linalg.norm(kept - x, axis=1) < 0.5 * np.sqrt(3)  # edges of the boundary have length 1
-        assert far_kept[near].max() >= distance
+        assert far_kept[near].max() >= distance >= far_kept[near].min()
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.25])

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from hexmend import kernels
 from hexmend.boundary import ClosestPointTrees, NodeClass, PartitionedSurface, boundary_of, classify
+from hexmend.boundary.closest_point import triangulate
 from hexmend.errors import MeshError
 from tests.core.boundary.solids import ball, cylinder, project, wavy
 from tests.core.grids import grid
@@ -243,3 +244,18 @@ def test_curve_nodes_slide_on_patches_where_a_surface_has_no_curve():
     radius = np.linalg.norm(project(surface, mesh.points[nodes], nodes)[0], axis=1)
     assert radius.min() > 0.95
     assert radius.max() <= 1 + 1e-14
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_a_known_piece_shortens_the_search_and_changes_no_place(seed):
+    random, mesh = np.random.default_rng(seed), wavy(ball(3), 0.1)
+    vertices, triangles, face = triangulate(mesh.points, mesh.topology.boundary_faces)
+    trees = ClosestPointTrees(vertices, triangles, face % 3)
+    x, group = random.normal(size=(40, 3)), random.integers(0, 3, 40)
+    found = trees.closest(x, group)
+    of_group = [np.flatnonzero(face[trees.order] % 3 == g) for g in range(3)]
+    known = np.array([random.choice(of_group[g]) if random.random() < 0.8 else -1 for g in group], dtype=np.int32)
+    again = trees.closest(x, group, known=known)
+    np.testing.assert_allclose(again.points, found.points, atol=1e-12)
+    np.testing.assert_array_equal(again.pieces, found.pieces)
+    assert (known != found.pieces).any()  # and is not written to

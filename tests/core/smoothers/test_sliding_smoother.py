@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
@@ -56,6 +56,7 @@ def test_every_optimiser_and_averaging_method_can():
     amplitude=st.sampled_from([0.1, 0.3, 0.6]),
     seed=st.integers(0, 2**32 - 1),
 )
+@example(name="global-nr", solid="block", amplitude=0.6, seed=0)  # a node of a straight edge went past its corner
 def test_corners_are_kept_and_all_others_stay_on_their_curves_and_patches(name, solid, amplitude, seed):
     mesh = slid(SOLIDS[solid](), amplitude, seed)
     pinned = np.zeros(mesh.n_nodes, dtype=bool)

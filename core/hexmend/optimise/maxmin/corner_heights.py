@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.optimise.maxmin.corner_values import values_at_corners
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+
+#: Hexes in a batch, which bounds the memory of temporary arrays.
+_HEXES = 50_000
 
 
 def least_corner_heights(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
@@ -21,7 +24,12 @@ def least_corner_heights(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     >>> least_corner_heights(UNIT_CUBE * [3, 2, 0.5], np.arange(8)[None])
     array([[0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5]])
     """
-    return values_at_corners(hexes, lambda corners: corner_heights(points, corners).min(axis=1, initial=np.inf))
+    values = np.empty((len(hexes), 8))
+    for first in range(0, len(hexes), _HEXES):
+        part = slice(first, first + _HEXES)
+        heights = corner_heights(points, hexes[part][:, CORNER_TETRAHEDRA].reshape(-1, 4))
+        values[part] = heights.min(axis=1, initial=np.inf).reshape(-1, 8)
+    return values
 
 
 def corner_heights(points: np.ndarray, corners: np.ndarray) -> np.ndarray:

@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from hexmend.kernels import elements
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
-
-#: Hexes in a batch, which bounds the memory of temporary arrays.
-_HEXES = 50_000
 
 
 def scaled_jacobians(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
@@ -19,6 +13,7 @@ def scaled_jacobians(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     Parameters
     ----------
     points : (n, 3) float64
+        Contiguous, as all arrays here.
     hexes : (k, 8) int32
 
     Examples
@@ -29,22 +24,6 @@ def scaled_jacobians(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     """
     values = np.empty((len(hexes), 8))
     elements.corner_jacobians(points, hexes, values)
-    return values
-
-
-def values_at_corners(hexes: np.ndarray, of: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
-    """Evaluate a function at the corners of hexes (k, 8), batch by batch, (k, 8).
-
-    Parameters
-    ----------
-    hexes : (k, 8) int
-    of : callable
-        Takes corners (c, 4), the apex and the ends of its edges each, and returns their values (c,).
-    """
-    values = np.empty((len(hexes), 8))
-    for first in range(0, len(hexes), _HEXES):
-        part = slice(first, first + _HEXES)
-        values[part] = of(hexes[part][:, CORNER_TETRAHEDRA].reshape(-1, 4)).reshape(-1, 8)
     return values
 
 

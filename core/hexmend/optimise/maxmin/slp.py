@@ -180,7 +180,8 @@ class MaxMinOptimiser:
     def return_to_band(self, max_deviation: float) -> Iterator[MaxMinStep]:
         """Bring the boundary nearer to the surface until it is in its band, with the least loss of the minimum.
 
-        Where that takes too many steps, the loss no longer counts. Frozen corners are free again.
+        Where that takes too many steps, the loss no longer counts; it is given up where it takes too many still. Frozen
+        corners are free again.
 
         Parameters
         ----------
@@ -198,7 +199,7 @@ class MaxMinOptimiser:
             if _too_slow(distances, max_deviation, config):
                 if not careful:
                     break
-                careful, distances, self._radius = False, [], config.initial_radius
+                careful, distances, self._radius, share = False, [], config.initial_radius, config.return_step
             radius = self._radius
             envelope.limit_to(max(max_deviation, far - share * radius * edge))
             near = corners.active_values.ravel() < corners.active_minimum + config.min_active_band
@@ -207,7 +208,7 @@ class MaxMinOptimiser:
             least = corners.active_minimum
             promised, points, moved = self._step(low, config.min_active_band, outside[self.mesh.free[outside]])
             if points is self.points and share > config.min_return_step:
-                share *= config.shrink  # edges at these nodes may be much shorter than others
+                share = max(config.shrink * share, config.min_return_step)  # edges here may be shorter than others
                 continue
             if envelope.largest_deviation(points, allowed) > far - config.accept * (far - envelope.max_deviation):
                 self._radius *= config.shrink
@@ -221,6 +222,7 @@ class MaxMinOptimiser:
                 continue
             envelope.track(self.points, points, moved)
             self.points, self._radius = points, min(config.grow * self._radius, config.max_radius)
+            share = min(config.grow * share, config.return_step)
             yield MaxMinStep(points, self.least, low.size, radius)
         envelope.limit_to(max_deviation)
 

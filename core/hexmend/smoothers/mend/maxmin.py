@@ -34,18 +34,19 @@ class MaxMinConfig:
         Share of the surface tolerance that the boundary uses at most while nodes slide.
     bands : tuple of float
         Narrower bands, in mean edge lengths, in which the least is raised first; a wider one follows where it raises
-        the least by `worth_widening`. They are the same for all tolerances, so that a larger one begins with what a
-        smaller one reaches.
+        the least by `worth_widening`. They are the same for all tolerances; the last band is `surface_share` of the
+        tolerance.
     worth_widening : float
         Gain of the least, as a share of it or of 0.1, from which on the boundary may be further from its surface.
     off_surface_tolerances : tuple of float
-        Tolerances, in mean edge lengths, that are tried first where nodes leave the surface within a larger one.
+        Distances, in mean edge lengths, to which nodes that left the surface return while the least stays acceptable.
     off_surface_limit : float
         Initial limit on the distance of released nodes from the surface, in mean edge lengths.
     off_surface_factor : float
         Multiple of `acceptable` at which the phase off the surface ends; the return to the band loses part of it.
     returned_share : float
-        Share of the least so far that a boundary back in its band must have, to be raised further there.
+        A boundary back in its band is raised further there if its least has fallen by no more than one minus this
+        share of the least so far.
     detours : int
         More times that nodes leave the band, at most, while the least is below `acceptable`.
     detour_factors : tuple of float
@@ -68,7 +69,7 @@ class MaxMinConfig:
     surface_share: float = 1 / 3
     bands: tuple[float, ...] = (0.045, 0.1, 1 / 3)
     worth_widening: float = 0.05
-    off_surface_tolerances: tuple[float, ...] = (0.1, 0.3)
+    off_surface_tolerances: tuple[float, ...] = (1 / 30, 0.1, 0.3)
     off_surface_limit: float = 1.5
     off_surface_factor: float = 1.2
     returned_share: float = 0.5
@@ -132,11 +133,14 @@ def maximise_minimum(
             active = step if isinstance(step, ActiveCorners) else None
             if active is None and number % config.programs_per_iteration == 0:
                 yield step.step(infeasible)
-            if optimiser.programs - begin > limit:
+            if active is None and optimiser.programs - begin > limit:
                 return first
         if not active.hexes.size or active.least >= target:
             break
-        if active.least < release_below and optimiser.release(active):
+        releasable, exceeded = active.least < release_below, optimiser.programs - begin > limit
+        if exceeded:
+            return first or (None if releasable else active)
+        if releasable and optimiser.release(active):
             continue
         if active.least < give_up_below:
             break

@@ -24,6 +24,19 @@ class MaxMinResult:
     optimiser: MaxMinOptimiser
     active: ActiveCorners | None
 
+    @property
+    def least(self) -> float:
+        """The least value of the corners that can be moved."""
+        return self.optimiser.corners.movable_minimum
+
+    def step(self) -> Step:
+        """Step of a smoother to these points."""
+        return Step(self.optimiser.points, {"least": self.least}, intermediate=True)
+
+    def is_worth_leaving(self, least: float, config: MaxMinConfig = MAXMIN) -> bool:
+        """Return True if the least is so much higher than another that the boundary may be further away for it."""
+        return self.least - least >= config.worth_widening * max(least, 0.1)
+
 
 def raise_within_tolerance(
     optimiser: MaxMinOptimiser,
@@ -68,13 +81,14 @@ def raise_within_tolerance(
 def improve_off_surface(
     optimiser: MaxMinOptimiser,
     limits: Sequence[float],
-    on_surface: MaxMinResult,
+    reached: MaxMinResult,
     wanted: float,
     config: MaxMinConfig = MAXMIN,
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least with nodes of the boundary off the surface, then bring them back into its band.
 
-    Where it is still too low, nodes leave the band for shorter ways from the result on.
+    Where it is still too low, nodes leave the band again from the result on, on detours that are limited in width and
+    number of programs.
 
     Parameters
     ----------
@@ -82,12 +96,11 @@ def improve_off_surface(
         Where this begins.
     limits : sequence of float
         Distances from the surface that the boundary may have, ascending, in the mesh's unit of length: the result has
-        the least of them at which it is better than `on_surface` and no hex is inverted or, if none is there,
-        acceptable.
-    on_surface : MaxMinResult
-        The result without leaving the surface.
+        the least of them at which it is better than `reached` and no hex is inverted or, if none is there, acceptable.
+    reached : MaxMinResult
+        The result so far.
     wanted : float
-        Least scaled Jacobian from which on there are no further ways.
+        Least scaled Jacobian from which on there are no further detours.
     config : MaxMinConfig
 
     Yields
@@ -98,27 +111,26 @@ def improve_off_surface(
     Returns
     -------
     MaxMinResult
-        The better one: this, if it is back in a band, or `on_surface`.
+        The better one: this, if it is back in a band, or `reached`.
     """
     far, factors = config.off_surface_limit * optimiser.mesh.mean_edge_length, iter(config.detour_factors)
-    target = config.off_surface_factor * config.acceptable
-    result, factor = (yield from _detour(optimiser, limits, far, target, on_surface, config)), next(factors)
+    target, factor = config.off_surface_factor * config.acceptable, next(factors)
+    result = yield from _detour(optimiser, limits, far, target, reached, config)
     for _ in range(config.detours):
-        least = result.optimiser.corners.movable_minimum
+        least = result.least
         if least >= wanted:
             break
         fork = result.optimiser.fork()
         limit = fork.envelope.max_deviation
-        if result is on_surface:
+        if result is reached:
             limit = limits[-1] if least > 0 else limits[0]
         result = yield from _detour(fork, [limit], factor * limit, target, result, config, config.detour_programs)
-        if result.optimiser.corners.movable_minimum - least < config.worth_widening * max(least, 0.1):
+        if not result.is_worth_leaving(least, config):
             factor, target = next(factors, None), config.target_growth * target
             if factor is None:
                 break
-    if result is on_surface:
-        least = result.optimiser.corners.movable_minimum
-        yield Step(result.optimiser.points, {"least": least}, intermediate=True)
+    if result is reached:
+        yield result.step()
     return (yield from raise_to_the_end(result, config))
 
 
@@ -136,11 +148,10 @@ def raise_further(
     """Raise the least in a wider band, where that gains enough; else return `result`."""
     if not result.optimiser.envelope.max_deviation * (1 + result.optimiser.config.band_excess) < max_deviation:
         return result
-    least = result.optimiser.corners.movable_minimum
     higher = yield from infeasible(raise_within_tolerance(result.optimiser.fork(), max_deviation, config=config))
-    if higher.optimiser.corners.movable_minimum - least < config.worth_widening * max(least, 0.1):
+    if not higher.is_worth_leaving(result.least, config):
         return result
-    yield Step(higher.optimiser.points, {"least": higher.optimiser.corners.movable_minimum}, intermediate=True)
+    yield higher.step()
     return higher
 
 
@@ -154,13 +165,20 @@ def _detour(
     max_programs: float = np.inf,
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least to a target in a band as wide as `far`, and return to a limit; `reached` if that is no gain."""
-    envelope, least_before = optimiser.envelope, reached.optimiser.corners.movable_minimum
+    envelope, least_before = optimiser.envelope, reached.least
     groups, within = config.max_groups_off_surface, None
     envelope.limit_to(limits[-1])
     enough, share = 0.0 if least_before <= 0 else config.acceptable, config.returned_share
     with envelope.relaxed(far):
         yield from maximise_minimum(
-            optimiser, target, config.acceptable, groups, True, least_before, max_programs, config
+            optimiser,
+            target,
+            release_below=config.acceptable,
+            groups=groups,
+            infeasible=True,
+            give_up_below=least_before,
+            max_programs=max_programs,
+            config=config,
         )
         for limit in reversed(limits):
             for step in islice(optimiser.return_to_band(limit), 0, None, config.programs_per_iteration):
@@ -176,10 +194,10 @@ def _detour(
     rising = raise_within_tolerance(optimiser, within[0], config.programs_between, config)
     if not optimiser.corners.movable_minimum < least_before:
         return (yield from rising)
-    result = yield from infeasible(rising, every=1)  # until it is higher than what is reached
-    if not optimiser.corners.movable_minimum > least_before:
+    result = yield from infeasible(rising, every=1)  # lower at first than what is reached
+    if not result.least > least_before:
         return reached
-    yield Step(optimiser.points, {"least": optimiser.corners.movable_minimum}, intermediate=True)
+    yield result.step()
     return result
 
 

@@ -202,13 +202,12 @@ class Stages:
     ) -> Generator[Step, None, MaxMinResult]:
         """Let quads of the boundary be further from its surface, where that raises the least by much."""
         for band in bands:
-            wide, least = sliding.with_band(band), result.optimiser.corners.movable_minimum
+            wide = sliding.with_band(band)
             higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [result.optimiser.points], wide))
-            gain = higher.optimiser.corners.movable_minimum - least
-            if gain < MAXMIN.worth_widening * max(least, 0.1):
+            if not higher.is_worth_leaving(result.least):
                 break
             result = higher
-            yield Step(result.optimiser.points, {"least": least + gain}, intermediate=True)
+            yield result.step()
         return result
 
     def _untangle_off_surface(
@@ -264,7 +263,7 @@ class Stages:
         wanted = wanted if self.settings.maximises_jacobian else min(wanted, MAXMIN.barrier_safe)
         if result is None:
             return None
-        if not tolerance > 0 or result.optimiser.corners.movable_minimum >= wanted:
+        if not tolerance > 0 or result.least >= wanted:
             return (yield from raise_to_the_end(result))
         mesh = sliding.mesh
         if measure(result.optimiser.points, mesh.hexes).n_inverted:
@@ -272,14 +271,9 @@ class Stages:
             return (yield from improve_off_surface(optimiser, self._limits(mesh), result, wanted))
         nearer = [share * mesh.mean_edge_length for share in MAXMIN.off_surface_tolerances]
         reached = result.optimiser.envelope.max_deviation / (1 + SLP.band_excess)
-        nearer = [limit for limit in nearer if reached <= limit < tolerance / (1 + SLP.band_excess)]
-        for limit in [*nearer, tolerance]:
-            config = replace(MAXMIN, detours=0) if limit < tolerance else MAXMIN
-            optimiser = MaxMinOptimiser(mesh, start, sliding)
-            limits = [MAXMIN.surface_share * limit, limit]
-            result = yield from improve_off_surface(optimiser, limits, result, wanted, config)
-            if result.optimiser.corners.movable_minimum >= wanted:
-                break
+        limits = [limit for limit in nearer if reached <= limit < (1 - MAXMIN.worth_widening) * tolerance]
+        optimiser = MaxMinOptimiser(mesh, start, sliding)
+        result = yield from improve_off_surface(optimiser, [*limits, tolerance], result, wanted)
         return (yield from raise_further(result, tolerance)) if self.settings.maximises_jacobian else result
 
     def _untangle(

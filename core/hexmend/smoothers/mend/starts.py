@@ -14,7 +14,7 @@ from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.smoothers.mend.off_surface import MaxMinResult
 
 #: Function that raises the least of an optimiser as far as it goes.
-Raise: TypeAlias = Callable[[MaxMinOptimiser], Generator[Step, None, ActiveCorners]]
+Raise: TypeAlias = Callable[[MaxMinOptimiser], Generator[Step, None, ActiveCorners | None]]
 
 
 def raise_from_better(

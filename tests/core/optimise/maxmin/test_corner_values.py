@@ -33,7 +33,7 @@ def test_the_least_of_a_hex_is_its_scaled_jacobian(seed, amplitude):
     np.testing.assert_allclose(least, measure(mesh.points, mesh.hexes).scaled_jacobian, atol=1e-12)
 
 
-def test_many_hexes_are_worked_out_in_parts():
+def test_of_many_hexes_those_of_some_are_the_same():
     mesh = scrambled(grid(38), 0.4)
     values = scaled_jacobians(mesh.points, mesh.hexes)
     last = slice(-100, None)

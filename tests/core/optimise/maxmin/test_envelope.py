@@ -96,3 +96,14 @@ def test_where_a_move_was_allowed_its_distances_are_not_looked_up_anew(sliding, 
     assert envelope.leaves_band(after, pushed(sliding, nodes, 1.5), nodes)
     envelope.bounds(after, np.full(len(after), 0.1))  # what was refused is not where it is
     assert len(looked) == 1
+
+
+@pytest.mark.parametrize("share", [0.05, 0.3])
+def test_the_largest_deviation_is_exact_where_it_exceeds_a_limit_and_else_0(sliding, share):
+    envelope, points = Envelope(sliding.mesh.n_nodes, sliding), pushed(sliding, sliding.nodes[:2], share)
+    exact = envelope.largest_deviation(points)
+    assert exact > 0
+    for above in (1e-9 * exact, 0.5 * exact, 0.999 * exact):
+        assert envelope.largest_deviation(points, above) == pytest.approx(exact, rel=1e-12)
+    for above in (1.001 * exact, 10 * exact):
+        assert envelope.largest_deviation(points, above) == 0

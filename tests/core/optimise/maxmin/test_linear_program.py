@@ -78,3 +78,10 @@ def test_the_least_falls_only_where_it_may():
     found = solve(nodes, directions, beyond, 0.1, may_decrease=True)
     np.testing.assert_allclose(found.lengths, [0.05, 0], atol=1e-9)
     assert found.gain == pytest.approx(-0.05)
+
+
+@pytest.mark.parametrize("slope", [1e15, 1e300, np.inf, np.nan])
+def test_slopes_that_no_solver_takes_have_no_solution(slope):
+    nodes, directions = along_x(5)
+    constraints = LinearConstraints(ENDS, np.zeros(1), slope_of(1, slope), np.ones(1))
+    assert solve(nodes, directions, constraints, 0.1) is None

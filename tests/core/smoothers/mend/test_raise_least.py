@@ -99,3 +99,18 @@ def test_every_third_step_is_shown_and_says_that_more_is_to_come(infeasible):
         *map(float, range(0, 7, MAXMIN.programs_per_iteration)),
     ]
     assert all(step.intermediate and step.infeasible == infeasible for step in steps)
+
+
+@pytest.mark.parametrize(("programs", "shown"), [(0, 1), (3, 2), (6, 3)])
+def test_after_so_many_programs_it_ends_without_a_limit(programs, shown):
+    steps, limit = walked(StandIn([limit_at(0.3)], steps=20), 0.5, max_programs=programs)
+    assert limit is None
+    assert len(steps) == 1 + shown
+
+
+def test_a_group_that_is_stuck_at_the_last_program_is_the_limit_unless_nodes_could_be_released():
+    raising = StandIn([limit_at(0.05)], steps=3, releases=1)
+    assert walked(raising, 0.5, max_programs=3)[1].least == 0.05
+    raising = StandIn([limit_at(0.05), limit_at(0.06)], steps=3, releases=1)
+    assert walked(raising, 0.5, 0.1, groups=3, max_programs=3)[1] is None
+    assert raising.released == [0.05]
