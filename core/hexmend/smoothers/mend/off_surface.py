@@ -142,7 +142,7 @@ def raise_to_the_end(result: MaxMinResult, config: MaxMinConfig = MAXMIN) -> Gen
     return (yield from raise_within_tolerance(optimiser, optimiser.envelope.max_deviation, config=config))
 
 
-def raise_further(
+def raise_in_wider_band(
     result: MaxMinResult, max_deviation: float, config: MaxMinConfig = MAXMIN
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least in a wider band, where that gains enough; else return `result`."""

@@ -27,7 +27,7 @@ from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.off_surface import (
     MaxMinResult,
     improve_off_surface,
-    raise_further,
+    raise_in_wider_band,
     raise_to_the_end,
     raise_within_tolerance,
 )
@@ -274,7 +274,7 @@ class Stages:
         limits = [limit for limit in nearer if reached <= limit < (1 - MAXMIN.worth_widening) * tolerance]
         optimiser = MaxMinOptimiser(mesh, start, sliding)
         result = yield from improve_off_surface(optimiser, [*limits, tolerance], result, wanted)
-        return (yield from raise_further(result, tolerance)) if self.settings.maximises_jacobian else result
+        return (yield from raise_in_wider_band(result, tolerance)) if self.settings.maximises_jacobian else result
 
     def _untangle(
         self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, locked: np.ndarray

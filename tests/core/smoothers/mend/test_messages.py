@@ -11,7 +11,7 @@ from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.quality.regressions import REGRESSION_KEYS
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.maxmin import MAXMIN
-from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface, raise_further
+from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface, raise_in_wider_band
 from tests.core.boundary.solids import ball, slid
 
 #: Every set of figures that can be worse.
@@ -124,7 +124,7 @@ def test_in_a_wider_band_the_least_is_raised_further_where_that_pays(factor, goe
     optimiser = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = optimiser.steps()
     before = MaxMinResult(optimiser, limit)
-    walk, steps = raise_further(before, factor * room), []
+    walk, steps = raise_in_wider_band(before, factor * room), []
     while True:
         try:
             steps.append(next(walk))
