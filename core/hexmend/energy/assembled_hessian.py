@@ -58,7 +58,6 @@ class AssembledHessian(SymmetricOperator):
         self.order = sparsity.order
         #: Matrix of all free nodes from which this one of fewer was made; see `hexmend.energy.reduction`.
         self.unreduced: AssembledHessian | None = None
-        self._work = np.empty(64 * sparsity.nodes.size + 16, off_diagonal.dtype)
 
     def reset(self) -> AssembledHessian:
         """Zero the storage for reuse; the old matrix becomes invalid."""
@@ -132,9 +131,9 @@ class AssembledHessian(SymmetricOperator):
             return CGResult(np.zeros(right.size), 0, False)
         exponent = int(np.frexp(size)[1])
         b = self._slotted(np.ldexp(right, -exponent))  # scaling by a power of two is exact
-        x = np.empty_like(b)
+        x, work = np.empty_like(b), self.sparsity.workspace.array((64 * self.order.size + 16,), b.dtype.type)
         count, end = kernels.solve(
-            self.sparsity.pattern, self.off_diagonal, self.diagonal, damping, b, tolerance, iterations, x, self._work
+            self.sparsity.pattern, self.off_diagonal, self.diagonal, damping, b, tolerance, iterations, x, work
         )
         with np.errstate(over="ignore"):
             solution = np.ldexp(x[self.order, :3].astype(np.float64).ravel(), exponent - self.exponent)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import threading
 from dataclasses import replace
 from functools import cached_property
 
@@ -18,6 +17,7 @@ from hexmend.energy.linear_operator import SymmetricOperator
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.target import wanted_lengths
+from hexmend.energy.workspace import Workspace
 from hexmend.kernels import assembly, step_limits, threads
 from hexmend.kernels import objective as kernels
 from hexmend.kernels.target import TargetMatrices
@@ -76,7 +76,7 @@ class MeshEnergy:
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
         self._set_target(mesh)
         self.barrier: FloorBarrier | None = None
-        self._scratch = threading.local()
+        self._workspace = Workspace()
 
     @cached_property
     def slots(self) -> np.ndarray:
@@ -86,7 +86,7 @@ class MeshEnergy:
     @cached_property
     def sparsity(self) -> BlockSparsity:
         """Sparsity pattern of the Hessian: pairs of free nodes that share a hex."""
-        return BlockSparsity(self.mesh)
+        return BlockSparsity(self.mesh, workspace=self._workspace)
 
     def _set_target(self, mesh: Mesh) -> None:
         """Take over the target of a mesh with the same hexes."""
@@ -246,10 +246,8 @@ class MeshEnergy:
 
     @property
     def _corner_buffer(self) -> np.ndarray:
-        """Storage for the contributions of hexes at their corners, (m, 8, 3), one for each thread."""
-        if not hasattr(self._scratch, "shares"):
-            self._scratch.shares = np.empty((self.mesh.n_hexes, 8, 3))
-        return self._scratch.shares
+        """Storage for the contributions of hexes at their corners, (m, 8, 3), until the workspace is used again."""
+        return self._workspace.array((self.mesh.n_hexes, 8, 3), np.float64)
 
     def _as_points(self, x: np.ndarray) -> np.ndarray:
         """Check positions of all nodes, (n, 3) float64; raises `MeshError` for another shape or type."""

@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 
 from hexmend.arrays import index_of
+from hexmend.energy.workspace import Workspace
 from hexmend.kernels import ordering
 from hexmend.kernels import sparsity as kernels
 from hexmend.kernels.assembly import HexShares
@@ -28,6 +29,8 @@ class BlockSparsity:
     mesh : Mesh
     parts : int, optional
         Number of parts of the slots; chosen by the number of free nodes by default.
+    workspace : Workspace, optional
+        For the solution of systems; by default one of its own.
 
     Raises
     ------
@@ -42,43 +45,60 @@ class BlockSparsity:
         Limits of the parts, then of the separators, in slots.
     order : (k,) int64
         Slot of each free node, in the order of node numbers.
-    slots : (m, 8) int32
-        Slot of each corner, -1 if it is fixed.
-    target : (m, 28) int32
-        Block to which each pair of a hex's corners contributes.
     row_start, columns : (k + 1,) int32, (blocks,) int32
         Blocks above the diagonal, as compressed rows.
     """
 
-    def __init__(self, mesh: Mesh, parts: int | None = None):
+    def __init__(self, mesh: Mesh, parts: int | None = None, workspace: Workspace | None = None):
+        self.workspace = workspace or Workspace()
         corners, rings = mesh.topology.node_corners, mesh.topology.rings
         if parts is None:
             free = np.count_nonzero(mesh.free)
             parts = max((parts for least, parts in _PARTS if free >= least), default=1)
         self.nodes, self.bounds = ordering.slots(mesh.hexes, rings.start, rings.items, mesh.free, parts)
         self.order = np.argsort(self.nodes)
-        self.slots = index_of(self.nodes, mesh.n_nodes)[mesh.hexes]
+        slots = index_of(self.nodes, mesh.n_nodes)[mesh.hexes]
         with overflow_as_mesh_error("pairs of free nodes that share a hex"):
-            self.row_start, self.columns, self.target = kernels.pattern(
-                self.slots, self.nodes, corners.start, corners.items, MAX_ITEMS
+            self.row_start, self.columns, target = kernels.pattern(
+                slots, self.nodes, corners.start, corners.items, MAX_ITEMS
             )
         self._hexes = mesh.hexes
-        self._shares: dict[int, HexShares] = {}
+        self._rows = np.arange(mesh.n_hexes), slots, target
+        self._shares: tuple[int, HexShares | None] = 0, None
+
+    @property
+    def slots(self) -> np.ndarray:
+        """Slot of each corner, -1 if it is fixed, (m, 8) int32."""
+        return self._of_hexes()[0]
+
+    @property
+    def target(self) -> np.ndarray:
+        """Block to which each pair of a hex's corners contributes, (m, 28) int32."""
+        return self._of_hexes()[1]
+
+    def _of_hexes(self) -> tuple[np.ndarray, np.ndarray]:
+        """`slots` and `target`, from those in shares: a hex may be in two of them, and one that is fixed is in none."""
+        hexes, *rows = self._rows  # one read, as another thread may replace it
+        slots, target = (np.full((len(self._hexes), row.shape[1]), -1, np.int32) for row in rows)
+        slots[hexes], target[hexes] = rows
+        return slots, target
 
     def shares(self, count: int) -> HexShares:
-        """The slots in `count` shares, and the hexes at the slots of each."""
-        if count not in self._shares:
+        """The slots in `count` shares, and the hexes at the slots of each; those of the last count are kept."""
+        known, shares = self._shares
+        if known != count:
             bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)
-            slots = self.slots
+            slots, target = self._of_hexes()
             lowest, highest = slots.view(np.uint32).min(axis=1), slots.max(axis=1)  # -1, fixed, becomes the largest
             order = np.argsort(lowest, kind="stable").astype(np.int32)
             lowest, highest = lowest[order], highest[order]
             there = [order[(lowest < high) & (highest >= low)] for low, high in itertools.pairwise(bounds)]
             start = np.cumsum([0, *map(len, there)], dtype=np.int32)
             chosen = np.concatenate(there)
-            hexes, target = self._hexes[chosen], self.target[chosen]
-            self._shares[count] = HexShares(bounds, start, chosen, hexes, slots[chosen], target)
-        return self._shares[count]
+            self._rows = chosen, slots, target = chosen, slots[chosen], target[chosen]
+            shares = HexShares(bounds, start, chosen, self._hexes[chosen], slots, target)
+            self._shares = count, shares
+        return shares
 
     @property
     def pattern(self) -> BlockPattern:

@@ -119,6 +119,19 @@ def test_blocks_of_a_hessian_are_the_pairs_of_free_nodes_that_share_a_hex():
     np.testing.assert_array_equal(columns[at.target[free]], ends[free][:, 1])
 
 
+def test_rows_of_hexes_are_the_same_whatever_shares_they_are_kept_in():
+    fixed = np.zeros(MESH.n_nodes, dtype=bool)
+    fixed[MESH.hexes[:3]] = True  # hexes that are in no share
+    at = BlockSparsity(MESH.with_fixed(fixed), parts=2)
+    slots, target = at.slots, at.target
+    assert (slots[:3] == -1).all()
+    for count in (1, 2, 5, 2):
+        shares = at.shares(count)
+        assert at.shares(count) is shares
+        np.testing.assert_array_equal(at.slots, slots)
+        np.testing.assert_array_equal(at.target, target)
+
+
 def test_two_corners_that_are_one_node_add_to_its_own_block():
     hexes = np.array([[4, 4, 5, 1, 1, 6, 7, 0]], np.int32)
     slots = np.array([[1, 1, -1, 0, 0, -1, -1, -1]], np.int32)

@@ -57,14 +57,13 @@ class Stages:
         yield Step(mesh.points)
         slides = self.settings.slides_on(mesh)
         intermediate = slides or self.goal != "shape"
-        given, quality = mesh.points, measure(mesh.points, mesh.hexes)
-        locked_at_start = locked_corners(mesh, quality)
+        given, locked_at_start = mesh.points, locked_corners(mesh, measure(mesh.points, mesh.hexes))
         if slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.settings.sliding(mesh).mesh.points)
-            given, quality = mesh.points, measure(mesh.points, mesh.hexes)
-            yield Step(mesh.points, intermediate=True, quality=quality, begins=True)
+            given = mesh.points
+            yield Step(given, intermediate=True, quality=measure(given, mesh.hexes), begins=True)
         energy = energy_of(mesh, self.settings.first_norm_on(mesh))
-        shape = yield from self._shape(mesh, energy, quality, intermediate or mesh.linear_motion is not None)
+        shape = yield from self._shape(mesh, energy, intermediate or mesh.linear_motion is not None)
         if not intermediate:
             return shape.outcome
         fixed_optimum, sliding, fixed = shape.points, None, None  # the optimum with the boundary fixed
@@ -132,10 +131,9 @@ class Stages:
         sets_hold = settings.surface_tolerance == AUTO
         return SlidingBoundary(mesh, settings.feature_angle, self._bands(mesh)[0], settings.slides, sets_hold)
 
-    def _shape(
-        self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, intermediate: bool
-    ) -> Generator[Step, None, ShapeOptimum]:
-        """Untangle a mesh whose hexes have this quality, then go to the optimum of shape."""
+    def _shape(self, mesh: Mesh, energy: MeshEnergy, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
+        """Untangle a mesh, then go to the optimum of shape."""
+        quality = measure(mesh.points, mesh.hexes)
         newton, locked = NewtonConfig(self.settings.solver_iterations), locked_corners(mesh, quality)
         energy = energy.with_objective(energy.norm, locked)
         untangled = yield from self._untangle(mesh, energy, quality, locked)
@@ -144,6 +142,7 @@ class Stages:
             decision = omission_message(omitted, locked)
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)
+        del untangled, quality  # large meshes have no memory for what is no longer needed
         config = ShapeOptimumConfig(newton=newton)
         return (yield from optimise_shape(energy, points, self.settings.p_limit, intermediate, config))
 
@@ -157,8 +156,7 @@ class Stages:
     def _sliding_shape(self, sliding: SlidingBoundary, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
         """Untangle a mesh whose boundary slides, from points (n, 3) on, then go to the optimum of shape."""
         energy = energy_of(sliding.mesh, self.settings.first_norm_on(sliding.mesh), sliding)
-        quality = measure(points, sliding.mesh.hexes)
-        return (yield from self._shape(sliding.mesh.with_points(points), energy, quality, True))
+        return (yield from self._shape(sliding.mesh.with_points(points), energy, True))
 
     def _maxmin_stage(
         self,
