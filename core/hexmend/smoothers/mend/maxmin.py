@@ -38,6 +38,8 @@ class MaxMinConfig:
         tolerance.
     worth_widening : float
         Gain of the least, as a share of it or of 0.1, from which on the boundary may be further from its surface.
+    worth_leaving : float
+        The same where nodes that have left the surface may be further from it, though the least is acceptable.
     off_surface_tolerances : tuple of float
         Distances, in mean edge lengths, to which nodes that left the surface return while the least stays acceptable.
     off_surface_limit : float
@@ -69,6 +71,7 @@ class MaxMinConfig:
     surface_share: float = 1 / 3
     bands: tuple[float, ...] = (0.045, 0.1, 1 / 3)
     worth_widening: float = 0.05
+    worth_leaving: float = 0.25
     off_surface_tolerances: tuple[float, ...] = (1 / 30, 0.1, 0.3)
     off_surface_limit: float = 1.5
     off_surface_factor: float = 1.2

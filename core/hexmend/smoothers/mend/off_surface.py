@@ -33,9 +33,9 @@ class MaxMinResult:
         """Step of a smoother to these points."""
         return Step(self.optimiser.points, {"least": self.least}, intermediate=True)
 
-    def is_worth_leaving(self, least: float, config: MaxMinConfig = MAXMIN) -> bool:
-        """Return True if the least is so much higher than another that the boundary may be further away for it."""
-        return self.least - least >= config.worth_widening * max(least, 0.1)
+    def gains(self, least: float, share: float = MAXMIN.worth_widening) -> bool:
+        """Return True if the least is higher than another by a share of that or of 0.1."""
+        return self.least - least >= share * max(least, 0.1)
 
 
 def raise_within_tolerance(
@@ -125,7 +125,7 @@ def improve_off_surface(
         if result is reached:
             limit = limits[-1] if least > 0 else limits[0]
         result = yield from _detour(fork, [limit], factor * limit, target, result, config, config.detour_programs)
-        if not result.is_worth_leaving(least, config):
+        if not result.gains(least, config.worth_widening):
             factor, target = next(factors, None), config.target_growth * target
             if factor is None:
                 break
@@ -149,7 +149,7 @@ def raise_in_wider_band(
     if not result.optimiser.envelope.max_deviation * (1 + result.optimiser.config.band_excess) < max_deviation:
         return result
     higher = yield from infeasible(raise_within_tolerance(result.optimiser.fork(), max_deviation, config=config))
-    if not higher.is_worth_leaving(result.least, config):
+    if not higher.gains(result.least, config.worth_leaving):
         return result
     yield higher.step()
     return higher

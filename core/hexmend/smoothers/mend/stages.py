@@ -202,7 +202,7 @@ class Stages:
         for band in bands:
             wide = sliding.with_band(band)
             higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [result.optimiser.points], wide))
-            if not higher.is_worth_leaving(result.least):
+            if not higher.gains(result.least):
                 break
             result = higher
             yield result.step()
