@@ -130,17 +130,15 @@ def maximise_minimum(
         The first group that was stuck: it limits the least of all. None if none was after `max_programs`.
     """
     yield Step(optimiser.points, {"least": optimiser.least}, intermediate=True, infeasible=infeasible)
-    first, begin, limit = None, optimiser.programs, max_programs
+    first, begin = None, optimiser.programs
+    end = begin + max_programs
     while True:
-        for number, step in enumerate(optimiser.steps(target)):
-            active = step if isinstance(step, ActiveCorners) else None
-            if active is None and number % config.programs_per_iteration == 0:
-                yield step.step(infeasible)
-            if active is None and optimiser.programs - begin > limit:
-                return first
+        active = yield from _raise_group(optimiser, target, infeasible, end, config)
+        if active is None:
+            return first
         if not active.hexes.size or active.least >= target:
             break
-        releasable, exceeded = active.least < release_below, optimiser.programs - begin > limit
+        releasable, exceeded = active.least < release_below, optimiser.programs > end
         if exceeded:
             return first or (None if releasable else active)
         if releasable and optimiser.release(active):
@@ -148,12 +146,26 @@ def maximise_minimum(
         if active.least < give_up_below:
             break
         if first is None:
-            first, limit = active, min(limit, 2 * (optimiser.programs - begin))
+            first, end = active, min(end, 2 * optimiser.programs - begin)
         groups -= 1
         if active.least >= config.acceptable or not groups:
             break
         optimiser.freeze(active)
     return first or active
+
+
+def _raise_group(
+    optimiser: MaxMinOptimiser, target: float, infeasible: bool, last_program: float, config: MaxMinConfig
+) -> Generator[Step, None, ActiveCorners | None]:
+    """Raise the least until a group is stuck, which is returned; None where so many programs were not enough."""
+    for number, step in enumerate(optimiser.steps(target)):
+        if isinstance(step, ActiveCorners):
+            return step
+        if number % config.programs_per_iteration == 0:
+            yield step.step(infeasible)
+        if optimiser.programs > last_program:
+            return None
+    return None
 
 
 def active_set(optimiser: MaxMinOptimiser, active: ActiveCorners) -> ActiveSet:
