@@ -130,16 +130,14 @@ def maximise_minimum(
         The first group that was stuck: it limits the least of all. None if none was after `max_programs`.
     """
     yield Step(optimiser.points, {"least": optimiser.least}, intermediate=True, infeasible=infeasible)
-    first, begin = None, optimiser.programs
-    end = begin + max_programs
+    begin = optimiser.programs
+    first, end = None, begin + max_programs
     while True:
         active = yield from _raise_group(optimiser, target, infeasible, end, config)
-        if active is None:
-            return first
-        if not active.hexes.size or active.least >= target:
+        if active is None or not active.hexes.size or active.least >= target:
             break
-        releasable, exceeded = active.least < release_below, optimiser.programs > end
-        if exceeded:
+        releasable = active.least < release_below
+        if optimiser.programs > end:
             return first or (None if releasable else active)
         if releasable and optimiser.release(active):
             continue
