@@ -106,7 +106,7 @@ class SlidingBoundary(Band):
         self.releasable &= ~(stays | self.confined)
         self._group = self.surface.group_of(self.nodes)
         self._number = index_of(self.nodes, mesh.n_nodes)
-        self._known = np.full(mesh.n_nodes, -1, dtype=np.int32)  # piece on which each node was last
+        self._known = np.full(self.nodes.size, -1, dtype=np.int32)  # piece on which each of them was last
         if target is not None:
             start, mesh = self.projected(start), mesh.with_points(self.projected(mesh.points))
         super().__init__(mesh.surface_points, self.boundary.faces, start, target, max_deviation)
@@ -132,7 +132,7 @@ class SlidingBoundary(Band):
         vars(other)["outward"], other.max_deviation = self.outward[judged], max_deviation
         other.node_class[nodes] = NodeClass.INSIDE
         stays = ~freed[self.nodes]
-        other.nodes, other._group = self.nodes[stays], self._group[stays]
+        other.nodes, other._group, other._known = self.nodes[stays], self._group[stays], self._known[stays]
         other._number = index_of(other.nodes, self.mesh.n_nodes)
         other.mesh = self.mesh.with_fixed(self.mesh.fixed & ~freed)
         return other
@@ -219,8 +219,7 @@ class SlidingBoundary(Band):
         quads_at = order[np.searchsorted(at[order], 0) :].astype(np.int32)
         start = np.searchsorted(at[quads_at], np.arange(self.nodes.size + 1)).astype(np.int32)
         quads = kernels.BoundaryQuads(start, quads_at, faces, self.outward)
-        known = np.full(self.nodes.size, -1, dtype=np.int32)
-        return kernels.SlidingSurface(self._number, trees.roots[self._group], trees.box_trees, quads, known)
+        return kernels.SlidingSurface(self._number, trees.roots[self._group], trees.box_trees, quads, self._known)
 
     @cached_property
     def curved_nodes(self) -> np.ndarray:
@@ -344,10 +343,10 @@ class SlidingBoundary(Band):
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> ClosestPoints:
         x = as_points(x, "places of sliding nodes")
-        of, group = (self.nodes, self._group) if nodes is None else (nodes, self._group[self._number[nodes]])
+        slots = slice(None) if nodes is None else self._number[nodes]
         try:
-            found = self.surface.trees.closest(x, group, known=self._known[of])
-            self._known[of] = found.pieces  # the next place of a node is near this one
+            found = self.surface.trees.closest(x, self._group[slots], known=self._known[slots])
+            self._known[slots] = found.pieces  # the next place of a node is near this one
             return found
         except MeshError:
             far = np.flatnonzero(~(np.abs(x) < MAX_CLOSEST_COORDINATE).all(axis=1))

@@ -15,6 +15,7 @@ from hexmend.smoothers.mend.local_sweeps import local_sweeps
 from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
 from tests.core.boundary.solids import wavy
 from tests.core.grids import grid, scrambled
+from tests.core.smoothers.mend.walks import walked
 
 DEFAULT = UntanglingConfig()
 
@@ -45,12 +46,7 @@ def untangled(mesh, energy, config=DEFAULT):
     """Untangle a mesh: the steps, and the result."""
     quality = measure(mesh.points, mesh.hexes)
     locked = locked_corners(mesh, quality)
-    walk, steps = untangle(mesh, energy, quality, locked, config), []
-    while True:
-        try:
-            steps.append(next(walk))
-        except StopIteration as end:
-            return steps, end.value
+    return walked(untangle(mesh, energy, quality, locked, config))
 
 
 def nodes_of(mesh, hexes):

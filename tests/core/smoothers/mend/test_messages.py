@@ -13,6 +13,7 @@ from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.maxmin import MAXMIN
 from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface, raise_in_wider_band
 from tests.core.boundary.solids import ball, slid
+from tests.core.smoothers.mend.walks import walked
 
 #: Every set of figures that can be worse.
 WORSE = [words for count in range(len(REGRESSION_KEYS) + 1) for words in itertools.combinations(REGRESSION_KEYS, count)]
@@ -58,13 +59,7 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     walk = improve_off_surface(
         MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [1e-9], MaxMinResult(other, limit), 0.2
     )
-    steps = []
-    while True:
-        try:
-            steps.append(next(walk))
-        except StopIteration as end:
-            result = end.value
-            break
+    steps, result = walked(walk)
     assert result.optimiser is other
     assert result.active is limit
     assert steps[-1].points is other.points
@@ -103,12 +98,7 @@ def test_what_is_better_off_the_surface_and_back_in_its_band_is_taken():
     other, off = (MaxMinOptimiser(sliding.mesh, mesh.points, sliding) for _ in range(2))
     limit = ActiveCorners(other.corners.active_minimum, np.array([0]), np.array([0]))
     walk = improve_off_surface(off, [room], MaxMinResult(other, limit), 0.2, replace(MAXMIN, acceptable=0.3))
-    while True:
-        try:
-            next(walk)
-        except StopIteration as end:
-            result = end.value
-            break
+    _, result = walked(walk)
     assert result.optimiser is off
     assert result.active is not limit
     assert off.corners.movable_minimum > other.corners.movable_minimum
@@ -124,13 +114,7 @@ def test_in_a_wider_band_the_least_is_raised_further_where_that_pays(factor, goe
     optimiser = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = optimiser.steps()
     before = MaxMinResult(optimiser, limit)
-    walk, steps = raise_in_wider_band(before, factor * room), []
-    while True:
-        try:
-            steps.append(next(walk))
-        except StopIteration as end:
-            after = end.value
-            break
+    steps, after = walked(raise_in_wider_band(before, factor * room))
     assert (after is not before) == goes_on
     assert bool(steps) == goes_on
     if goes_on:

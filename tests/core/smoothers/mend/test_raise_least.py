@@ -5,6 +5,7 @@ import pytest
 
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinStep
 from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
+from tests.core.smoothers.mend.walks import walked
 
 NOTHING = np.empty(0, np.int64)
 
@@ -37,19 +38,14 @@ class StandIn:
         return len(self.released) <= self._releases
 
 
-def walked(raising, *given, **options):
-    steps, walk = [], maximise_minimum(raising, *given, **options)
-    while True:
-        try:
-            steps.append(next(walk))
-        except StopIteration as end:
-            return steps, end.value
+def raised(raising, *given, **options):
+    return walked(maximise_minimum(raising, *given, **options))
 
 
 @pytest.mark.parametrize("groups", [1, 2, 3])
 def test_so_many_groups_are_left_behind_and_the_first_limit_is_returned(groups):
     raising = StandIn([limit_at(0.01 * k) for k in range(1, 9)])
-    steps, limit = walked(raising, 0.5, groups=groups)
+    steps, limit = raised(raising, 0.5, groups=groups)
     assert len(raising.asked) == groups
     assert raising.frozen == [0.01 * k for k in range(1, groups)]
     assert limit.least == 0.01
@@ -59,13 +55,13 @@ def test_so_many_groups_are_left_behind_and_the_first_limit_is_returned(groups):
 @pytest.mark.parametrize(("least", "frozen"), [(0.09, [0.09, 0.09]), (0.1, []), (0.11, [])])
 def test_where_the_aim_is_reached_nothing_is_left_behind(least, frozen):
     raising = StandIn([limit_at(least)] * 3)
-    walked(raising, 0.1, groups=3)
+    raised(raising, 0.1, groups=3)
     assert raising.frozen == frozen
 
 
 def test_groups_after_the_first_take_no_more_steps_than_it_did():
     raising = StandIn([limit_at(0.01 * k) for k in range(1, 9)], steps=4)
-    _, limit = walked(raising, 0.5, groups=8)
+    _, limit = raised(raising, 0.5, groups=8)
     assert raising.frozen == [0.01, 0.02]
     assert limit.least == 0.01
 
@@ -73,27 +69,27 @@ def test_groups_after_the_first_take_no_more_steps_than_it_did():
 @pytest.mark.parametrize(("below", "frozen"), [(0.01, [0.01, 0.02]), (0.015, []), (0.5, [])])
 def test_it_gives_up_where_the_first_group_is_stuck_too_low(below, frozen):
     raising = StandIn([limit_at(0.01 * k) for k in range(1, 9)])
-    _, limit = walked(raising, 0.5, groups=3, give_up_below=below)
+    _, limit = raised(raising, 0.5, groups=3, give_up_below=below)
     assert raising.frozen == frozen
     assert limit.least == 0.01
 
 
 def test_nothing_follows_where_nothing_limits():
     raising = StandIn([limit_at(-1.0, 0)])
-    assert walked(raising, 0.5, 0.5, groups=5)[1].least == -1.0
+    assert raised(raising, 0.5, 0.5, groups=5)[1].least == -1.0
     assert raising.frozen == raising.released == []
 
 
 def test_nodes_are_released_below_a_value_as_often_as_there_are_any_before_a_group_is_left_behind():
     raising = StandIn([limit_at(least) for least in (0.0, 0.05, 0.09, 0.1, 0.15)], releases=2)
-    walked(raising, 0.5, 0.1, groups=3)
+    raised(raising, 0.5, 0.1, groups=3)
     assert raising.released == [0.0, 0.05, 0.09]
     assert raising.frozen == [0.09, 0.1]
 
 
 @pytest.mark.parametrize("infeasible", [False, True])
 def test_every_third_step_is_shown_and_says_that_more_is_to_come(infeasible):
-    steps, _ = walked(StandIn([limit_at(0.3)], steps=7), 0.5, infeasible=infeasible)
+    steps, _ = raised(StandIn([limit_at(0.3)], steps=7), 0.5, infeasible=infeasible)
     assert [step.diagnostics["least"] for step in steps] == [
         -1.0,
         *map(float, range(0, 7, MAXMIN.programs_per_iteration)),
@@ -103,14 +99,14 @@ def test_every_third_step_is_shown_and_says_that_more_is_to_come(infeasible):
 
 @pytest.mark.parametrize(("programs", "shown"), [(0, 1), (3, 2), (6, 3)])
 def test_after_so_many_programs_it_ends_without_a_limit(programs, shown):
-    steps, limit = walked(StandIn([limit_at(0.3)], steps=20), 0.5, max_programs=programs)
+    steps, limit = raised(StandIn([limit_at(0.3)], steps=20), 0.5, max_programs=programs)
     assert limit is None
     assert len(steps) == 1 + shown
 
 
 def test_a_group_that_is_stuck_at_the_last_program_is_the_limit_unless_nodes_could_be_released():
     raising = StandIn([limit_at(0.05)], steps=3, releases=1)
-    assert walked(raising, 0.5, max_programs=3)[1].least == 0.05
+    assert raised(raising, 0.5, max_programs=3)[1].least == 0.05
     raising = StandIn([limit_at(0.05), limit_at(0.06)], steps=3, releases=1)
-    assert walked(raising, 0.5, 0.1, groups=3, max_programs=3)[1] is None
+    assert raised(raising, 0.5, 0.1, groups=3, max_programs=3)[1] is None
     assert raising.released == [0.05]
