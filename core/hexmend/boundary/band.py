@@ -233,12 +233,14 @@ class Band:
     def target_samples(self) -> np.ndarray:
         """Samples of the surface, (s, 3): those of a finer one are thinned, as the boundary cannot follow its details.
 
-        In each cell of a lattice the samples that are furthest from the boundary and nearest to it at first are kept.
+        Edges and faces that are no longer than a cell of a lattice are not sampled; in each cell the samples that are
+        furthest from the boundary and nearest to it at first are kept.
         """
         if self._given is None:
             return means(self._start, self.samples)
-        x, start = self._given.samples(), self.skin.with_points(self._start)
+        start = self.skin.with_points(self._start)
         cell = _SAMPLE_DISTANCE * float(row_norms(np.diff(self._start[self.skin.edges.nodes], axis=1)[:, 0]).mean())
+        x = self._given.samples(cell)
         return x[extremes_in_cells(x, start.distances(x), cell)] if cell > 0 else x
 
     @cached_property

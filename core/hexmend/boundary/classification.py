@@ -160,6 +160,7 @@ def classify(
     whisker: float = WHISKER_FACTOR,
     sharp: np.ndarray | None = None,
     corners: np.ndarray | None = None,
+    edges: SurfaceEdges | None = None,
 ) -> Boundary:
     """Classify the nodes of any surface of triangles or quads; see `boundary_of`.
 
@@ -173,6 +174,8 @@ def classify(
     faces : (k, 4) or (k, 3) int32
     feature_angle, turn, whisker, sharp, corners
         See `boundary_of`; no edges and corners are given by default.
+    edges : SurfaceEdges, optional
+        Those of the faces, where they are known already.
 
     Returns
     -------
@@ -186,7 +189,7 @@ def classify(
     points = as_points(points)
     n = len(points)
     faces, kept = as_faces(faces, n), mask(as_set([] if corners is None else corners, "corners", n), n)
-    edges = SurfaceEdges(faces, n)
+    edges = edges or SurfaceEdges(faces, n)
     given = np.isin(edges.key, edges.keys_of(_edges([] if sharp is None else sharp, n)))
     feature = feature_edges(points, edges, feature_angle, given, kept, whisker)
     segments = edges.nodes[feature]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.aliases import old_keywords
+from hexmend.arrays import mask, row_norms
 from hexmend.boundary.classification import boundary_of
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, NearPoints, triangulate, vertices_of
 from hexmend.boundary.edges import SurfaceEdges
@@ -137,10 +138,17 @@ class SkinSurface:
         other.derived = {}
         return other
 
-    def samples(self) -> np.ndarray:
-        """Return the positions of `nodes`, of edge midpoints and of face midpoints, in this order, (s, 3)."""
-        midpoints = (self.points[of].mean(axis=1) for of in (self.edges.nodes, self.faces))
-        return np.concatenate([self.points[self.nodes], *midpoints])
+    def samples(self, spacing: float = 0.0) -> np.ndarray:
+        """Return the positions of `nodes`, of edge midpoints and of face midpoints, in this order, (s, 3).
+
+        Midpoints of edges that are no longer than `spacing` and of faces without a longer edge are left out.
+        """
+        edges, faces = self.edges.nodes, self.faces
+        if spacing > 0:
+            one, other = (self.points[edges[:, end]] for end in range(2))
+            longer = row_norms(other - one) > spacing
+            edges, faces = edges[longer], faces[mask(self.edges.neighbours[longer].ravel(), len(faces))]
+        return np.concatenate([self.points[self.nodes], _middles(self.points, edges), _middles(self.points, faces)])
 
     def distances(self, x: np.ndarray) -> np.ndarray:
         """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit."""
@@ -236,6 +244,11 @@ class SkinSurface:
         x, triangles = self._trees.points - self.points[self.nodes].mean(axis=0), self._trees.pieces
         a, b, c = (x[triangles[:, k]] for k in range(3))
         return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
+
+
+def _middles(points: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Return the mean of the points (n, 3) of each row (k, w) of nodes, (k, 3)."""
+    return sum(points[rows[:, column]] for column in range(rows.shape[1])) / rows.shape[1]
 
 
 def mutual_distances(one: SkinSurface, other: SkinSurface) -> tuple[np.ndarray, np.ndarray]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import cross_products, row_norms
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.edges import segment_pairs
 
@@ -11,7 +12,7 @@ from hexmend.boundary.edges import segment_pairs
 def triangle_normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Unit normals of triangles, (t, 3), 0 for one without area."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    return unit_vectors(np.cross(b - a, c - a))
+    return unit_vectors(cross_products(b - a, c - a))
 
 
 def vertex_normals(vertices: np.ndarray, triangles: np.ndarray, patch: np.ndarray) -> np.ndarray:
@@ -32,13 +33,14 @@ def vertex_normals(vertices: np.ndarray, triangles: np.ndarray, patch: np.ndarra
     (t, 3, 3) float64
         Unit normals at the three corners of each triangle.
     """
-    corners = vertices[triangles]
-    one, other = (np.roll(corners, -k, axis=1) - corners for k in (1, 2))
-    sine = np.linalg.norm(np.cross(one, other), axis=2)
-    angle = np.arctan2(sine, np.einsum("tij,tij->ti", one, other))
+    x = [vertices[triangles[:, k]] for k in range(3)]
+    sides = [x[1] - x[0], x[2] - x[1], x[0] - x[2]]
+    area = cross_products(sides[0], sides[1])  # twice, as at each corner
+    cosines = np.stack([-np.einsum("ti,ti->t", sides[k], sides[k - 1]) for k in range(3)], axis=1)
+    angle = np.arctan2(row_norms(area)[:, None], cosines)
     key = patch[:, None].astype(np.int64) * len(vertices) + triangles
     _, vertex = np.unique(key, return_inverse=True)
-    share = angle[:, :, None] * triangle_normals(vertices, triangles)[:, None, :]
+    share = angle[:, :, None] * unit_vectors(area)[:, None, :]
     sums = np.column_stack([np.bincount(vertex.ravel(), share[:, :, k].ravel()) for k in range(3)])
     return unit_vectors(sums)[vertex.reshape(triangles.shape)]
 
@@ -75,5 +77,5 @@ def curve_tangents(points: np.ndarray, boundary: Boundary) -> np.ndarray:
 
 def unit_vectors(vectors: np.ndarray) -> np.ndarray:
     """Normalise vectors (..., 3); those of length 0 stay 0."""
-    size = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    size = row_norms(vectors)[..., None]
     return vectors / np.where(size > 0, size, 1.0)

@@ -364,7 +364,7 @@ def _partitioned(target: SkinSurface, feature_angle: FeatureAngle) -> Partitione
     """Curves and patches of a surface, which keeps them: a run and its report need those of a large one again."""
     known = target.derived.get(feature_angle)
     if known is None:
-        boundary = classify(target.points, target.faces, feature_angle)
+        boundary = classify(target.points, target.faces, feature_angle, edges=target.edges)
         known = target.derived[feature_angle] = PartitionedSurface(target.points, boundary)
     return known
 

@@ -39,6 +39,14 @@ def test_samples_are_nodes_then_midpoints_of_edges_and_faces_on_the_surface(skin
     np.testing.assert_allclose(skin.distances(samples), 0, atol=1e-12)
 
 
+def test_samples_at_a_spacing_leave_out_midpoints_of_shorter_edges_and_of_faces_without_a_longer_one():
+    x = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [9, 1, 0]], dtype=float)
+    skin = SkinSurface(x, np.array([[0, 1, 2], [0, 2, 3], [1, 4, 2]], dtype=np.int32))
+    middles = [[5, 0.5, 0], [5, 1, 0]], [[11 / 3, 2 / 3, 0]]
+    np.testing.assert_allclose(skin.samples(2.0), np.concatenate([x, *middles]))
+    np.testing.assert_array_equal(skin.samples(20.0), x)
+
+
 def test_a_skin_whose_nodes_have_moved_is_elsewhere_and_the_first_is_not(skin):
     x = skin.samples()
     moved = skin.with_points(skin.points + [0, 0, 7])

@@ -6,6 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from hexmend.arrays import cross_products, row_norms
 from hexmend.boundary.edges import SurfaceEdges, chains, segment_pairs
 from hexmend.boundary.feature_edges.prominence import LEAST_ANGLE, is_low, standing_corners, surrounding_angles
 from hexmend.boundary.skin_faces import edges_between_sets, lone_set_nodes
@@ -90,7 +91,7 @@ def dihedral_angles(points: np.ndarray, edges: SurfaceEdges) -> np.ndarray:
     normals = face_normals(points, edges.faces)
     one, other = (normals[edges.neighbours[:, side]] for side in (0, 1))
     other = np.where(edges.opposed[:, None], other, -other)
-    angle = np.degrees(np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), np.einsum("ij,ij->i", one, other)))
+    angle = np.degrees(np.arctan2(row_norms(cross_products(one, other)), np.einsum("ij,ij->i", one, other)))
     return np.where(edges.count == 2, angle, 0.0)
 
 
@@ -98,9 +99,9 @@ def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Unit normals of the faces' mean planes, 0 for a face of negligible area; (k, 3) float64."""
     x = points[faces] - points[faces[:, :1]]
     following = np.roll(x, -1, axis=1)
-    area = np.cross(x, following).sum(axis=1)  # twice the area vector
-    size = np.linalg.norm(area, axis=1)
-    perimeter = np.linalg.norm(following - x, axis=2).sum(axis=1)
+    area = cross_products(x, following).sum(axis=1)  # twice the area vector
+    size = row_norms(area)
+    perimeter = row_norms(following - x).sum(axis=1)
     sound = size > _MIN_AREA_RATIO * perimeter**2 / 8
     return np.where(sound[:, None], area, 0.0) / np.where(sound, size, 1.0)[:, None]
 
@@ -110,7 +111,7 @@ def turning_angles(points: np.ndarray, segments: np.ndarray, between: np.ndarray
     ends, (first, second) = segments.ravel(), segment_pairs(segments, between).T
     node = ends[first]
     before, after = points[node] - points[ends[first ^ 1]], points[ends[second ^ 1]] - points[node]
-    across = np.linalg.norm(np.cross(before, after), axis=1)
+    across = row_norms(cross_products(before, after))
     angle = np.zeros(len(points))
     angle[node] = np.degrees(np.arctan2(across, np.einsum("ij,ij->i", before, after)))
     return angle
