@@ -101,7 +101,8 @@ class SlidingBoundary(Band):
         self.nodes = np.flatnonzero(slides)
         self.releasable = self.boundary.node_class == NodeClass.CORNER
         self.releasable[marked_corners(mesh)] = False
-        self.confined = interface_nodes(mesh).copy()
+        self._of_interfaces = interface_nodes(mesh)
+        self.confined = self._of_interfaces.copy()
         self.confined[marked_edges(mesh) if sets_hold else ridges(mesh)] = True
         self.releasable &= ~(stays | self.confined)
         self._group = self.surface.group_of(self.nodes)
@@ -136,6 +137,36 @@ class SlidingBoundary(Band):
         other._number = index_of(other.nodes, self.mesh.n_nodes)
         other.mesh = self.mesh.with_fixed(self.mesh.fixed & ~freed)
         return other
+
+    def with_nodes_on_patches(self, nodes: np.ndarray) -> SlidingBoundary:
+        """Return the sliding boundary with nodes (k,) of curves on all its patches but those of interfaces."""
+        other = copy.copy(self)
+        for name in _OF_SLIDING_NODES:
+            vars(other).pop(name, None)
+        other.surface, at = self._surface_with_union, self._number[nodes]
+        other.node_class, other._group = self.node_class.copy(), self._group.copy()
+        other.node_class[nodes], other._group[at] = NodeClass.PATCH, self._union
+        other._known = np.full(self.nodes.size, -1, dtype=np.int32)
+        return other
+
+    @property
+    def _union(self) -> int:
+        """Number of the group of all patches in a surface that has it."""
+        return self.surface.n_patches + self.surface.n_curves
+
+    @cached_property
+    def _surface_with_union(self) -> PartitionedSurface:
+        surface, boundary = self.surface, self.boundary
+        if surface.trees.roots.size > self._union:
+            return surface
+        if self._given is not None:  # a target has no interfaces
+            return surface.with_union(np.ones(surface.n_patches, dtype=bool))
+        between = boundary.patch_of_face[self._of_interfaces[boundary.faces].all(axis=1)]
+        return surface.with_union(~mask(between, surface.n_patches))
+
+    def on_several_patches(self, nodes: np.ndarray) -> np.ndarray:
+        """Mark those of some sliding nodes (k,) that slide on all patches, (k,) bool."""
+        return self._group[self._number[nodes]] == self._union
 
     def with_band(self, max_deviation: float) -> SlidingBoundary:
         """Return the sliding boundary with another width of the band, in the mesh's unit."""

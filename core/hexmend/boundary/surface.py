@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate
 from hexmend.boundary.normals import curve_tangents, segment_tangents, triangle_normals, vertex_normals
@@ -67,6 +68,16 @@ class PartitionedSurface:
         """Trees of all patches, group 0, and of all curves, group 1."""
         curve = self._group >= self.n_patches
         return ClosestPointTrees(self.trees.points, self.trees.pieces, curve.astype(np.int32))
+
+    def with_union(self, patches: np.ndarray) -> PartitionedSurface:
+        """Return this surface with one more group of `trees`, the last: that of some patches, (n_patches,) bool."""
+        other, trees, last = copy.copy(self), self.trees, self.n_patches + self.n_curves
+        again = np.flatnonzero(mask(np.flatnonzero(patches), last)[self._group])
+        group = np.concatenate([self._group, np.full(again.size, last, dtype=self._group.dtype)])
+        other.trees = ClosestPointTrees(trees.points, np.concatenate([trees.pieces, trees.pieces[again]]), group)
+        own = np.concatenate([np.arange(len(self._group)), again])[other.trees.order]
+        other._flat, other._smooth, other._group = self._flat[own], self._smooth[own], group[other.trees.order]
+        return other
 
     def group_of(self, nodes: np.ndarray) -> np.ndarray:
         """Return the group of `trees` on which each of some nodes slides.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,9 @@ from hexmend.boundary import SlidingBoundary
 
 #: Directions around a point of a patch, in the basis of its tangent plane.
 AROUND = np.array([(np.cos(angle), np.sin(angle), 0.0) for angle in np.arange(8) * np.pi / 4]).round(15)
+#: Directions of a point on several patches, before projection: axes and diagonals of a cube.
+_ALL_AROUND = np.array([x for x in itertools.product((-1.0, 0.0, 1.0), repeat=3) if np.count_nonzero(x) in (1, 3)])
+_ALL_AROUND /= np.linalg.norm(_ALL_AROUND, axis=1, keepdims=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +58,8 @@ def step_directions(
 ) -> StepDirections:
     """Find the directions of nodes: both senses of each axis inside, eight in a patch, two along a curve.
 
+    A node that left its curve has 14 all around, as it may go onto any patch.
+
     Parameters
     ----------
     x : (k, 3) float64
@@ -79,12 +85,7 @@ def step_directions(
     projected = displacements
     if slides.any():
         sliding_index = np.flatnonzero(slides)
-        bases = sliding.tangent_bases(x[sliding_index], nodes[sliding_index])
-        tangents = np.einsum("kij,wj->kwi", bases, AROUND).reshape(-1, 3)
-        admissible = np.linalg.norm(tangents, axis=1) > 0.5  # on a curve those along it, each once
-        on_patch = np.repeat(bases[:, :, 1].any(axis=1), len(AROUND))
-        admissible &= np.tile(AROUND[:, 1] == 0, sliding_index.size) | on_patch
-        tangents, tangent_index = tangents[admissible], np.repeat(sliding_index, len(AROUND))[admissible]
+        tangents, tangent_index = _tangents(x, nodes, sliding_index, sliding)
         distance = np.maximum(radius * size[tangent_index, None], np.finfo(float).tiny)  # nodes may coincide
         start = x[tangent_index]
         on_surface = (sliding.project(start + distance * tangents, nodes[tangent_index]) - start) / distance
@@ -94,3 +95,18 @@ def step_directions(
     order = np.argsort(index, kind="stable")
     scale = size[index[order], None]
     return StepDirections(index[order], scale * displacements[order], scale * projected[order])
+
+
+def _tangents(
+    x: np.ndarray, nodes: np.ndarray, slides: np.ndarray, sliding: SlidingBoundary
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the directions (w, 3) of those of some nodes that slide (j,), and the index of each's node, (w,)."""
+    several = sliding.on_several_patches(nodes[slides])
+    around, slides = slides[several], slides[~several]
+    bases = sliding.tangent_bases(x[slides], nodes[slides])
+    tangents = np.einsum("kij,wj->kwi", bases, AROUND).reshape(-1, 3)
+    admissible = np.linalg.norm(tangents, axis=1) > 0.5  # on a curve those along it, each once
+    on_patch = np.repeat(bases[:, :, 1].any(axis=1), len(AROUND))
+    admissible &= np.tile(AROUND[:, 1] == 0, slides.size) | on_patch
+    index = np.repeat(slides, len(AROUND))[admissible], np.repeat(around, len(_ALL_AROUND))
+    return np.concatenate([tangents[admissible], np.tile(_ALL_AROUND, (around.size, 1))]), np.concatenate(index)

@@ -27,7 +27,9 @@ class Envelope:
     max_deviation : float
         Distance of boundary and surface in the band, in the mesh's unit of length.
     released : (n,) bool
-        Nodes of the boundary that may leave the surface.
+        Nodes of the boundary that have left their corner, curve or patch.
+    off_surface : (n,) bool
+        Those of them that may leave the surface.
     flips_allowed : bool
         Steps may turn quads at released nodes over.
     """
@@ -36,6 +38,7 @@ class Envelope:
         self.sliding = sliding
         self.max_deviation = np.inf if sliding is None else sliding.max_deviation
         self.released = np.zeros(n_nodes, dtype=bool)
+        self.off_surface = np.zeros(n_nodes, dtype=bool)
         self.flips_allowed = False
         self._tracker: DeviationTracker | None = None
 
@@ -45,6 +48,11 @@ class Envelope:
 
     def release(self, nodes: np.ndarray) -> None:
         """Let nodes (k,) of the boundary leave the surface."""
+        self.released[nodes] = self.off_surface[nodes] = True
+
+    def move_onto_patches(self, nodes: np.ndarray) -> None:
+        """Let nodes (k,) of curves slide on the patches instead."""
+        self.sliding = self.sliding.with_nodes_on_patches(nodes)
         self.released[nodes] = True
 
     @contextmanager
@@ -61,7 +69,7 @@ class Envelope:
         """Mark those of some nodes (k,) that slide on the surface and are not released, (k,) bool."""
         if self.sliding is None:
             return np.zeros(nodes.size, dtype=bool)
-        return self.sliding.slides(nodes) & ~self.released[nodes]
+        return self.sliding.slides(nodes) & ~self.off_surface[nodes]
 
     def project(self, before: np.ndarray, points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
         """Project nodes that slide onto the surface, and take moves back that turn a quad over.

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.boundary import SlidingBoundary
+from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.mesh.edge_length import shortest_edges
 from hexmend.mesh.mesh import Mesh
@@ -128,7 +128,8 @@ class MaxMinOptimiser:
     def fork(self) -> MaxMinOptimiser:
         """Return an optimiser that continues from here by itself, with the same released nodes and band."""
         other = MaxMinOptimiser(self.mesh, self.points, self.envelope.sliding, self.config, self.corners.measure)
-        other.envelope.release(np.flatnonzero(self.envelope.released))
+        other.envelope.released |= self.envelope.released
+        other.envelope.off_surface |= self.envelope.off_surface
         other.envelope.limit_to(self.envelope.max_deviation)
         return other
 
@@ -231,13 +232,22 @@ class MaxMinOptimiser:
         self.corners.freeze(8 * active.hexes + active.corners)
 
     def release(self, active: ActiveCorners) -> bool:
-        """Let sliding nodes of corners that hold each other leave the surface; return True if any node was released."""
+        """Let nodes of corners that hold each other leave their curve or the surface; return True if any was released.
+
+        Nodes of curves go onto the patches first, and leave the surface where that is not enough. Where a hex is
+        inverted they leave it at once, and corners of the surface too if no other node is left.
+        """
         envelope, sliding, mesh = self.envelope, self.envelope.sliding, self.mesh
         if sliding is None or not envelope.max_deviation > 0:
             return False
         holding = np.unique(self.corners.nodes_of(8 * active.hexes + active.corners))
         nodes = holding[envelope.slides(holding) & ~sliding.confined[holding]]
-        if not nodes.size and active.least <= 0:
+        if active.least > 0:
+            of_curves = nodes[sliding.node_class[nodes] == NodeClass.CURVE]
+            if of_curves.size:
+                envelope.move_onto_patches(of_curves)
+                return True
+        elif not nodes.size:
             nodes = holding[sliding.releasable[holding] & ~mesh.free[holding]]
         self.release_nodes(nodes)
         return nodes.size > 0

@@ -43,6 +43,8 @@ class BalanceConfig:
         Of the barrier while the energy falls above the floors.
     returns : tuple of float
         Shares of the way from the given mesh to the result that are tried where the mean of q(H) is lower all the same.
+    much : float
+        Multiple of the floor of the least scaled Jacobian above which the first rise is followed by a patient one.
     sound : float
         Least scaled Jacobian from which on nothing is to be gained.
     target_fall : float
@@ -60,6 +62,7 @@ class BalanceConfig:
     margin: float = 1e-4
     weights: tuple[float, ...] = (1.0, 0.1, 0.01)
     returns: tuple[float, ...] = (0.5, 0.25, 0.125, 0.0625)
+    much: float = 2.0
     sound: float = 0.99
     target_fall: float = 0.05
     path: CentralPathConfig = PATH
@@ -144,6 +147,8 @@ def balance(
     yield from _steps(path, path.rise(target), energy.norm)
     if not _is_above(path.least, floor, config.margin):  # on with all hexes, until the floors are reached
         target = Least(floor.jacobian * (1 + config.quality_margin), target.quality)
+        yield from _steps(path, path.rise(target, config.patient), energy.norm)
+    elif path.least.jacobian > config.much * floor.jacobian:  # more is to be had where so much was
         yield from _steps(path, path.rise(target, config.patient), energy.norm)
     if not _is_above(path.least, floor, config.margin) and start.jacobian > 0:  # another way: from the given mesh
         floor = Least(start.jacobian, start.quality)

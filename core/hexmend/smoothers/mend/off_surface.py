@@ -83,6 +83,7 @@ def improve_off_surface(
     limits: Sequence[float],
     reached: MaxMinResult,
     wanted: float,
+    other: MaxMinOptimiser | None = None,
     config: MaxMinConfig = MAXMIN,
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least with nodes of the boundary off the surface, then bring them back into its band.
@@ -101,6 +102,8 @@ def improve_off_surface(
         The result so far.
     wanted : float
         Least scaled Jacobian from which on there are no further detours.
+    other : MaxMinOptimiser, optional
+        Another start, with nodes off the surface already, where a hex is inverted after the first detour.
     config : MaxMinConfig
 
     Yields
@@ -116,6 +119,9 @@ def improve_off_surface(
     far, factors = config.off_surface_limit * optimiser.mesh.mean_edge_length, iter(config.detour_factors)
     target, factor = config.off_surface_factor * config.acceptable, next(factors)
     result = yield from _detour(optimiser, limits, far, target, reached, config)
+    if other is not None and not result.least > 0:
+        higher = yield from infeasible(raise_within_tolerance(other, limits[0], config.programs_between, config))
+        result = higher if higher.least > result.least else result
     for _ in range(config.detours):
         least = result.least
         if least >= wanted:

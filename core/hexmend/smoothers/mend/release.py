@@ -38,6 +38,8 @@ class ReleaseConfig:
         still inverted.
     steps : tuple of float
         Distances of the boundary from the surface that are tried where no tolerance is given, in mean edge lengths.
+    few : int
+        Inverted hexes up to which the rest is left to linear programs.
     steps_per_iteration : int
         Steps off the surface per iteration of the run.
     """
@@ -45,6 +47,7 @@ class ReleaseConfig:
     starts: int = 2
     rounds: int = 3
     steps: tuple[float, ...] = (0.3, 0.5, 0.75, 1.0)
+    few: int = 5
     steps_per_iteration: int = 10
 
 

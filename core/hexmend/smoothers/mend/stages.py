@@ -13,30 +13,25 @@ from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
-from hexmend.optimise.maxmin.slp_config import SLP
 from hexmend.parameters import AUTO
 from hexmend.quality import ElementQuality, measure
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.base import Steps
 from hexmend.smoothers.mend.balance import balance, raise_jacobian
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
-from hexmend.smoothers.mend.maxmin import MAXMIN, NO_CORNERS, active_set, maximise_minimum
+from hexmend.smoothers.mend.leaving_surface import LeavingSurface
+from hexmend.smoothers.mend.maxmin import MAXMIN, active_set, maximise_minimum
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.off_surface import (
     MaxMinResult,
-    improve_off_surface,
-    raise_in_wider_band,
-    raise_to_the_end,
-    raise_within_tolerance,
 )
-from hexmend.smoothers.mend.release import RELEASE, T, infeasible, untangle_released
+from hexmend.smoothers.mend.release import T, infeasible
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
 from hexmend.smoothers.mend.starts import raise_from_better
 from hexmend.smoothers.mend.time_step import maximise_time_step
 from hexmend.smoothers.mend.untangling import Untangled, UntanglingConfig, untangle
-from hexmend.smoothers.sliding_smoother import UNLIMITED
 
 
 class Stages:
@@ -78,15 +73,16 @@ class Stages:
             yield from _keeping(kept, mesh.hexes, islice(steps, MAXMIN.untangling_iterations))
             shape = yield from _keeping(kept, mesh.hexes, self._sliding_shape(sliding, optimiser.points))
             candidates += [optimiser.points, shape.points]
-        result = None
+        result, leaving = None, None
         if sliding is not None:
-            result = yield from self._untangle_off_surface(sliding, candidates)
+            leaving = LeavingSurface(self.settings, sliding, self._untangled, self._sliding_shape)
+            result = yield from leaving.untangle(candidates)
         if result is None:
             result = yield from self._maxmin_stage(mesh, candidates, sliding, fixed)
             if sliding is not None and self.settings.maximises_jacobian:
                 result = yield from self._raise_in_wider_bands(sliding, self._bands(mesh)[1:], result)
-        if sliding is not None:
-            result = yield from self._raise_off_surface(sliding, fixed_optimum, result)
+        if leaving is not None and result is not None:
+            result = yield from leaving.raise_least(fixed_optimum, result)
         if self.goal == "time-step":
             result = yield from maximise_time_step(mesh, candidates, sliding, result)
         points = shape.points if result is None else result.optimiser.points
@@ -207,72 +203,6 @@ class Stages:
             result = higher
             yield result.step()
         return result
-
-    def _untangle_off_surface(
-        self, sliding: SlidingBoundary, candidates: Sequence[np.ndarray]
-    ) -> Generator[Step, None, MaxMinResult | None]:
-        """Let nodes leave the surface where the best of some points (n, 3) on it leave hexes inverted.
-
-        None where no hex is inverted, or nodes must not leave the surface, or none is mended by that.
-        """
-        tolerance, hexes = self._off_surface_tolerance(sliding.mesh), sliding.mesh.hexes
-        starts = sorted(candidates, key=lambda points: measure(points, hexes).n_inverted)
-        if not measure(starts[0], hexes).n_inverted or not tolerance > 0:
-            return None
-        limits = self._limits(sliding.mesh)
-        trials = [(start, limits[:1]) for start in starts[: RELEASE.starts]] + [(starts[0], limits[1:])]
-        for start, within in trials:
-            points, released = yield from untangle_released(sliding, start, self._untangled, within)
-            if not measure(points, hexes).n_inverted:
-                break
-        else:
-            return None
-        far = MaxMinOptimiser(sliding.mesh, points, sliding).envelope.largest_deviation(points)
-        enough = (limit for limit in limits if far <= limit * (1 + SLP.band_excess))
-        limit = min(enough, default=far)
-        shape = yield from infeasible(self._sliding_shape(sliding.without_nodes(released, limit), points))
-        optimiser = MaxMinOptimiser(sliding.mesh, shape.points, sliding)
-        optimiser.release_nodes(released)
-        if not self.settings.maximises_jacobian and optimiser.corners.active_minimum >= MAXMIN.barrier_safe:
-            return MaxMinResult(optimiser, NO_CORNERS)
-        result = yield from raise_within_tolerance(optimiser, limit, MAXMIN.programs_between)
-        if not limit < tolerance:
-            return result
-        return (yield from raise_within_tolerance(optimiser, tolerance, MAXMIN.programs_between))
-
-    def _limits(self, mesh: Mesh) -> list[float]:
-        """Distances from the surface that the boundary may have where hexes are inverted, ascending."""
-        limits = [share * mesh.mean_edge_length for share in RELEASE.steps]
-        if self.settings.surface_tolerance in (AUTO, UNLIMITED):
-            return limits
-        tolerance = self.settings.absolute_tolerance(mesh)
-        return [*(limit for limit in limits if limit < tolerance), tolerance]
-
-    def _off_surface_tolerance(self, mesh: Mesh) -> float:
-        """Distance from the surface that nodes may have where it holds the least down."""
-        tolerance = self.settings.absolute_tolerance(mesh)
-        return tolerance if tolerance < np.inf else RELEASE.steps[-1] * mesh.mean_edge_length
-
-    def _raise_off_surface(
-        self, sliding: SlidingBoundary, start: np.ndarray, result: MaxMinResult | None
-    ) -> Generator[Step, None, MaxMinResult | None]:
-        """Let nodes leave the surface, from points `start` (n, 3) on, where the result on it is low."""
-        tolerance, wanted = self._off_surface_tolerance(sliding.mesh), MAXMIN.acceptable
-        wanted = wanted if self.settings.maximises_jacobian else min(wanted, MAXMIN.barrier_safe)
-        if result is None:
-            return None
-        if not tolerance > 0 or result.least >= wanted:
-            return (yield from raise_to_the_end(result))
-        mesh = sliding.mesh
-        if measure(result.optimiser.points, mesh.hexes).n_inverted:
-            optimiser = MaxMinOptimiser(mesh, start, sliding)
-            return (yield from improve_off_surface(optimiser, self._limits(mesh), result, wanted))
-        nearer = [share * mesh.mean_edge_length for share in MAXMIN.off_surface_tolerances]
-        reached = result.optimiser.envelope.max_deviation / (1 + SLP.band_excess)
-        limits = [limit for limit in nearer if reached <= limit < (1 - MAXMIN.worth_widening) * tolerance]
-        optimiser = MaxMinOptimiser(mesh, start, sliding)
-        result = yield from improve_off_surface(optimiser, [*limits, tolerance], result, wanted)
-        return (yield from raise_in_wider_band(result, tolerance)) if self.settings.maximises_jacobian else result
 
     def _untangle(
         self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, locked: np.ndarray

@@ -36,3 +36,15 @@ def test_sliding_nodes_go_along_their_patch_or_curve_and_stay_on_it(mesh):
     there = x[of] + radius * ways.projected[on]
     np.testing.assert_allclose(sliding.project(there, nodes[of]), there, atol=1e-9)
     np.testing.assert_allclose(np.linalg.norm(ways.displacements[on], axis=1), size[of])
+
+
+def test_nodes_that_left_their_curve_go_along_both_patches():
+    sliding = SlidingBoundary(grid(4))
+    edge = np.flatnonzero((sliding.mesh.points[:, :2] == 0).all(axis=1) & (sliding.node_class == NodeClass.CURVE))[:1]
+    onto = sliding.with_nodes_on_patches(edge)
+    x, ones = sliding.mesh.points[edge], np.ones(1)
+    ways = step_directions(x, ones, 0.1, edge, np.ones(1, dtype=bool), onto)
+    there = x + 0.1 * ways.projected
+    assert ways.node_index.size == 14
+    np.testing.assert_allclose(there[:, :2].min(axis=1), 0, atol=1e-12)  # on one of the two
+    assert all(np.isclose(ways.projected, axis, atol=1e-9).all(axis=1).any() for axis in np.eye(3))

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 
-from hexmend.boundary import SlidingBoundary, surface_change
+from hexmend.boundary import NodeClass, SlidingBoundary, surface_change
 from hexmend.io import read
 from hexmend.optimise.maxmin import envelope as envelopes
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
@@ -107,3 +107,25 @@ def test_fixed_nodes_are_let_go_where_they_hold_an_inverted_corner_and_nowhere_e
         raising.envelope.release(sliding.nodes)  # those of the edges and faces have left already
         assert raising.release(ActiveCorners(least, np.array([0]), np.array([0]))) == yields
         assert raising.mesh.free[0] == raising.envelope.released[0] == yields
+
+
+def test_nodes_of_curves_go_onto_the_patches_before_they_leave_the_surface_unless_a_hex_is_inverted():
+    mesh = grid(4)
+    for least in (0.1, -0.1):
+        sliding = SlidingBoundary(mesh, max_deviation=0.5)
+        raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
+        active = ActiveCorners(least, np.array([0]), np.array([0]))  # at a corner of the block, with three edges
+        ends = mesh.hexes[0, [1, 3, 4]]
+        assert (sliding.node_class[ends] == NodeClass.CURVE).all()
+        assert raising.release(active)
+        envelope = raising.envelope
+        assert envelope.released[ends].all()
+        assert envelope.slides(ends).all() == (least > 0)
+        if least > 0:
+            assert (envelope.sliding.node_class[ends] == NodeClass.PATCH).all()
+            fork = raising.fork()
+            assert raising.release(active)
+            assert fork.envelope.slides(ends).all()
+        assert envelope.off_surface[ends].all()
+        assert not envelope.slides(ends).any()
+        assert not envelope.released[mesh.hexes[0, 0]]

@@ -1,0 +1,122 @@
+"""Stages of mend in which nodes leave the surface where it holds hexes inverted or the least scaled Jacobian down."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from hexmend.boundary import SlidingBoundary
+from hexmend.iteration import Step
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_config import SLP
+from hexmend.parameters import AUTO
+from hexmend.quality import measure
+from hexmend.smoothers.mend.maxmin import MAXMIN, NO_CORNERS
+from hexmend.smoothers.mend.mend_settings import MendSettings
+from hexmend.smoothers.mend.off_surface import (
+    MaxMinResult,
+    improve_off_surface,
+    raise_in_wider_band,
+    raise_to_the_end,
+    raise_within_tolerance,
+)
+from hexmend.smoothers.mend.release import RELEASE, Untangle, infeasible, untangle_released
+from hexmend.smoothers.mend.shape_optimum import ShapeOptimum
+from hexmend.smoothers.sliding_smoother import UNLIMITED
+
+#: Function that goes to the optimum of shape from some points (n, 3) on, with a boundary that slides.
+OptimiseShape: TypeAlias = Callable[[SlidingBoundary, np.ndarray], Generator[Step, None, ShapeOptimum]]
+
+
+class LeavingSurface:
+    """Nodes that leave the surface, within the tolerance of a run.
+
+    Parameters
+    ----------
+    settings : MendSettings
+        The method with its parameters.
+    sliding : SlidingBoundary
+    untangled, optimise_shape : callable
+        Stages of the run that it needs.
+    """
+
+    def __init__(
+        self, settings: MendSettings, sliding: SlidingBoundary, untangled: Untangle, optimise_shape: OptimiseShape
+    ):
+        self.settings, self.sliding, self.mesh = settings, sliding, sliding.mesh
+        self._untangled, self._optimise_shape = untangled, optimise_shape
+        self._nearly: MaxMinOptimiser | None = None  # with the fewest inverted hexes, where some are left
+
+    def untangle(self, candidates: Sequence[np.ndarray]) -> Generator[Step, None, MaxMinResult | None]:
+        """Let nodes leave the surface where the best of some points (n, 3) on it leave hexes inverted.
+
+        None where no hex is inverted, or nodes must not leave the surface, or some hexes stay inverted.
+        """
+        hexes = self.mesh.hexes
+        starts = sorted(candidates, key=lambda points: measure(points, hexes).n_inverted)
+        if not measure(starts[0], hexes).n_inverted or not self._tolerance > 0:
+            return None
+        limits, fewest = self._limits, len(hexes)
+        trials = [(start, limits[:1]) for start in starts[: RELEASE.starts]] + [(starts[0], limits[1:])]
+        for start, within in trials:
+            if fewest <= RELEASE.few and within[0] > limits[0]:  # linear programs do better
+                break
+            points, released = yield from untangle_released(self.sliding, start, self._untangled, within)
+            inverted = measure(points, hexes).n_inverted
+            if inverted < fewest:
+                fewest, self._nearly = inverted, self._with_released(points, released)
+            if not inverted:
+                return (yield from self._raise_untangled(points, released))
+        return None
+
+    def raise_least(self, start: np.ndarray, result: MaxMinResult) -> Generator[Step, None, MaxMinResult]:
+        """Let nodes leave the surface, from points `start` (n, 3) on, where the result on it is low."""
+        tolerance, wanted = self._tolerance, MAXMIN.acceptable
+        wanted = wanted if self.settings.maximises_jacobian else min(wanted, MAXMIN.barrier_safe)
+        if not tolerance > 0 or result.least >= wanted:
+            return (yield from raise_to_the_end(result))
+        optimiser = MaxMinOptimiser(self.mesh, start, self.sliding)
+        if measure(result.optimiser.points, self.mesh.hexes).n_inverted:
+            return (yield from improve_off_surface(optimiser, self._limits, result, wanted, self._nearly))
+        nearer = [share * self.mesh.mean_edge_length for share in MAXMIN.off_surface_tolerances]
+        reached = result.optimiser.envelope.max_deviation / (1 + SLP.band_excess)
+        limits = [limit for limit in nearer if reached <= limit < (1 - MAXMIN.worth_widening) * tolerance]
+        result = yield from improve_off_surface(optimiser, [*limits, tolerance], result, wanted)
+        return (yield from raise_in_wider_band(result, tolerance)) if self.settings.maximises_jacobian else result
+
+    def _raise_untangled(self, points: np.ndarray, released: np.ndarray) -> Generator[Step, None, MaxMinResult]:
+        """Go to the optimum of shape and raise the least from points (n, 3) whose nodes (k,) left the surface."""
+        sliding, tolerance = self.sliding, self._tolerance
+        far = MaxMinOptimiser(self.mesh, points, sliding).envelope.largest_deviation(points)
+        enough = (limit for limit in self._limits if far <= limit * (1 + SLP.band_excess))
+        limit = min(enough, default=far)
+        shape = yield from infeasible(self._optimise_shape(sliding.without_nodes(released, limit), points))
+        optimiser = self._with_released(shape.points, released)
+        if not self.settings.maximises_jacobian and optimiser.corners.active_minimum >= MAXMIN.barrier_safe:
+            return MaxMinResult(optimiser, NO_CORNERS)
+        result = yield from raise_within_tolerance(optimiser, limit, MAXMIN.programs_between)
+        if not limit < tolerance:
+            return result
+        return (yield from raise_within_tolerance(optimiser, tolerance, MAXMIN.programs_between))
+
+    def _with_released(self, points: np.ndarray, released: np.ndarray) -> MaxMinOptimiser:
+        optimiser = MaxMinOptimiser(self.mesh, points, self.sliding)
+        optimiser.release_nodes(released)
+        return optimiser
+
+    @property
+    def _limits(self) -> list[float]:
+        """Distances from the surface that the boundary may have where hexes are inverted, ascending."""
+        limits = [share * self.mesh.mean_edge_length for share in RELEASE.steps]
+        if self.settings.surface_tolerance in (AUTO, UNLIMITED):
+            return limits
+        tolerance = self.settings.absolute_tolerance(self.mesh)
+        return [*(limit for limit in limits if limit < tolerance), tolerance]
+
+    @property
+    def _tolerance(self) -> float:
+        """Distance from the surface that nodes may have where it holds the least down."""
+        tolerance = self.settings.absolute_tolerance(self.mesh)
+        return tolerance if tolerance < np.inf else RELEASE.steps[-1] * self.mesh.mean_edge_length
