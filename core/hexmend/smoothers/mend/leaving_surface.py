@@ -60,8 +60,8 @@ class LeavingSurface:
             return None
         limits, fewest = self._limits, len(hexes)
         trials = [(start, limits[:1]) for start in starts[: RELEASE.starts]] + [(starts[0], limits[1:])]
-        for start, within in trials:
-            if fewest <= RELEASE.few and within[0] > limits[0]:  # linear programs do better
+        for number, (start, within) in enumerate(trials):
+            if number == RELEASE.starts and fewest <= RELEASE.few:  # linear programs do better
                 break
             points, released = yield from untangle_released(self.sliding, start, self._untangled, within)
             inverted = measure(points, hexes).n_inverted
@@ -76,7 +76,9 @@ class LeavingSurface:
         tolerance, wanted = self._tolerance, MAXMIN.acceptable
         wanted = wanted if self.settings.maximises_jacobian else min(wanted, MAXMIN.barrier_safe)
         if not tolerance > 0 or result.least >= wanted:
-            return (yield from raise_to_the_end(result))
+            result = yield from raise_to_the_end(result)
+            wider = self.settings.maximises_jacobian and result.optimiser.envelope.released.any()
+            return (yield from raise_in_wider_band(result, tolerance)) if wider else result
         optimiser = MaxMinOptimiser(self.mesh, start, self.sliding)
         if measure(result.optimiser.points, self.mesh.hexes).n_inverted:
             return (yield from improve_off_surface(optimiser, self._limits, result, wanted, self._nearly))
@@ -97,7 +99,7 @@ class LeavingSurface:
         if not self.settings.maximises_jacobian and optimiser.corners.active_minimum >= MAXMIN.barrier_safe:
             return MaxMinResult(optimiser, NO_CORNERS)
         result = yield from raise_within_tolerance(optimiser, limit, MAXMIN.programs_between)
-        if not limit < tolerance:
+        if not limit < tolerance or result.least >= MAXMIN.acceptable:
             return result
         return (yield from raise_within_tolerance(optimiser, tolerance, MAXMIN.programs_between))
 

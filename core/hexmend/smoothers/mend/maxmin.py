@@ -32,6 +32,8 @@ class MaxMinConfig:
         Groups of corners that are raised one after another, at most; the second while nodes leave the surface.
     surface_share : float
         Share of the surface tolerance that the boundary uses at most while nodes slide.
+    first_share : float
+        Share of the tolerance that the first of `bands` may have, so that small tolerances begin as larger ones do.
     bands : tuple of float
         Narrower bands, in mean edge lengths, in which the least is raised first; a wider one follows where it raises
         the least by `worth_widening`. They are the same for all tolerances; the last band is `surface_share` of the
@@ -69,6 +71,7 @@ class MaxMinConfig:
     max_groups: int = 10
     max_groups_off_surface: int = 30
     surface_share: float = 1 / 3
+    first_share: float = 0.45
     bands: tuple[float, ...] = (0.045, 0.1, 1 / 3)
     worth_widening: float = 0.05
     worth_leaving: float = 0.25

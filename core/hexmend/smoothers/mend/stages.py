@@ -185,11 +185,12 @@ class Stages:
 
     def _bands(self, mesh: Mesh) -> list[float]:
         """Distances from the surface that quads of the boundary may have while nodes slide, ascending."""
-        widest = MAXMIN.surface_share * self.settings.absolute_tolerance(mesh)
+        tolerance, narrower = self.settings.absolute_tolerance(mesh), np.array(MAXMIN.bands) * mesh.mean_edge_length
+        widest = MAXMIN.surface_share * tolerance
         if not self.settings.maximises_jacobian:
             return [widest]
-        narrower = (band * mesh.mean_edge_length for band in MAXMIN.bands)
-        return [*(band for band in narrower if band < (1 - MAXMIN.worth_widening) * widest), widest]
+        widest = max(widest, min(narrower[0], MAXMIN.first_share * tolerance))
+        return [*narrower[narrower < (1 - MAXMIN.worth_widening) * widest], widest]
 
     def _raise_in_wider_bands(
         self, sliding: SlidingBoundary, bands: Sequence[float], result: MaxMinResult
