@@ -46,6 +46,17 @@ def as_immutable(array: np.ndarray) -> np.ndarray:
     return copy
 
 
+def frozen(array: np.ndarray) -> np.ndarray:
+    """Return an array that nobody else holds as an immutable one, without a copy if it is contiguous.
+
+    >>> is_immutable(frozen(np.zeros(2)))
+    True
+    """
+    if is_immutable(array) or not array.flags.c_contiguous or array.dtype.hasobject:
+        return as_immutable(array)
+    return np.asarray(_Memory(array))
+
+
 def dot(a: np.ndarray, b: np.ndarray) -> float:
     """Compute the inner product of two arrays of one shape.
 

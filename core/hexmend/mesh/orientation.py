@@ -14,6 +14,8 @@ from hexmend.terminal_text import count_phrase
 MIRRORED_CORNERS = np.array([4, 5, 6, 7, 0, 1, 2, 3])
 MIRRORED_FACES = np.array([0, 1, 2, 3, 5, 4])
 
+#: Hexes whose volumes are computed at a time.
+_CHUNK = 1 << 16
 #: End of the note on hexes that were renumbered, and that of version 0.1.
 _RENUMBERED = "numbered inside out in the file (left-handed), and renumbered on reading."
 _RENUMBERED_BEFORE = "were wound the other way (inside out) in the file, and have been turned."
@@ -70,23 +72,32 @@ def mirrored_parts(mesh: Mesh) -> np.ndarray:
     -------
     (m,) bool
     """
-    determinants = np.empty((mesh.n_hexes, 8))
-    elements.corner_determinants(mesh.points, mesh.hexes, determinants)
-    with np.errstate(all="ignore"):  # very large coordinates overflow
-        volumes = determinants.sum(axis=1)
-        wrong = volumes < 0
-        if not wrong.any():
-            return wrong
-        rounding = _rounding(mesh)
-        wrong, right = volumes < -rounding, volumes > rounding
+    wrong, right = np.empty(mesh.n_hexes, dtype=bool), np.empty(mesh.n_hexes, dtype=bool)
+    for begin in range(0, mesh.n_hexes, _CHUNK):
+        some = slice(begin, begin + _CHUNK)
+        wrong[some], right[some] = _handedness(mesh.points, mesh.hexes[some])
+    if not wrong.any():
+        return wrong
     part = parts_of(mesh)
     of_part = (np.bincount(part, wrong) > 0) & (np.bincount(part, right) == 0)
     return of_part[part]
 
 
-def _rounding(mesh: Mesh) -> np.ndarray:
-    """Bound of the rounding error in the sum of a hex's corner determinants, (m,) float64."""
-    corners = mesh.points[mesh.hexes]
+def _handedness(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Mark hexes (k, 8) of negative and of positive volume, both (k,) bool; flat ones are neither."""
+    determinants = np.empty((len(hexes), 8))
+    elements.corner_determinants(points, hexes, determinants)
+    with np.errstate(all="ignore"):  # very large coordinates overflow
+        volumes = determinants.sum(axis=1)
+        if volumes.min() > 0:
+            return np.zeros(len(hexes), dtype=bool), np.ones(len(hexes), dtype=bool)
+        rounding = _rounding(points, hexes)
+        return volumes < -rounding, volumes > rounding
+
+
+def _rounding(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Bound of the rounding error in the sum of a hex's corner determinants, (k,) float64."""
+    corners = points[hexes]
     size = np.linalg.norm(corners.max(axis=1) - corners.min(axis=1), axis=1)
     return 64 * np.finfo(np.float64).eps * np.abs(corners).max(axis=(1, 2)) * size**2
 

@@ -10,13 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.arrays import frozen
 from hexmend.errors import FileError
 from hexmend.io.base.cell_kinds import HEX_KINDS
 from hexmend.io.base.fixed_marks import find_marks
 from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING, interpolate_missing
 from hexmend.mesh.cells import CELL_KINDS, Cells
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.validation import check_node_numbers
+from hexmend.mesh.validation import as_hexes, as_points, check_node_numbers
 from hexmend.terminal_text import count_phrase
 
 #: Name of the data that hold the file's own numbers of nodes and cells.
@@ -120,10 +121,10 @@ def to_mesh(path: Path, content: Content) -> Mesh:
         pinned = np.zeros(len(content.points), bool) if pinned is None else pinned.copy()
         for block in volumes:
             pinned[block.nodes] = True
-    lengths = [len(block) for block in hexes]
+    lengths, corners = [len(block) for block in hexes], [block.nodes[:, :8] for block in hexes]
     return Mesh(
-        points,
-        np.concatenate([block.nodes[:, :8] for block in hexes]),
+        frozen(as_points(points)),
+        frozen(as_hexes(corners[0] if len(corners) == 1 else np.concatenate(corners), len(points))),
         pinned=pinned,
         node_data=content.node_data,
         hex_data=concatenate_data([block.data for block in hexes], lengths),

@@ -13,6 +13,9 @@ from hexmend.io.base.content import ID, Block, from_mesh
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.mesh.mesh import Mesh
 
+#: Ids are smaller than this in limit formats.
+ID_LIMIT = 2**31
+
 
 def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, label: str) -> np.ndarray:
     """Look up the indices of ids.
@@ -30,7 +33,7 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, label: str) -> np.
 
     Returns
     -------
-    (...) int64
+    (...) int
         Indices with `ids[indices] == wanted`.
 
     Raises
@@ -45,7 +48,8 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, label: str) -> np.
     """
     n = len(ids)
     if n and ids[0] == 1 and ids[-1] == n and np.array_equal(ids, np.arange(1, n + 1)):
-        found, wrong = np.asarray(wanted, np.int64) - 1, (wanted < 1) | (wanted > n)
+        wrong = (wanted < 1) | (wanted > n)
+        found = np.subtract(wanted, 1, dtype=np.int32 if n < ID_LIMIT else np.int64, casting="unsafe")
     else:
         order = np.argsort(ids, kind="stable")
         in_order = ids[order]
@@ -63,10 +67,6 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, label: str) -> np.
         problem = f"{label} {number} is used, but the file has no such {label}"
         raise FileError(path, problem, "Add it, or correct what uses it.")
     return found
-
-
-#: Ids are smaller than this in limit formats.
-ID_LIMIT = 2**31
 
 
 def node_ids(data: dict[str, np.ndarray], count: int, limit: int = ID_LIMIT) -> np.ndarray:

@@ -66,7 +66,7 @@ def _block(
     path: Path, kind: str, parts: list[ElementBlock], sections: Sections, notes: list[str]
 ) -> tuple[Block, np.ndarray]:
     """Block of all elements of a kind, and the partition of each, (k,) int64."""
-    nodes = np.concatenate([part.nodes for part in parts])
+    nodes = parts[0].nodes if len(parts) == 1 else np.concatenate([part.nodes for part in parts])
     tags = np.concatenate([part.tags for part in parts])
     rows = [np.broadcast_to(0 if part.partitions is None else part.partitions, len(part.tags)) for part in parts]
     partitions = np.concatenate(rows)

@@ -73,9 +73,10 @@ def _sections(cursor: ByteCursor) -> tuple[np.ndarray, np.ndarray, dict[str, np.
                 strides = (size, np.dtype(real).itemsize)
                 piece = BinaryPiece(cursor.pos, np.dtype(real), strides, slice(0, count), ALL_COLUMNS)
                 rows = cursor.read_binary(name, count, 1, [("x", real, 3), ("ref", integer)])
-                points, refs = rows["x"][:, 0].astype(np.float64), rows["ref"][:, 0].astype(np.int64)
+                points, refs = rows["x"][:, 0].astype(np.float64), rows["ref"][:, 0].astype(integer[1:])
             else:
-                sections[name] = cursor.read_binary(name, count, _BY_CODE[code].width, integer).astype(np.int64)
+                rows = cursor.read_binary(name, count, _BY_CODE[code].width, integer)
+                sections[name] = rows.astype(integer[1:], copy=False)
         elif not cursor.pos <= after <= len(cursor.data):
             raise cursor.error(f"the section of number {code} at byte {at} leads to byte {after}, outside the file")
         else:

@@ -56,7 +56,7 @@ class Grid:
         VTK cell types.
     start : (c + 1,) int64
         Cell i has the nodes nodes[start[i]:start[i + 1]].
-    nodes : (start[-1],) int64
+    nodes : (start[-1],) int
     node_data, cell_data : mapping of str to (n, ...) or (c, ...) array
     field_data : mapping of str to array or list of str
     notes : sequence of str
@@ -167,7 +167,7 @@ def _of_kinds(data: Mapping[str, np.ndarray], kinds: str) -> dict[str, np.ndarra
 def check_sizes(path: Path, grid: Grid, types: np.ndarray) -> None:
     """Raise a `FileError` that names the first cell whose number of nodes does not fit its type."""
     widths = np.diff(grid.start)
-    expected = np.array([WIDTH_BY_TYPE.get(number, -1) for number in range(256)])[types]
+    expected = np.array([WIDTH_BY_TYPE.get(number, -1) for number in range(256)], np.int16)[types]
     wrong = np.flatnonzero((widths != expected) & (expected >= 0))
     if len(wrong):
         i = int(wrong[0])
@@ -176,19 +176,20 @@ def check_sizes(path: Path, grid: Grid, types: np.ndarray) -> None:
 
 
 def _correct_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
-    """Correct the types of cells by their numbers of nodes; returns types (c,) int64 and notes."""
-    given, widths, notes = np.asarray(grid.types).astype(np.int64), np.diff(grid.start), []
+    """Correct the types of cells by their numbers of nodes; returns types (c,) uint8 and notes."""
+    given, widths, notes = np.asarray(grid.types), np.diff(grid.start), []
     outside = np.flatnonzero((given < 0) | (given > 255))
     if outside.size:
         problem = f"cell {outside[0]} is of type {given[outside[0]]}: expected one of VTK's types, 0 to 255"
         raise FileError(path, problem, "Write the file again with the program that made it.")
-    types = given.copy()
+    types = given = given.astype(np.uint8)
     for number, others in _VARIABLE_WIDTH.items():
         for width, other in others.items():
-            types[(given == number) & (widths == width)] = other
+            which = (given == number) & (widths == width)
+            types = np.where(which, np.uint8(other), types) if which.any() else types
     tetra = given == TYPE_BY_KIND["tetra"]
     if tetra.any() and (widths[tetra] == 8).all():
-        types[tetra] = HEXAHEDRON
+        types = np.where(tetra, np.uint8(HEXAHEDRON), types)
         some = count_phrase(int(tetra.sum()), "cell of eight nodes is", "cells of eight nodes are")
         notes.append(f"{some} labelled as tetrahedra in the file: read as hexes.")
     return types, notes
@@ -209,7 +210,7 @@ def _merge_voxels(types: np.ndarray, blocks: list[Block]) -> list[Block]:
 
 def _rows(grid: Grid, chosen: np.ndarray, width: int) -> np.ndarray:
     if len(chosen) == len(grid.types):
-        return np.array(grid.nodes, dtype=np.int64).reshape(-1, width)
+        return grid.nodes.reshape(-1, width)
     return np.asarray(grid.nodes, dtype=np.int64)[grid.start[chosen][:, None] + np.arange(width)]
 
 

@@ -106,16 +106,15 @@ def split_cells(cursor: ByteCursor, flat: np.ndarray, count: int) -> tuple[np.nd
         Where the numbers do not make `count` cells.
     """
     if len(flat) == 9 * count and (flat[::9] == 8).all():
-        widths = np.full(count, 8)
-    else:
-        widths, at = np.empty(count, np.int64), 0
-        for i in range(count):
-            if at >= len(flat) or flat[at] < 0:
-                raise cursor.error(f"CELLS ends in cell {i} of the {count} that CELL_TYPES names")
-            widths[i] = flat[at]
-            at += 1 + int(flat[at])
-        if at != len(flat):
-            raise cursor.error(f"CELLS holds {len(flat)} numbers: its {count} cells need {at}")
+        return 8 * np.arange(count + 1), np.ascontiguousarray(flat.reshape(-1, 9)[:, 1:]).ravel()
+    widths, at = np.empty(count, np.int64), 0
+    for i in range(count):
+        if at >= len(flat) or flat[at] < 0:
+            raise cursor.error(f"CELLS ends in cell {i} of the {count} that CELL_TYPES names")
+        widths[i] = flat[at]
+        at += 1 + int(flat[at])
+    if at != len(flat):
+        raise cursor.error(f"CELLS holds {len(flat)} numbers: its {count} cells need {at}")
     start = np.concatenate([[0], np.cumsum(widths)])
     is_node = np.ones(len(flat), dtype=bool)
     is_node[start[:-1] + np.arange(count)] = False

@@ -116,7 +116,7 @@ class _LegacyReader:
         cursor, count = self.cursor, self.cursor.parse_count
         if key == "POINTS":
             points = read_array(cursor, key, count(heading[1], "the number of points"), 3, heading[2])
-            self.sections[key] = points.astype(float)
+            self.sections[key] = points.astype(float, copy=False)
         elif key in ("CELLS", "POLYGONS", "VERTICES", "LINES"):
             cells = count(heading[1], f"the number of {'polygons' if key == 'POLYGONS' else 'cells'}")
             self._read_cells(cells, count(heading[2], "their size"))
@@ -220,8 +220,9 @@ class _LegacyReader:
             self.sections["CELLS"] = read_array(cursor, "CELLS", *shape, "int").ravel()
 
     def _cells(self, types: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Start of each cell, (c + 1,) int64, and the nodes of all cells, (start[-1],) int64."""
-        flat, count = self.sections["CELLS"].astype(np.int64), len(types)
+        """Start of each cell, (c + 1,) int64, and the nodes of all cells, (start[-1],) int."""
+        flat, count = self.sections.pop("CELLS"), len(types)
+        flat = flat if flat.dtype in (np.int32, np.int64) else flat.astype(np.int64)
         if "OFFSETS" in self.sections:
             start = self.sections["OFFSETS"]
             if len(start) != count + 1 or start[0] != 0 or start[-1] != len(flat) or (np.diff(start) < 0).any():

@@ -1,4 +1,4 @@
-"""VTK's format on HDF5 (.vtkhdf): unstructured grids, the first of several time steps; read only.
+"""VTK's format on HDF5 (.vtkhdf): unstructured grids, the first of several time steps.
 
 The group VTKHDF holds the counts of each part (NumberOfPoints, NumberOfCells, NumberOfConnectivityIds) and the
 concatenated arrays of all parts: Points, Types, Connectivity, Offsets (from 0 for each part, one more than its cells),
@@ -16,11 +16,12 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import Content, to_mesh
-from hexmend.io.base.format import register
+from hexmend.io.base.format import Capability, register
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.vtk.grid import Grid, to_content
 from hexmend.io.formats.vtk.merge_grids import merge_grids
+from hexmend.io.formats.vtk.vtkhdf_writer import names_not_kept, write
 from hexmend.mesh.mesh import Mesh
 
 #: Chunks that any file may have, and the smallest size of a further chunk in bytes, that of its entry in the index.
@@ -105,7 +106,7 @@ class _VTKHDFReader:
         values = self._read(self.root, name, rows)
         if values.dtype.kind not in "iu" or values.ndim != 1:
             raise FileError(self.path, f"its {name} are {values.dtype}: expected whole numbers", DAMAGED)
-        return values.astype(np.int64)
+        return values if values.dtype in (np.int32, np.int64, np.uint8) else values.astype(np.int64)
 
     def _read_data(self, section: str, rows: slice) -> dict[str, np.ndarray]:
         group = _group(self.root, section)
@@ -169,4 +170,14 @@ def _matches(head: bytes) -> bool:
     return head.startswith(hdf5.MAGIC) and b"VTKHDF" in head
 
 
-register(name="vtkhdf", title="VTKHDF", suffixes=(".vtkhdf",), encodings=(), read=read, matches=_matches)
+register(
+    name="vtkhdf",
+    title="VTKHDF",
+    suffixes=(".vtkhdf",),
+    encodings=("binary",),
+    read=read,
+    write=write,
+    capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
+    limitations=names_not_kept,
+    matches=_matches,
+)

@@ -102,14 +102,14 @@ def _read_grid(document: Document, piece: XMLElement, skipped: dict[str, None]) 
 
 
 def _read_integers(document: Document, array: XMLElement, count: int) -> np.ndarray:
-    """Read whole numbers of any type, (count,) int64."""
+    """Read whole numbers of any type, (count,), signed or uint8."""
     values = read_values(document, array, count)
     if values.dtype.kind == "f" or (values.dtype == np.uint64 and values.size and values.max() > np.iinfo(int).max):
         with np.errstate(invalid="ignore"):
             wrong = np.flatnonzero((values.astype(np.int64) != values) | (np.abs(values) > 2.0**53))
         if wrong.size:
             raise document.error(f"{array_title(array)} holds {values[wrong[0]]}: expected whole numbers")
-    return values.astype(np.int64, copy=False)
+    return values if values.dtype in (np.int32, np.int64, np.uint8) else values.astype(np.int64)
 
 
 def _read_data(document: Document, section: XMLElement, rows: int, skipped: dict[str, None]) -> dict[str, np.ndarray]:

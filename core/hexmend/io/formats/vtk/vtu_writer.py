@@ -1,9 +1,8 @@
-"""Writing of VTU: arrays in base64, compressed by zlib, or in decimals; the file is read again to verify it."""
+"""Writing of VTU: arrays as raw bytes at its end, compressed by zlib, or in decimals; it is read again to verify it."""
 
 from __future__ import annotations
 
 import zlib
-from base64 import b64encode
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import BinaryIO
@@ -15,10 +14,15 @@ from hexmend.io.base.decimals import format_rows
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
 from hexmend.io.formats.vtk.xml_arrays import read_values
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement
+from hexmend.io.storage.parallel_map import parallel_map
 from hexmend.mesh.mesh import Mesh
 
 #: Bytes of an array that are compressed together.
 _BLOCK = 1 << 20
+#: Level of zlib, of 9: higher ones take much longer and save little.
+_LEVEL = 1
+#: Characters kept for the attribute with the offset of an array behind the XML.
+_OFFSET_WIDTH = 25
 _NAMES = {code: name for name, code in TYPES.items() if name not in ("Bit", "String")}
 _SPACE = "\t\n\r"
 #: Replacements of characters that XML cannot contain: control characters become their pictures (U+2400...), and
@@ -38,15 +42,19 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """
     grid = from_mesh(mesh)
     checksums: list[tuple[str, int]] = []
+    appended = None if encoding == "ascii" else _Appended()
     with open(path, "wb") as file:
         compressor = "" if encoding == "ascii" else ' compressor="vtkZLibDataCompressor"'
-        root = 'VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt32"'
+        root = 'VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"'
         file.write(f'<?xml version="1.0" encoding="utf-8"?>\n<{root}{compressor}>\n<UnstructuredGrid>\n'.encode())
         for section, arrays in _sections(path, grid):
             file.write(f"{section}\n".encode())
             for name, values in arrays.items():
-                checksums.append(_write_array(file, name, values, encoding == "ascii"))
-        file.write(b"</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
+                checksums.append(_write_array(file, name, values, appended))
+        file.write(b"</Piece>\n</UnstructuredGrid>\n")
+        if appended is not None:
+            appended.write(file)
+        file.write(b"</VTKFile>\n")
     _verify(path, checksums)
 
 
@@ -84,8 +92,40 @@ def _writable(path: Path, name: str, values: object) -> np.ndarray | list[str]:
     return np.atleast_1d(array)
 
 
-def _write_array(file: BinaryIO, name: str, values: np.ndarray | list[str], ascii: bool) -> tuple[str, int]:
-    """Write an array; returns the name that will be read, and the checksum of its bytes."""
+class _Appended:
+    """Arrays behind the XML: each is a header and blocks compressed by zlib, of `_BLOCK` bytes each but the last.
+
+    The offsets of arrays are known once they are written; until then the XML has spaces in their places.
+    """
+
+    def __init__(self) -> None:
+        self.arrays: list[tuple[int, np.ndarray]] = []  # where each one's offset is in the file, and its numbers
+
+    def add(self, file: BinaryIO, numbers: np.ndarray) -> None:
+        """Write an attribute for the offset of an array."""
+        file.write(b' format="appended" ')
+        self.arrays.append((file.tell(), numbers))
+        file.write(b" " * _OFFSET_WIDTH + b"/>\n")
+
+    def write(self, file: BinaryIO) -> None:
+        """Write the arrays, then their offsets."""
+        file.write(b'<AppendedData encoding="raw">\n_')
+        begin, offsets = file.tell(), []
+        for _, numbers in self.arrays:
+            offsets.append(file.tell() - begin)
+            _write_compressed(file, numbers)
+        file.write(b"\n</AppendedData>\n")
+        end = file.tell()
+        for (place, _), offset in zip(self.arrays, offsets, strict=True):
+            file.seek(place)
+            file.write(f'offset="{offset}"'.encode())
+        file.seek(end)
+
+
+def _write_array(
+    file: BinaryIO, name: str, values: np.ndarray | list[str], appended: _Appended | None
+) -> tuple[str, int]:
+    """Write an array, in decimals or later behind the XML; returns the name that will be read, and its checksum."""
     title = name.translate(_REPLACEMENTS)
     if isinstance(values, list):
         data = b"".join(text.replace("\0", "").encode("utf-8", "replace") + b"\0" for text in values)
@@ -97,22 +137,32 @@ def _write_array(file: BinaryIO, name: str, values: np.ndarray | list[str], asci
         head = f'<DataArray type="{_NAMES[numbers.dtype.str[1:]]}" Name="{title.translate(_ENTITIES)}"'
         head += f' NumberOfComponents="{width}" NumberOfTuples="{rows}"'
         numbers = numbers.reshape(-1)
-    file.write(f'{head} format="{"ascii" if ascii else "binary"}">\n'.encode("utf-8", "replace"))
-    if ascii:
-        file.write(format_rows(numbers))
+    file.write(head.encode("utf-8", "replace"))
+    if appended is not None:
+        appended.add(file, numbers)
     else:
-        _write_compressed(file, numbers)
-    file.write(b"\n</Array>\n" if isinstance(values, list) else b"\n</DataArray>\n")
+        file.write(b' format="ascii">\n' + format_rows(numbers))
+        file.write(b"\n</Array>\n" if isinstance(values, list) else b"\n</DataArray>\n")
     return title.encode("utf-8", "replace").decode(), zlib.crc32(numbers.view(np.uint8))
 
 
 def _write_compressed(file: BinaryIO, numbers: np.ndarray) -> None:
-    """Write blocks compressed by zlib, of `_BLOCK` bytes each except the last one."""
-    data = numbers.view(np.uint8)
-    blocks = [zlib.compress(data[at : at + _BLOCK], 4) for at in range(0, len(data), _BLOCK)]
-    sizes = [len(blocks), _BLOCK, len(data) % _BLOCK, *map(len, blocks)] if blocks else [0]
-    file.write(b64encode(np.array(sizes, "<u4").tobytes()))
-    file.write(b64encode(b"".join(blocks)))
+    """Write a header and compressed blocks; the header, which has their sizes, is completed at the end."""
+    data, begin = numbers.view(np.uint8), file.tell()
+    count = -(-len(data) // _BLOCK)
+    sizes = np.zeros(3 + count if count else 1, "<u8")
+    file.write(sizes.tobytes())
+    if not count:
+        return
+    blocks = [data[at : at + _BLOCK] for at in range(0, len(data), _BLOCK)]
+    sizes[:3] = count, _BLOCK, len(data) % _BLOCK
+    for k, block in enumerate(parallel_map(lambda block: zlib.compress(block, _LEVEL), blocks)):
+        sizes[3 + k] = len(block)
+        file.write(block)
+    end = file.tell()
+    file.seek(begin)
+    file.write(sizes.tobytes())
+    file.seek(end)
 
 
 def _verify(path: Path, checksums: list[tuple[str, int]]) -> None:

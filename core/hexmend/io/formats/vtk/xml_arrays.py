@@ -17,6 +17,7 @@ import numpy as np
 
 from hexmend.io.base.decimals import count_words, exceeds_dtype, parse_numbers
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement, array_title
+from hexmend.io.storage.parallel_map import parallel_map
 
 #: Names of compressors.
 COMPRESSORS = {"vtkZLibDataCompressor": "zlib", "vtkLZ4DataCompressor": "LZ4", "vtkLZMADataCompressor": "LZMA"}
@@ -175,12 +176,13 @@ def _read_compressed(document: Document, array: XMLElement, stream: _Stream, siz
     begin = stream.after((3 + blocks) * _header_type(document).itemsize)
     data = memoryview(_take(document, array, stream, begin, sum(packed)))
     answer, decompress = np.empty(length, np.uint8), _decompressor(kind)
-    at = to = 0
-    for k, width in enumerate(packed):
+    begins = np.concatenate([[0], np.cumsum(packed, dtype=np.int64)]).tolist()
+
+    def unpack(k: int) -> None:
         expected = whole if k < blocks - 1 else last or whole
         block_title = f"block {k + 1} of {blocks} of {array_title(array)}"
         try:
-            block = decompress(data[at : at + width], expected)
+            block = decompress(data[begins[k] : begins[k + 1]], expected)
         except MemoryError:
             raise
         except Exception as error:  # each of the three libraries raises its own type
@@ -188,8 +190,10 @@ def _read_compressed(document: Document, array: XMLElement, stream: _Stream, siz
             raise document.error(f"{block_title} is no {kind} ({detail})") from None
         if len(block) != expected:
             raise document.error(f"{block_title} has not the {expected} bytes announced")
-        answer[to : to + expected] = np.frombuffer(block, np.uint8)
-        at, to = at + width, to + expected
+        answer[k * whole : k * whole + expected] = np.frombuffer(block, np.uint8)
+
+    for _ in parallel_map(unpack, range(blocks)):
+        pass
     return answer
 
 

@@ -44,6 +44,45 @@ def test_what_vtk_writes_is_read(compression, tmp_path):
     np.testing.assert_array_equal(np.ravel(back.field_data["time"]), [0.25, 0.5])
 
 
+def test_every_name_and_type_comes_back(tmp_path):
+    arrays = {code: np.arange(27).astype(code) for code in ("i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8")}
+    arrays |= {
+        "true": np.arange(27) > 5,
+        "rows": np.arange(54.0).reshape(27, 2),
+        "ä λ": np.arange(27),
+        "a/b": np.ones(27),
+    }
+    fields = {"title": ["made & elsewhere", "ä"], "time": np.array([0.1]), "line": "one"}
+    sets = {"some": np.array([1, 5])}
+    mesh = scrambled(grid(3), 0.3)
+    mesh = mesh.replace(hex_data=arrays, field_data=fields, hex_sets=sets, pinned=np.arange(mesh.n_nodes) == 30)
+    path = tmp_path / "a.vtkhdf"
+    io.write(path, mesh)
+    back = io.read(path)
+    np.testing.assert_array_equal(back.points, mesh.points)
+    np.testing.assert_array_equal(back.hexes, mesh.hexes)
+    np.testing.assert_array_equal(back.pinned, mesh.pinned)
+    np.testing.assert_array_equal(back.hex_sets["some"], sets["some"])
+    for name, values in arrays.items():
+        np.testing.assert_array_equal(back.hex_data[name.replace("/", "_")], values)
+    assert back.field_data["title"] == fields["title"]
+    assert back.field_data["line"] == ["one"]
+    assert io.unsupported_data(path, mesh) == ["names of data and sets as they are (a/b)"]
+    again = tmp_path / "b.vtkhdf"
+    io.write(again, back)
+    np.testing.assert_array_equal(io.read(again).hex_data["rows"], arrays["rows"])
+
+
+def test_vtk_reads_what_is_written(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    mesh = scrambled(grid(3), 0.3).replace(node_data={"a": np.arange(64.0)}, field_data={"title": ["x", "ä"]})
+    io.write(tmp_path / "a.vtkhdf", mesh)
+    other = pyvista.read(tmp_path / "a.vtkhdf")
+    np.testing.assert_array_equal(other.points, mesh.points)
+    np.testing.assert_array_equal(other.cells_dict[12], mesh.hexes)
+    np.testing.assert_array_equal(other.point_data["a"], np.arange(64.0))
+
+
 def hand_made(path, change=None, parts=2):
     """Two parts of a hex each, as the manual has them, and strings."""
     mesh = grid(1)
