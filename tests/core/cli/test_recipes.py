@@ -67,7 +67,7 @@ def test_what_is_run_is_saved_and_does_the_same_again(mesh, tmp_path):
     (["--recipe", "{recipe}", "--method", "mend"], 2, "leave out --method, --set, --boundary"),
     (["--recipe", "{recipe}", "--set", "p=3"], 2, "leave out --method, --set, --boundary"),
     (["--recipe", "missing.toml"], 3, "missing.toml: there is no such file"),
-    (["--recipe", "{mesh}"], 3, "mesh.vtu: is not TOML"),
+    (["--recipe", "{mesh}"], 3, "mesh.vtu: is not text"),
     (["--save-recipe", "{folder}/no/such.toml"], 3, "such.toml: cannot be written"),
 ])  # fmt: skip
 def test_what_is_wrong_is_one_line_before_the_work(words, status, said, mesh, recipe, tmp_path, capsys):
