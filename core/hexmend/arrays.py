@@ -46,10 +46,10 @@ def as_immutable(array: np.ndarray) -> np.ndarray:
     return copy
 
 
-def frozen(array: np.ndarray) -> np.ndarray:
+def as_immutable_owned(array: np.ndarray) -> np.ndarray:
     """Return an array that nobody else holds as an immutable one, without a copy if it is contiguous.
 
-    >>> is_immutable(frozen(np.zeros(2)))
+    >>> is_immutable(as_immutable_owned(np.zeros(2)))
     True
     """
     if is_immutable(array) or not array.flags.c_contiguous or array.dtype.hasobject:

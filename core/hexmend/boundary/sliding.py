@@ -101,8 +101,8 @@ class SlidingBoundary(Band):
         self.nodes = np.flatnonzero(slides)
         self.releasable = self.boundary.node_class == NodeClass.CORNER
         self.releasable[marked_corners(mesh)] = False
-        self._of_interfaces = interface_nodes(mesh)
-        self.confined = self._of_interfaces.copy()
+        self._of_interfaces = mask(whole.patch_of_face[len(mesh.topology.boundary_faces) :], whole.n_patches)
+        self.confined = interface_nodes(mesh).copy()
         self.confined[marked_edges(mesh) if sets_hold else ridges(mesh)] = True
         self.releasable &= ~(stays | self.confined)
         self._group = self.surface.group_of(self.nodes)
@@ -156,13 +156,11 @@ class SlidingBoundary(Band):
 
     @cached_property
     def _surface_with_union(self) -> PartitionedSurface:
-        surface, boundary = self.surface, self.boundary
+        surface = self.surface
         if surface.trees.roots.size > self._union:
             return surface
-        if self._given is not None:  # a target has no interfaces
-            return surface.with_union(np.ones(surface.n_patches, dtype=bool))
-        between = boundary.patch_of_face[self._of_interfaces[boundary.faces].all(axis=1)]
-        return surface.with_union(~mask(between, surface.n_patches))
+        # a target has no interfaces
+        return surface.with_union(~self._of_interfaces if self._given is None else np.ones(surface.n_patches, bool))
 
     def on_several_patches(self, nodes: np.ndarray) -> np.ndarray:
         """Mark those of some sliding nodes (k,) that slide on all patches, (k,) bool."""

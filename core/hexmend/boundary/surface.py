@@ -35,7 +35,7 @@ class PartitionedSurface:
     node_class, part
         Class and part, as in `Boundary`, of the nodes that slide on the surface; see `attached`.
     trees : ClosestPointTrees
-        Patch i is group i, curve i is group `n_patches` + i.
+        Patch i is group i, curve i is group `n_patches` + i; `with_union` adds a last group.
 
     Examples
     --------
@@ -72,6 +72,7 @@ class PartitionedSurface:
     def with_union(self, patches: np.ndarray) -> PartitionedSurface:
         """Return this surface with one more group of `trees`, the last: that of some patches, (n_patches,) bool."""
         other, trees, last = copy.copy(self), self.trees, self.n_patches + self.n_curves
+        vars(other).pop("_patches_and_curves", None)
         again = np.flatnonzero(mask(np.flatnonzero(patches), last)[self._group])
         group = np.concatenate([self._group, np.full(again.size, last, dtype=self._group.dtype)])
         other.trees = ClosestPointTrees(trees.points, np.concatenate([trees.pieces, trees.pieces[again]]), group)

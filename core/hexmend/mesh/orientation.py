@@ -72,12 +72,12 @@ def mirrored_parts(mesh: Mesh) -> np.ndarray:
     -------
     (m,) bool
     """
-    wrong, right = np.empty(mesh.n_hexes, dtype=bool), np.empty(mesh.n_hexes, dtype=bool)
-    for begin in range(0, mesh.n_hexes, _CHUNK):
-        some = slice(begin, begin + _CHUNK)
-        wrong[some], right[some] = _handedness(mesh.points, mesh.hexes[some])
-    if not wrong.any():
+    chunks = [slice(begin, begin + _CHUNK) for begin in range(0, mesh.n_hexes, _CHUNK)]
+    wrong, right = np.zeros(mesh.n_hexes, dtype=bool), np.zeros(mesh.n_hexes, dtype=bool)
+    if not any((_volumes(mesh.points, mesh.hexes[some]) < 0).any() for some in chunks):
         return wrong
+    for some in chunks:
+        wrong[some], right[some] = _handedness(mesh.points, mesh.hexes[some])
     part = parts_of(mesh)
     of_part = (np.bincount(part, wrong) > 0) & (np.bincount(part, right) == 0)
     return of_part[part]
@@ -85,14 +85,18 @@ def mirrored_parts(mesh: Mesh) -> np.ndarray:
 
 def _handedness(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Mark hexes (k, 8) of negative and of positive volume, both (k,) bool; flat ones are neither."""
-    determinants = np.empty((len(hexes), 8))
-    elements.corner_determinants(points, hexes, determinants)
-    with np.errstate(all="ignore"):  # very large coordinates overflow
-        volumes = determinants.sum(axis=1)
-        if volumes.min() > 0:
-            return np.zeros(len(hexes), dtype=bool), np.ones(len(hexes), dtype=bool)
+    volumes = _volumes(points, hexes)
+    with np.errstate(all="ignore"):
         rounding = _rounding(points, hexes)
         return volumes < -rounding, volumes > rounding
+
+
+def _volumes(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Sums of the corner determinants of hexes (k, 8), (k,); very large coordinates overflow."""
+    determinants = np.empty((len(hexes), 8))
+    elements.corner_determinants(points, hexes, determinants)
+    with np.errstate(all="ignore"):
+        return determinants.sum(axis=1)
 
 
 def _rounding(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from hexmend.mesh import orientation
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import (
@@ -34,6 +35,19 @@ def two_grids():
 def nodes_of(mesh, name):
     """Return the nodes of each face of a side set, as sets."""
     return [frozenset(mesh.hexes[hexa, FACES[face]].tolist()) for hexa, face in mesh.side_sets[name]]
+
+
+@pytest.mark.parametrize("chunk", [1, 2, 100])
+def test_hexes_that_are_flat_up_to_rounding_do_not_count_wherever_a_chunk_ends(chunk, monkeypatch):
+    monkeypatch.setattr(orientation, "_CHUNK", chunk)
+    mesh = grid(2, 1, 1)
+    points = mesh.points.copy()
+    flat = points[:, 0] == 2
+    points[flat] = points[flat] * [0, 1, 1] + [1 + 1e-15, 0, 0]
+    mesh = mirrored(mesh.with_points(points), [True, False])
+    volumes = corner_determinants(points, mesh.hexes, np.arange(2)).sum(axis=1)
+    assert volumes[0] < 0 < volumes[1] < 1e-13
+    assert mirrored_parts(mesh).all()
 
 
 def test_faces_of_side_sets_stay_where_they_are():

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.arrays import frozen
+from hexmend.arrays import as_immutable_owned
 from hexmend.errors import FileError
 from hexmend.io.base.cell_kinds import HEX_KINDS
 from hexmend.io.base.fixed_marks import find_marks
@@ -52,6 +52,8 @@ class Block:
 @dataclass(frozen=True, eq=False)
 class Content:
     """Points, blocks of cells, and their data and sets.
+
+    A mesh takes the points and the nodes of hexes over without a copy: nobody may write to them afterwards.
 
     Parameters
     ----------
@@ -123,8 +125,8 @@ def to_mesh(path: Path, content: Content) -> Mesh:
             pinned[block.nodes] = True
     lengths, corners = [len(block) for block in hexes], [block.nodes[:, :8] for block in hexes]
     return Mesh(
-        frozen(as_points(points)),
-        frozen(as_hexes(corners[0] if len(corners) == 1 else np.concatenate(corners), len(points))),
+        as_immutable_owned(as_points(points)),
+        as_immutable_owned(as_hexes(corners[0] if len(corners) == 1 else np.concatenate(corners), len(points))),
         pinned=pinned,
         node_data=content.node_data,
         hex_data=concatenate_data([block.data for block in hexes], lengths),

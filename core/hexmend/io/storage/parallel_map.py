@@ -45,9 +45,15 @@ def parallel_map(function: Callable[[T], R], items: Sequence[T]) -> Iterator[R]:
             except BaseException as error:  # raised again below, in the order of the items
                 results[k] = error
 
-        others = [threading.Thread(target=compute, args=(k,)) for k in range(1, len(batch))]
-        for thread in others:
-            thread.start()
+        others = []
+        for k in range(1, len(batch)):
+            thread = threading.Thread(target=compute, args=(k,))
+            try:
+                thread.start()
+            except RuntimeError:  # the system has no more threads
+                compute(k)
+            else:
+                others.append(thread)
         compute(0)
         for thread in others:
             thread.join()

@@ -66,7 +66,7 @@ class Envelope:
             self.max_deviation, self.flips_allowed = limit, False
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:
-        """Mark those of some nodes (k,) that slide on the surface and are not released, (k,) bool."""
+        """Mark those of some nodes (k,) that slide on the surface and have not left it, (k,) bool."""
         if self.sliding is None:
             return np.zeros(nodes.size, dtype=bool)
         return self.sliding.slides(nodes) & ~self.off_surface[nodes]

@@ -61,11 +61,11 @@ class LeavingSurface:
         limits, fewest = self._limits, len(hexes)
         trials = [(start, limits[:1]) for start in starts[: RELEASE.starts]] + [(starts[0], limits[1:])]
         for number, (start, within) in enumerate(trials):
-            if number == RELEASE.starts and fewest <= RELEASE.few:  # linear programs do better
+            if number == len(trials) - 1 and fewest <= RELEASE.few:  # linear programs do better
                 break
             points, released = yield from untangle_released(self.sliding, start, self._untangled, within)
             inverted = measure(points, hexes).n_inverted
-            if inverted < fewest:
+            if inverted < fewest and released.size:
                 fewest, self._nearly = inverted, self._with_released(points, released)
             if not inverted:
                 return (yield from self._raise_untangled(points, released))

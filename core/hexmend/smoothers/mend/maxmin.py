@@ -25,15 +25,15 @@ class MaxMinConfig:
     barrier_safe : float
         Least scaled Jacobian above which the energy's barrier can be used.
     acceptable : float
-        Least scaled Jacobian below which nodes of the boundary leave the surface, and groups are frozen.
+        Least scaled Jacobian below which nodes leave their curves and the surface, and groups are frozen.
     programs_per_iteration : int
         Number of linear programs per iteration of the run.
     max_groups, max_groups_off_surface : int
         Groups of corners that are raised one after another, at most; the second while nodes leave the surface.
     surface_share : float
-        Share of the surface tolerance that the boundary uses at most while nodes slide.
+        Share of the surface tolerance that the boundary uses at most while nodes slide; see `first_share`.
     first_share : float
-        Share of the tolerance that the first of `bands` may have, so that small tolerances begin as larger ones do.
+        Share of a small tolerance that the boundary may use, up to the first of `bands`: it begins as a larger one.
     bands : tuple of float
         Narrower bands, in mean edge lengths, in which the least is raised first; a wider one follows where it raises
         the least by `worth_widening`. They are the same for all tolerances; the last band is `surface_share` of the
@@ -111,7 +111,7 @@ def maximise_minimum(
     target : float
         Ends where the least has reached it; groups below it are frozen, and the corners above them raised further.
     release_below : float
-        Where a group is stuck below it, nodes of the boundary leave the surface, if any can, before it is frozen.
+        Where a group is stuck below it, nodes leave their curves or the surface, if any can, before it is frozen.
     groups : int
         Groups that are raised, at most.
     infeasible : bool

@@ -121,7 +121,9 @@ def improve_off_surface(
     result = yield from _detour(optimiser, limits, far, target, reached, config)
     if other is not None and not result.least > 0:
         higher = yield from infeasible(raise_within_tolerance(other, limits[0], config.programs_between, config))
-        result = higher if higher.least > result.least else result
+        if higher.least > result.least:
+            result = higher
+            yield result.step()
     for _ in range(config.detours):
         least = result.least
         if least >= wanted:

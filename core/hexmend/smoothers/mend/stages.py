@@ -24,9 +24,7 @@ from hexmend.smoothers.mend.maxmin import MAXMIN, active_set, maximise_minimum
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
-from hexmend.smoothers.mend.off_surface import (
-    MaxMinResult,
-)
+from hexmend.smoothers.mend.off_surface import MaxMinResult
 from hexmend.smoothers.mend.release import T, infeasible
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
 from hexmend.smoothers.mend.starts import raise_from_better

@@ -57,7 +57,9 @@ def measure_process(path: Path, folder: Path, options: tuple[str, ...] = ()) -> 
     report, peak = folder / "report.json", folder / "peak.txt"
     words = ["smooth", str(path), "-o", str(folder / "out.vtu"), "--json", str(report), *options]
     began = perf_counter()
-    subprocess.run([sys.executable, "-c", _PROBE, str(peak), *words], check=True, capture_output=True)
+    done = subprocess.run([sys.executable, "-c", _PROBE, str(peak), *words], capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"hexmend {' '.join(words)}: {done.stderr.strip()}")
     seconds, said = perf_counter() - began, json.loads(report.read_text(encoding="utf-8"))
     return {
         "hexes": said["after"]["hexes"],
@@ -93,7 +95,7 @@ def _deviation(path: Path) -> float:
 def _lines(figures: dict[str, Any]) -> list[str]:
     threads = figures["threads"]
     lines = [
-        "| mesh | hexes | processes | threads | seconds | of it the method | peak, MB | kB a hex | iterations |",
+        "| mesh | hexes | processes | threads | seconds | of it the method | peak, MiB | kB a hex | iterations |",
         "|:---|---:|---:|---:|---:|---:|---:|---:|---:|",
     ]
     for row in figures["rows"]:

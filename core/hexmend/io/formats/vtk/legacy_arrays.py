@@ -90,7 +90,7 @@ def split_cells(cursor: ByteCursor, flat: np.ndarray, count: int) -> tuple[np.nd
     ----------
     cursor : ByteCursor
         Raises the errors.
-    flat : (k,) int64
+    flat : (k,) int32 or int64
     count : int
         Number of cells.
 
@@ -98,7 +98,8 @@ def split_cells(cursor: ByteCursor, flat: np.ndarray, count: int) -> tuple[np.nd
     -------
     start : (count + 1,) int64
         Cell i has the nodes nodes[start[i]:start[i + 1]].
-    nodes : (start[-1],) int64
+    nodes : (start[-1],) int
+        Of the type of `flat`.
 
     Raises
     ------

@@ -39,7 +39,7 @@ def read_polygons(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     points : (n, 3) float64
     start : (k + 1,) int64
         Polygon i has the nodes nodes[start[i]:start[i + 1]].
-    nodes : (start[-1],) int64
+    nodes : (start[-1],) int
     """
     return _LegacyReader(path).read_polygons()
 

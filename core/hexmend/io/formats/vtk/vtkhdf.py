@@ -88,7 +88,8 @@ class _VTKHDFReader:
 
     def _read_grid(self, sizes: dict[str, int], begins: dict[str, int], part: int) -> Grid:
         points, cells, ids = (slice(begins[name], begins[name] + size) for name, size in sizes.items())
-        start = self._read_integers("Offsets", slice(cells.start + part, cells.stop + part + 1))
+        offsets = self._read_integers("Offsets", slice(cells.start + part, cells.stop + part + 1))
+        start = offsets.astype(np.int64, copy=False)
         if start[0] != 0 or start[-1] != sizes["ConnectivityIds"] or (np.diff(start) < 0).any():
             problem = f"its Offsets of part {part} do not rise from 0 to {ids.stop - ids.start}"
             raise FileError(self.path, problem, DAMAGED)

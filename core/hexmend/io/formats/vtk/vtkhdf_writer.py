@@ -8,20 +8,26 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.capabilities import non_numeric_data
+from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.vtk.grid import from_mesh
+from hexmend.io.formats.vtk.vtu_writer import writable
 from hexmend.mesh.mesh import Mesh
 
 _VERSION = (2, 2)
-#: Kinds of numbers, by NumPy's letters, that the format holds.
-_KINDS = "biuf"
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write a mesh; sets and fixed nodes become arrays as in VTU."""
+    """Write a mesh; sets and fixed nodes become arrays as in VTU.
+
+    Raises
+    ------
+    FileError
+        For an array of a type that VTK does not have.
+    """
     import h5py
 
-    grid = from_mesh(mesh, _KINDS)
+    grid = from_mesh(mesh, "biuf")
     with h5py.File(path, "w", track_order=True) as file:
         root = file.create_group("VTKHDF", track_order=True)
         root.attrs["Version"] = _VERSION
@@ -32,44 +38,32 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         root["Points"], root["Types"] = grid.points, grid.types.astype(np.uint8, copy=False)
         root.create_dataset("Connectivity", data=grid.nodes, dtype=np.int64)
         root["Offsets"] = grid.start
-        for section, arrays in (("PointData", grid.node_data), ("CellData", grid.cell_data)):
-            _write_arrays(root.create_group(section, track_order=True), arrays)
-        _write_arrays(root.create_group("FieldData", track_order=True), dict(_fields(grid.field_data)))
+        sections = {"PointData": grid.node_data, "CellData": grid.cell_data, "FieldData": grid.field_data}
+        for section, arrays in sections.items():
+            _write_arrays(path, root.create_group(section, track_order=True), arrays)
 
 
 def names_not_kept(mesh: Mesh) -> list[str]:
     """Describe what the file cannot hold as it is: data that are no numbers, and names with a slash."""
-    grid = from_mesh(mesh, _KINDS)
-    names = (*grid.node_data, *grid.cell_data, *mesh.field_data)
+    groups = with_marks(mesh), mesh.hex_data, mesh.field_data, *(cells.data for cells in mesh.cells)
+    sets = mesh.node_sets, mesh.hex_sets, *(cells.sets for cells in mesh.cells)
+    names = (name for group in (*groups, *sets) for name in group)
     return non_numeric_data(mesh) + altered_names(_titles(names), "data and sets")
 
 
-def _write_arrays(group: object, arrays: Mapping[str, np.ndarray | list[str]]) -> None:
+def _write_arrays(path: Path, group: object, arrays: Mapping[str, object]) -> None:
+    """Write arrays of numbers, of at most two dimensions, and lists of texts; VTK cannot read empty ones."""
     import h5py
 
     titles, text = _titles(arrays), h5py.string_dtype("ascii")  # as VTK reads it, though the bytes are UTF-8
     for name, values in arrays.items():
+        values = writable(path, name, values)
         if isinstance(values, list):
-            rows = np.array([line.replace("\0", "").encode("utf-8", "replace") for line in values], dtype=object)
-            group.create_dataset(titles[name], data=rows, dtype=text)
-        else:
-            array = np.asarray(values)
-            group[titles[name]] = array.astype(np.uint8) if array.dtype.kind == "b" else array
-
-
-def _fields(data: Mapping[str, object]) -> Iterable[tuple[str, np.ndarray | list[str]]]:
-    """Yield the field data that are numbers or texts; a text becomes a list."""
-    for name, values in data.items():
-        if isinstance(values, str):
-            yield name, [values]
-        elif isinstance(values, list | tuple) and all(isinstance(text, str) for text in values):
-            yield name, list(values)
-        else:
-            array = np.atleast_1d(values)
-            if array.dtype.kind == "U":
-                yield name, [str(text) for text in array.ravel()]
-            elif array.dtype.kind in _KINDS:
-                yield name, array
+            rows = [line.replace("\0", "").encode("utf-8", "replace") for line in values]
+            if rows:
+                group.create_dataset(titles[name], data=np.array(rows, dtype=object), dtype=text)
+        elif values.size:
+            group[titles[name]] = values if values.ndim < 3 else values.reshape(len(values), -1)
 
 
 def _titles(names: Iterable[str]) -> dict[str, str]:

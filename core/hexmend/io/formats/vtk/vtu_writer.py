@@ -62,11 +62,11 @@ def _sections(path: Path, grid: Grid) -> Iterator[tuple[str, Mapping[str, np.nda
     """Yield lines of the file, and the arrays that follow each."""
     n, m = len(grid.points), len(grid.types)
     if grid.field_data:
-        yield "<FieldData>", {name: _writable(path, name, values) for name, values in grid.field_data.items()}
+        yield "<FieldData>", {name: writable(path, name, values) for name, values in grid.field_data.items()}
         yield "</FieldData>", {}
     cells = {"connectivity": grid.nodes, "offsets": grid.start[1:], "types": grid.types.astype(np.uint8)}
     data = [
-        {name: _writable(path, name, values) for name, values in arrays.items() if np.size(values)}  # not of width 0
+        {name: writable(path, name, values) for name, values in arrays.items() if np.size(values)}  # not of width 0
         for arrays in (grid.node_data, grid.cell_data)
     ]
     yield f'<Piece NumberOfPoints="{n}" NumberOfCells="{m}">\n<Points>', {"Points": grid.points}
@@ -76,8 +76,8 @@ def _sections(path: Path, grid: Grid) -> Iterator[tuple[str, Mapping[str, np.nda
     yield "</CellData>", {}
 
 
-def _writable(path: Path, name: str, values: object) -> np.ndarray | list[str]:
-    """Convert values to an array of a type that VTK has, or a list of strings."""
+def writable(path: Path, name: str, values: object) -> np.ndarray | list[str]:
+    """Convert values to an array of a type that VTK has, or a list of strings; else raise `FileError`."""
     if isinstance(values, str):
         return [values]
     if isinstance(values, (list, tuple)) and all(isinstance(text, str) for text in values):
@@ -141,7 +141,7 @@ def _write_array(
     if appended is not None:
         appended.add(file, numbers)
     else:
-        file.write(b' format="ascii">\n' + format_rows(numbers))
+        file.write(b' format="ascii">\n' + (format_rows(numbers) if numbers.size else b""))
         file.write(b"\n</Array>\n" if isinstance(values, list) else b"\n</DataArray>\n")
     return title.encode("utf-8", "replace").decode(), zlib.crc32(numbers.view(np.uint8))
 
@@ -150,12 +150,10 @@ def _write_compressed(file: BinaryIO, numbers: np.ndarray) -> None:
     """Write a header and compressed blocks; the header, which has their sizes, is completed at the end."""
     data, begin = numbers.view(np.uint8), file.tell()
     count = -(-len(data) // _BLOCK)
-    sizes = np.zeros(3 + count if count else 1, "<u8")
+    sizes = np.zeros(3 + count, "<u8")  # VTK reads three words where there are no blocks too
     file.write(sizes.tobytes())
-    if not count:
-        return
     blocks = [data[at : at + _BLOCK] for at in range(0, len(data), _BLOCK)]
-    sizes[:3] = count, _BLOCK, len(data) % _BLOCK
+    sizes[:3] = count, _BLOCK if count else 0, len(data) % _BLOCK
     for k, block in enumerate(parallel_map(lambda block: zlib.compress(block, _LEVEL), blocks)):
         sizes[3 + k] = len(block)
         file.write(block)

@@ -77,7 +77,7 @@ def _read_decimals(document: Document, array: XMLElement, dtype: np.dtype, count
         raise document.error(f"{array_title(array)} holds words that are no numbers of its type")
     if count is not None and found != count:
         raise document.error(f"{array_title(array)} holds {found} numbers: expected {count}")
-    if values is None:
+    if values is None or not found:
         values = np.empty(0, wide)
     if wide.kind == "f":
         return values.astype(dtype.newbyteorder("="), copy=False)

@@ -64,7 +64,10 @@ def test_every_name_and_type_comes_back(tmp_path):
     np.testing.assert_array_equal(back.pinned, mesh.pinned)
     np.testing.assert_array_equal(back.hex_sets["some"], sets["some"])
     for name, values in arrays.items():
-        np.testing.assert_array_equal(back.hex_data[name.replace("/", "_")], values)
+        found = back.hex_data[name.replace("/", "_")]
+        np.testing.assert_array_equal(found, values)
+        assert found.dtype == (np.uint8 if name == "true" else values.dtype)
+    np.testing.assert_array_equal(back.field_data["time"], fields["time"])
     assert back.field_data["title"] == fields["title"]
     assert back.field_data["line"] == ["one"]
     assert io.unsupported_data(path, mesh) == ["names of data and sets as they are (a/b)"]
@@ -75,12 +78,34 @@ def test_every_name_and_type_comes_back(tmp_path):
 
 def test_vtk_reads_what_is_written(tmp_path):
     pyvista = pytest.importorskip("pyvista")
-    mesh = scrambled(grid(3), 0.3).replace(node_data={"a": np.arange(64.0)}, field_data={"title": ["x", "ä"]})
+    data = {"a": np.arange(64.0), "tensors": np.arange(576.0).reshape(64, 3, 3), "none": np.zeros((64, 0))}
+    fields = {"title": ["x", "ä"], "no texts": [], "empty": np.zeros(0), "deep": np.ones((2, 3, 3))}
+    mesh = scrambled(grid(3), 0.3).replace(node_data=data, field_data=fields)
     io.write(tmp_path / "a.vtkhdf", mesh)
     other = pyvista.read(tmp_path / "a.vtkhdf")
     np.testing.assert_array_equal(other.points, mesh.points)
     np.testing.assert_array_equal(other.cells_dict[12], mesh.hexes)
     np.testing.assert_array_equal(other.point_data["a"], np.arange(64.0))
+    np.testing.assert_array_equal(other.point_data["tensors"].reshape(64, 3, 3), data["tensors"])
+    assert list(other.field_data["title"]) == fields["title"]
+
+
+def test_what_vtk_cannot_hold_is_refused(tmp_path):
+    for fields in ({"z": np.zeros(8, np.complex128)}, {"z": np.zeros(8, np.longdouble)}, {"z": {"a": 1}}):
+        with pytest.raises(FileError, match="which VTK cannot"):
+            io.write(tmp_path / "a.vtkhdf", grid(1).replace(field_data=fields))
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("offsets", [np.array([0, 200, 8], np.uint8), np.array([0, 2 * 10**9, 8], np.int32)])
+def test_offsets_that_fall_are_found_whatever_their_type(offsets, tmp_path):
+    def falling(root):
+        for name in ("Offsets", "NumberOfCells", "Types"):
+            del root[name]
+        root["Offsets"], root["NumberOfCells"], root["Types"] = offsets, [2], np.array([12, 12], np.uint8)
+
+    with pytest.raises(FileError, match="do not rise"):
+        io.read(hand_made(tmp_path / "a.vtkhdf", falling, parts=1))
 
 
 def hand_made(path, change=None, parts=2):
