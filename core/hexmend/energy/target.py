@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import row_norms
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
@@ -30,11 +31,12 @@ def wanted_lengths(mesh: Mesh) -> np.ndarray | None:
     target = mesh.element_target
     if target is None or target.size_weight > 0:
         return None if target is None else target.lengths
-    ends = mesh.points[mesh.hexes[:, EDGES]]
-    edges = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).reshape(-1, 3, 4)
+    ends = ((mesh.points[mesh.hexes[:, node]] for node in edge) for edge in EDGES)
+    edges = np.stack([row_norms(one - other) for one, other in ends], axis=1).reshape(-1, 3, 4)
+    edges.sort(axis=2)
     # The median of the four parallel edges is hardly changed by a node that is far away.
     with np.errstate(divide="ignore"):
-        sizes = np.exp(np.log(np.median(edges, axis=2)).mean(axis=1))
+        sizes = np.exp(np.log(edges[:, :, 1:3].mean(axis=2)).mean(axis=1))
     sizes = np.maximum(sizes, _MIN_SIZE * (mesh.mean_edge_length or 1.0))
     return target.lengths * (sizes / np.exp(np.log(target.lengths).mean(axis=1)))[:, None]
 

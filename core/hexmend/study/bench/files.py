@@ -28,11 +28,12 @@ print(json.dumps({"seconds": perf_counter() - began}))
 """
 _READ = """
 import json, sys
+from pathlib import Path
 from time import perf_counter
 from hexmend.gallery import make
 from hexmend.io import read, write
 from hexmend.study.bench.section import peak_mb, resident_mb
-small = sys.argv[1].replace("mesh", "small")
+small = Path(sys.argv[1]).with_stem("small")
 write(small, make("cube", size=8))
 read(small)  # whatever has to be imported
 before, began = resident_mb(), perf_counter()
