@@ -45,6 +45,8 @@ class BalanceConfig:
         Shares of the way from the given mesh to the result that are tried where the mean of q(H) is lower all the same.
     much : float
         Multiple of the floor of the least scaled Jacobian above which the first rise is followed by a patient one.
+    worth_rising : float
+        Share by which that has to raise the least.
     sound : float
         Least scaled Jacobian from which on nothing is to be gained.
     target_fall : float
@@ -63,6 +65,7 @@ class BalanceConfig:
     weights: tuple[float, ...] = (1.0, 0.1, 0.01)
     returns: tuple[float, ...] = (0.5, 0.25, 0.125, 0.0625)
     much: float = 2.0
+    worth_rising: float = 0.01
     sound: float = 0.99
     target_fall: float = 0.05
     path: CentralPathConfig = PATH
@@ -148,8 +151,11 @@ def balance(
     if not _is_above(path.least, floor, config.margin):  # on with all hexes, until the floors are reached
         target = Least(floor.jacobian * (1 + config.quality_margin), target.quality)
         yield from _steps(path, path.rise(target, config.patient), energy.norm)
-    elif path.least.jacobian > config.much * floor.jacobian:  # more is to be had where so much was
+    elif path.least.jacobian > config.much * floor.jacobian:  # more may be had where so much was
+        reached, x = path.least.jacobian, path.x
         yield from _steps(path, path.rise(target, config.patient), energy.norm)
+        if path.least.jacobian < (1 + config.worth_rising) * reached:
+            path.move_to(x)
     if not _is_above(path.least, floor, config.margin) and start.jacobian > 0:  # another way: from the given mesh
         floor = Least(start.jacobian, start.quality)
         path.move_to(energy.to_edge_units(given))
