@@ -9,7 +9,7 @@ from itertools import islice
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
+from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
@@ -131,6 +131,10 @@ class Stages:
         newton, locked = NewtonConfig(self.settings.solver_iterations), locked_corners(mesh, quality)
         energy = energy.with_objective(energy.norm, locked)
         untangled = yield from self._untangle(mesh, energy, quality, locked)
+        if untangled.left(locked) and energy.norm.p < SQUARES.p and not energy.faceted:
+            # Squares weigh the worst hexes more, and untangle some meshes that sums do not.
+            again = yield from self._untangle(mesh, energy.with_objective(SQUARES, locked), quality, locked)
+            untangled = again if again.left(locked) < untangled.left(locked) else untangled
         points, omitted = untangled.points, untangled.omitted
         if omitted.any() and not self.settings.slides_on(mesh):
             decision = omission_message(omitted, locked)

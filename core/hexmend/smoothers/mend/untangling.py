@@ -80,6 +80,10 @@ class Untangled:
     quality: ElementQuality
     omitted: np.ndarray
 
+    def left(self, locked: np.ndarray) -> int:
+        """Return the number of hexes that are inverted still, without those that are locked (m,) uint8."""
+        return int(np.count_nonzero(self.omitted & ~locked))
+
 
 @dataclass(frozen=True, eq=False)
 class _Iterate:

@@ -60,13 +60,13 @@ def measure_process(path: Path, folder: Path, options: tuple[str, ...] = ()) -> 
     done = subprocess.run([sys.executable, "-c", _PROBE, str(peak), *words], capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(f"hexmend {' '.join(words)}: {done.stderr.strip()}")
-    seconds, said = perf_counter() - began, json.loads(report.read_text(encoding="utf-8"))
+    seconds, output = perf_counter() - began, json.loads(report.read_text(encoding="utf-8"))
     return {
-        "hexes": said["after"]["hexes"],
-        "left": said["after"]["inverted"],
+        "hexes": output["after"]["hexes"],
+        "left": output["after"]["inverted"],
         "seconds": seconds,
-        "method_seconds": said["seconds"],
-        "iterations": said["iterations"],
+        "method_seconds": output["seconds"],
+        "iterations": output["iterations"],
         "peak_mb": float(peak.read_text(encoding="utf-8")),
     }
 

@@ -72,5 +72,5 @@ def _titles(names: Iterable[str]) -> dict[str, str]:
 
 
 def _title(name: str, suffix: str) -> str:
-    plain = name.replace("/", "_").replace("\0", "").encode("utf-8", "replace").decode()
-    return (plain if plain.strip(".") else f"_{plain}") + suffix
+    text = name.replace("/", "_").replace("\0", "").encode("utf-8", "replace").decode()
+    return (text if text.strip(".") else f"_{text}") + suffix
