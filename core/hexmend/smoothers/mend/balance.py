@@ -152,10 +152,7 @@ def balance(
         target = Least(floor.jacobian * (1 + config.quality_margin), target.quality)
         yield from _steps(path, path.rise(target, config.patient), energy.norm)
     elif path.least.jacobian > config.much * floor.jacobian:  # more may be had where so much was
-        reached, x = path.least.jacobian, path.x
-        yield from _steps(path, path.rise(target, config.patient), energy.norm)
-        if path.least.jacobian < (1 + config.worth_rising) * reached:
-            path.move_to(x)
+        yield from _rise_on(path, target, config)
     if not _is_above(path.least, floor, config.margin) and start.jacobian > 0:  # another way: from the given mesh
         floor = Least(start.jacobian, start.quality)
         path.move_to(energy.to_edge_units(given))
@@ -174,6 +171,14 @@ def balance(
     else:
         yield from _return_towards(path, energy.to_edge_units(given), start, config.returns)
     return Balanced(path.points, _message(path, top, float(measure(points, energy.mesh.hexes).q.mean())))
+
+
+def _rise_on(path: CentralPath, target: Least, config: BalanceConfig) -> Iterator[Step]:
+    """Rise patiently after the first rise; go back where that raises the least by too little."""
+    reached, x = path.least.jacobian, path.x
+    yield from _steps(path, path.rise(target, config.patient), path.energy.norm)
+    if path.least.jacobian < (1 + config.worth_rising) * reached:
+        path.move_to(x)
 
 
 def _message(path: CentralPath, top: Least, mean_without: float) -> str:

@@ -120,10 +120,7 @@ def improve_off_surface(
     target, factor = config.off_surface_factor * config.acceptable, next(factors)
     result = yield from _detour(optimiser, limits, far, target, reached, config)
     if other is not None and not result.least > 0:
-        higher = yield from infeasible(raise_within_tolerance(other, limits[0], config.programs_between, config))
-        if higher.least > result.least:
-            result = higher
-            yield result.step()
+        result = yield from _better_from(other, limits[0], result, config)
     for _ in range(config.detours):
         least = result.least
         if least >= wanted:
@@ -140,6 +137,17 @@ def improve_off_surface(
     if result is reached:
         yield result.step()
     return (yield from raise_to_the_end(result, config))
+
+
+def _better_from(
+    other: MaxMinOptimiser, max_deviation: float, result: MaxMinResult, config: MaxMinConfig
+) -> Generator[Step, None, MaxMinResult]:
+    """Raise the least from another start within a tolerance; return that, or `result` if it is no higher."""
+    higher = yield from infeasible(raise_within_tolerance(other, max_deviation, config.programs_between, config))
+    if not higher.least > result.least:
+        return result
+    yield higher.step()
+    return higher
 
 
 def raise_to_the_end(result: MaxMinResult, config: MaxMinConfig = MAXMIN) -> Generator[Step, None, MaxMinResult]:

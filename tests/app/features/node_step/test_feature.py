@@ -141,13 +141,6 @@ def test_an_invalid_parameter_is_reported(node_window, qtbot):
 @pytest.mark.slow
 def test_no_step_is_shown_during_a_run_and_none_is_made_while_it_is_paused(node_window, qtbot):
     window = node_window
-    with qtbot.waitSignal(window.session.run.phase_changed, timeout=PATIENCE):
-        click(window, "Run")
-    window.refresh()
-    if window.session.run.phase in (Phase.RUNNING, Phase.PREPARING):
-        assert "A run is in progress" in texts(window)
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    choose_by_keys(window, "local-sd")
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     wait_for_step(window, qtbot, "local-sd")
@@ -159,6 +152,13 @@ def test_no_step_is_shown_during_a_run_and_none_is_made_while_it_is_paused(node_
     click(window, "Stop")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     qtbot.waitUntil(button(window, "Next node").isEnabled, timeout=PATIENCE)
+    choose_by_keys(window, "local-sd")
+    with qtbot.waitSignal(window.session.run.phase_changed, timeout=PATIENCE):
+        click(window, "Run")
+    window.refresh()
+    if window.session.run.phase in (Phase.RUNNING, Phase.PREPARING):
+        assert "A run is in progress" in texts(window)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
 
 
 def test_nothing_is_computed_while_another_panel_is_in_front(node_window, qtbot):
