@@ -13,8 +13,8 @@
 // Every hex is rotated so that the node is its corner 0: all lanes then compute the same formulas. Unused lanes of the
 // last block repeat the last hex and are excluded from sums.
 //
-// Functions are either always or never inlined: the compiler then contracts the same products in all callers, and a
-// sweep has the same bits as the step of one node.
+// What steps are made of is never inlined: the compiler would contract other products where several nodes are stepped
+// at a time, and a sweep has the same bits as the step of one node.
 #pragma once
 
 #include <vector>
@@ -85,7 +85,7 @@ template <class T, class Target = Cubes> class NodePatch {
     }
 
     // Compute the table; delta is in units of the scaled patch.
-    template <bool soft> inline __attribute__((always_inline)) void tabulate(double delta) {
+    template <bool soft> __attribute__((noinline)) void tabulate(double delta) {
         for (int b = 0; b < blocks(); ++b) {
             auto &block = blocks_[b];
             const auto &x = block.x.at;
@@ -100,7 +100,7 @@ template <class T, class Target = Cubes> class NodePatch {
     }
 
     // Set the direction of `value_along`.
-    void set_direction(const V3<double> &direction) {
+    __attribute__((noinline)) void set_direction(const V3<double> &direction) {
         V3<T> d{broadcast<T>(direction.x), broadcast<T>(direction.y), broadcast<T>(direction.z)};
         squared_length_ = dot(direction, direction);
         for (int b = 0; b < blocks(); ++b)
@@ -109,7 +109,7 @@ template <class T, class Target = Cubes> class NodePatch {
 
     // Sum of eta(H)^p with the node displaced by alpha times the direction: (3.3) without its root, (B.20).
     template <bool soft>
-    inline __attribute__((always_inline)) double value_along(double alpha, double delta, ObjectiveNorm norm) const {
+    __attribute__((noinline)) double value_along(double alpha, double delta, ObjectiveNorm norm) const {
         double far = alpha * alpha * squared_length_, total = 0;
         for (int b = 0; b < blocks(); ++b) {
             const auto &block = blocks_[b];
