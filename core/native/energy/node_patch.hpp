@@ -13,8 +13,8 @@
 // Every hex is rotated so that the node is its corner 0: all lanes then compute the same formulas. Unused lanes of the
 // last block repeat the last hex and are excluded from sums.
 //
-// What steps are made of is never inlined: the compiler would contract other products where several nodes are stepped
-// at a time, and a sweep has the same bits as the step of one node.
+// Parts of a step are never inlined: the compiler would contract other products where several nodes are stepped at a
+// time, and a sweep has the same bits as the step of one node.
 #pragma once
 
 #include <vector>
