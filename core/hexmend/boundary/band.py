@@ -10,12 +10,10 @@ import numpy as np
 
 from hexmend.arrays import any_of_rows, differing_rows, mask, row_norms
 from hexmend.boundary.closest_point import NearPoints, means
-from hexmend.boundary.comparison import SkinSurface
+from hexmend.boundary.comparison import SAMPLE_DISTANCE, SkinSurface
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
 _ROUNDING = 1e-9
-#: Edge of the cells in which samples of a surface that was read are thinned, in mean edge lengths of the boundary.
-_SAMPLE_DISTANCE = 0.5
 NO_NODES = np.empty(0, dtype=np.int64)
 
 
@@ -239,7 +237,7 @@ class Band:
         if self._given is None:
             return means(self._start, self.samples)
         start = self.skin.with_points(self._start)
-        cell = _SAMPLE_DISTANCE * float(row_norms(np.diff(self._start[self.skin.edges.nodes], axis=1)[:, 0]).mean())
+        cell = SAMPLE_DISTANCE * float(row_norms(np.diff(self._start[self.skin.edges.nodes], axis=1)[:, 0]).mean())
         x = self._given.samples(cell)
         return x[extremes_in_cells(x, start.distances(x), cell)] if cell > 0 else x
 

@@ -23,6 +23,8 @@ from hexmend.terminal_text import count_phrase
 _MOVE_TOLERANCE = 1e-9
 #: A boundary lies near a surface if 90 % of its nodes are within this many mean edge lengths of it.
 MAX_TARGET_DISTANCE = 2.0
+#: Edges and faces of a surface that was read are sampled where they are longer than this many mean edge lengths.
+SAMPLE_DISTANCE = 0.5
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,8 @@ class SurfaceChange:
     """Change of a mesh's boundary by smoothing.
 
     Distances are two-sided, between the new boundary and the original one, or the target surface if there is one:
-    from the nodes, edge midpoints and face midpoints of each to the other.
+    from the nodes, edge midpoints and face midpoints of each to the other. On a target, edges and faces that are no
+    longer than half the mean edge length of the mesh have no midpoints.
 
     Parameters
     ----------
@@ -251,9 +254,12 @@ def _middles(points: np.ndarray, rows: np.ndarray) -> np.ndarray:
     return sum(points[rows[:, column]] for column in range(rows.shape[1])) / rows.shape[1]
 
 
-def mutual_distances(one: SkinSurface, other: SkinSurface) -> tuple[np.ndarray, np.ndarray]:
-    """Return the distances of the first surface's samples from the second, (s,), and the reverse, (t,)."""
-    return other.distances(one.samples()), one.distances(other.samples())
+def mutual_distances(one: SkinSurface, other: SkinSurface, spacing: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """Return the distances of the first surface's samples from the second, (s,), and the reverse, (t,).
+
+    Samples of the first are thinned as by `SkinSurface.samples`.
+    """
+    return other.distances(one.samples(spacing)), one.distances(other.samples())
 
 
 @old_keywords("surface_change")
@@ -289,7 +295,8 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEAT
     before = before.with_points(before.surface_points)
     old = SkinSurface(before.points, before.topology.boundary_faces)
     new = old.with_points(after.points)
-    both = mutual_distances(after.target or old, new)
+    spacing = SAMPLE_DISTANCE * before.mean_edge_length
+    both = mutual_distances(old, new) if after.target is None else mutual_distances(after.target, new, spacing)
     was, now = old.points[old.nodes], new.points[old.nodes]
     sharp = np.isin(old.edges.key, old.edges.keys_of(boundary_of(before, feature_angle).segments))
     least = angle_in_degrees(feature_angle)

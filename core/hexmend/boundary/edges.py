@@ -41,7 +41,9 @@ class SurfaceEdges:
         sides = sides[self._sides]
         key = self.keys_of(sides)
         self._order = np.argsort(key, kind="stable")
-        self.key, self._first, self.count = np.unique(key[self._order], return_index=True, return_counts=True)
+        key = key[self._order]
+        self._first = np.flatnonzero(np.append(True, key[1:] != key[:-1])[: key.size])
+        self.key, self.count = key[self._first], np.diff(self._first, append=key.size)
         pair = self._order[self._first], self._order[self._first + (self.count > 1)]
         self.nodes = np.sort(sides[pair[0]], axis=1)
         self.neighbours = np.stack([self._sides[side] // width for side in pair], axis=1)

@@ -38,8 +38,9 @@ def vertex_normals(vertices: np.ndarray, triangles: np.ndarray, patch: np.ndarra
     area = cross_products(sides[0], sides[1])  # twice, as at each corner
     cosines = np.stack([-np.einsum("ti,ti->t", sides[k], sides[k - 1]) for k in range(3)], axis=1)
     angle = np.arctan2(row_norms(area)[:, None], cosines)
-    key = patch[:, None].astype(np.int64) * len(vertices) + triangles
-    _, vertex = np.unique(key, return_inverse=True)
+    vertex = patch[:, None].astype(np.int64) * len(vertices) + triangles
+    if vertex.max(initial=0) > 2 * vertex.size:  # of many patches few have one vertex
+        _, vertex = np.unique(vertex, return_inverse=True)
     share = angle[:, :, None] * unit_vectors(area)[:, None, :]
     sums = np.column_stack([np.bincount(vertex.ravel(), share[:, :, k].ravel()) for k in range(3)])
     return unit_vectors(sums)[vertex.reshape(triangles.shape)]

@@ -11,19 +11,19 @@ void bind_closest_point(nb::module_ m) {
     nb::class_<BoxTrees>(m, "BoxTrees", "Trees over pieces.")
         .def(
             "__init__",
-            [](BoxTrees *self, Points points, std::span<const Piece> pieces, std::span<const Box> boxes,
-               std::span<const TreeLink> links) {
-                expect(links.size() == boxes.size(), "links: one for each of the boxes is expected");
+            [](BoxTrees *self, Points points, std::span<const Piece> pieces, std::span<const ChildSide> boxes,
+               std::span<const ChildLinks> links) {
+                expect(boxes.size() == SIDES * links.size(), "boxes: six rows for each of the links are expected");
                 new (self) BoxTrees{points, pieces, boxes, links};
             },
             "points"_a, "pieces"_a, "boxes"_a, "links"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
             nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
-            "pieces (k, 3) int32 are in the order that `build_trees` returns, with its boxes (b, 6) float64 and\n"
-            "links (b, 2) int32. Arrays are not copied.");
+            "pieces (k, 3) int32 are in the order that `build_trees` returns, with its boxes (6 b, 4) float64 and\n"
+            "links (b, 4) int32. Arrays are not copied.");
     m.def("build_trees", &build_trees, "points"_a, "pieces"_a, "start"_a, ReleaseGil(),
           "Trees over pieces: tree t is made of pieces[start[t]:start[t + 1]], one at least; start (t + 1,) int32.\n\n"
-          "Returns the order (k,) int32 that the pieces are to be put in, boxes (b, 6) float64 and links (b, 2)\n"
-          "int32 of all trees, and the box that is the root of each, (t,) int32.");
+          "Returns the order (k,) int32 that the pieces are to be put in, boxes (6 b, 4) float64 and links (b, 4)\n"
+          "int32 of the nodes of all trees, and the node that is the root of each, (t,) int32.");
     m.def("refit", &refit, "points"_a, "pieces"_a, "links"_a, "boxes"_a, ReleaseGil(),
           "Write the boxes of trees whose points have moved; pieces are in the order that `build_trees` returns.");
     m.def("closest", &closest, "trees"_a, "x"_a, "roots"_a, "enough"_a, "piece"_a, "places"_a, "weights"_a,

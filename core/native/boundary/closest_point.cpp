@@ -1,121 +1,85 @@
 #include "boundary/closest_point.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include "simd/threads.hpp"
+#include "simd/vectors.hpp"
 
 namespace hexmend {
 namespace {
 
-using Vector = V3<double>;
-
-constexpr std::int32_t LEAF = 4;  // largest number of pieces in a leaf
-constexpr int DEEPEST = 64;       // depth of the stack; halving 2^31 pieces needs half of it
+// Largest number of nodes and leaves that wait: each of 16 levels leaves three behind.
+constexpr int MOST_WAITING = 64;
 constexpr std::int64_t POINTS_PER_CHUNK = 256;
 
-constexpr Box EMPTY{INF, INF, INF, -INF, -INF, -INF};
+// A number for each child of a node, or each piece of a leaf.
+typedef double Four __attribute__((vector_size(8 * CHILDREN)));
 
-// Extend a box to a point.
-void include(Box &box, const Point &x) {
-    for (int k = 0; k < 3; ++k) box[k] = std::min(box[k], x[k]), box[k + 3] = std::max(box[k + 3], x[k]);
+inline V3<Four> broadcast_point(const Point &x) { return {x[0] - Four{}, x[1] - Four{}, x[2] - Four{}}; }
+
+// Squared distances of x from the boxes of children.
+inline Four squares_to(const ChildSide *boxes, const V3<Four> &x) {
+    Four side[SIDES];
+    std::memcpy(side, boxes, sizeof side);
+    auto outside = [](Four low, Four high, Four x) { return max(max(low - x, x - high), Four{}); };
+    Four a = outside(side[0], side[3], x.x), b = outside(side[1], side[4], x.y), c = outside(side[2], side[5], x.z);
+    return a * a + b * b + c * c;
 }
 
-struct TreeBuilder {
-    Points points;
-    std::span<const Piece> pieces;
-    std::vector<Point> centres;
-    std::vector<std::int32_t> order;
-    std::vector<double> boxes;
-    std::vector<std::int32_t> links;
+// Parameter t in [0, 1] of the point of the segment a + t d closest to a + p; 0 where its ends are one.
+inline Four along(const V3<Four> &d, const V3<Four> &p) {
+    Four whole = square(d), one = 1.0 - Four{};
+    Four t = min(max(dot(p, d) / whole, Four{}), one);
+    return whole > 0 ? t : Four{};
+}
 
-    TreeBuilder(Points points_, std::span<const Piece> pieces_)
-        : points(points_), pieces(pieces_), centres(pieces_.size()), order(pieces_.size()) {
-        std::iota(order.begin(), order.end(), 0);
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            auto [a, b, c] = pieces[i];
-            for (int k = 0; k < 3; ++k) {
-                auto [low, high] = std::minmax({points[a][k], points[b][k], points[c][k]});
-                centres[i][k] = 0.5 * (low + high);
-            }
+inline V3<Four> select(const auto &which, const V3<Four> &a, const V3<Four> &b) {
+    return {which ? a.x : b.x, which ? a.y : b.y, which ? a.z : b.z};
+}
+
+// Barycentric coordinates of the points of triangles (a, a + u, a + v) closest to a + p; of segments (a, a + u) where
+// that is 1.
+inline V3<Four> nearest(const V3<Four> &u, const V3<Four> &v, const V3<Four> &p, const Four &segment) {
+    V3<Four> n = cross(u, v);
+    Four whole = square(n), one = 1.0 - Four{};
+    Four second = dot(cross(p, v), n) / whole, third = dot(cross(u, p), n) / whole;
+    // Outside the triangle, or of a triangle without area, the closest point is on an edge.
+    Four on_u = along(u, p), on_v = along(v, p), across = along(v - u, p - u);
+    Four from_u = square(on_u * u - p), from_v = square(on_v * v - p), from_across = square(u + across * (v - u) - p);
+    V3<Four> first{one - on_u, on_u, Four{}};
+    auto closer = from_v < from_u;
+    V3<Four> weights = select(closer, V3<Four>{one - on_v, Four{}, on_v}, first);
+    weights = select(from_across < (closer ? from_v : from_u), V3<Four>{Four{}, one - across, across}, weights);
+    auto inside = (whole > 0) & (second >= 0) & (third >= 0) & (second + third <= 1);
+    weights = select(inside, V3<Four>{one - second - third, second, third}, weights);
+    return select(segment > 0, first, weights);
+}
+
+// Replace `best` if one of `count` pieces from number `first` on is closer to x; of two that are as close, the first is
+// best, but at distance 0 the search ends at either. It is not inlined: a piece has the same distance in any leaf.
+__attribute__((noinline)) void improve(ClosestPoint &best, Points points, std::span<const Piece> pieces,
+                                       std::int32_t first, std::int32_t count, const V3<Four> &x) {
+    V3<Four> corners[3];
+    Four segment;
+    for (int i = 0; i < CHILDREN; ++i) {
+        const Piece &piece = pieces[first + std::min(i, count - 1)];
+        segment[i] = piece[1] == piece[2];
+        for (int k = 0; k < 3; ++k) {
+            const Point &corner = points[piece[k]];
+            corners[k].x[i] = corner[0], corners[k].y[i] = corner[1], corners[k].z[i] = corner[2];
         }
     }
-
-    // Append the tree of order[begin] to order[end - 1], halved along the longest side of the box of their centres.
-    void add(std::int32_t begin, std::int32_t end) {
-        Box box = EMPTY, of_centres = EMPTY;
-        for (std::int32_t s = begin; s < end; ++s) {
-            for (Node i : pieces[order[s]]) include(box, points[i]);
-            include(of_centres, centres[order[s]]);
-        }
-        auto side = [&](int k) { return of_centres[k + 3] - of_centres[k]; };
-        std::size_t at = links.size();
-        boxes.insert(boxes.end(), box.begin(), box.end());
-        links.insert(links.end(), {begin, end - begin});
-        if (end - begin <= LEAF) return;
-        int axis = 0;
-        for (int k = 1; k < 3; ++k)
-            if (side(k) > side(axis)) axis = k;
-        std::int32_t middle = begin + (end - begin) / 2;
-        std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end, [&](auto i, auto j) {
-            return std::pair(centres[i][axis], i) < std::pair(centres[j][axis], j);
-        });
-        add(begin, middle);
-        links[at] = static_cast<std::int32_t>(links.size() / 2), links[at + 1] = 0;
-        add(middle, end);
-    }
-};
-
-// Squared distance of x from a box.
-double square_to(const Box &box, const Point &x) {
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) {
-        double distance = std::max({box[k] - x[k], 0.0, x[k] - box[k + 3]});
-        sum += distance * distance;
-    }
-    return sum;
-}
-
-// Parameter t in [0, 1] of the point of the segment a + t d closest to a + p.
-double along(const Vector &d, const Vector &p) {
-    double whole = square(d);
-    return whole > 0 ? std::clamp(dot(p, d) / whole, 0.0, 1.0) : 0.0;
-}
-
-// Barycentric coordinates of the point of the triangle (a, a + u, a + v) closest to a + p.
-Barycentric nearest(const Vector &u, const Vector &v, const Vector &p) {
-    Vector n = cross(u, v);
-    double whole = square(n);
-    if (whole > 0) {
-        double second = dot(cross(p, v), n) / whole, third = dot(cross(u, p), n) / whole;
-        if (second >= 0 && third >= 0 && second + third <= 1) return {1 - second - third, second, third};
-    }
-    // Outside the triangle, or a triangle without area: the closest point is on an edge.
-    double one = along(u, p), two = along(v, p), three = along(v - u, p - u);
-    Barycentric edges[3] = {{1 - one, one, 0}, {1 - two, 0, two}, {0, 1 - three, three}};
-    double far[3] = {square(one * u - p), square(two * v - p), square(u + three * (v - u) - p)};
-    return edges[std::min_element(far, far + 3) - far];
-}
-
-// Replace `best` if piece `number` is closer to x; of two that are as close, the first is best, but at distance 0 the
-// search ends at either.
-void improve(ClosestPoint &best, Points points, const Piece &piece, std::int32_t number, const Point &x) {
-    Vector a = vector(points[piece[0]]), u = vector(points[piece[1]]) - a, p = vector(x) - a, place;
-    Barycentric weights;
-    if (piece[1] == piece[2]) {
-        double t = along(u, p);
-        weights = {1 - t, t, 0};
-        place = t < 1 ? a + t * u : vector(points[piece[1]]);
-    } else {
-        Vector v = vector(points[piece[2]]) - a;
-        weights = nearest(u, v, p);
-        place = a + (weights[1] * u + weights[2] * v);
-        for (int k = 0; k < 3; ++k)
-            if (weights[k] == 1) place = vector(points[piece[k]]);  // exactly
-    }
-    double far = square(place - vector(x));
-    if (far < best.square || (far == best.square && number < best.piece)) best = {far, number, point(place), weights};
+    V3<Four> a = corners[0], u = corners[1] - a, v = corners[2] - a, weights = nearest(u, v, x - a, segment);
+    V3<Four> place = a + (weights.y * u + weights.z * v);
+    place = select(weights.x == 1, a, place);  // exactly
+    place = select(weights.y == 1, corners[1], place);
+    place = select(weights.z == 1, corners[2], place);
+    Four far = square(place - x);
+    int i = 0;
+    for (int k = 1; k < count; ++k)
+        if (far[k] < far[i]) i = k;
+    if (far[i] < best.square || (far[i] == best.square && first + i < best.piece))
+        best = {far[i], first + i, {place.x[i], place.y[i], place.z[i]}, {weights.x[i], weights.y[i], weights.z[i]}};
 }
 
 }  // namespace
@@ -125,57 +89,33 @@ void expect_known(std::span<const std::int32_t> known, std::size_t pieces) {
     for (std::int32_t piece : known) expect(piece < count, "piece: a number is out of range");
 }
 
-ClosestPoint BoxTrees::closest(const Point &x, std::int32_t root, double enough, std::int32_t known) const {
+ClosestPoint BoxTrees::closest(const Point &at, std::int32_t root, double enough, std::int32_t known) const {
     ClosestPoint best;
-    if (known >= 0) improve(best, points, pieces[known], known, x);
-    std::pair<std::int32_t, double> waiting[DEEPEST];
+    if (!(std::abs(at[0]) < INF && std::abs(at[1]) < INF && std::abs(at[2]) < INF)) return best;
+    V3<Four> x = broadcast_point(at);
+    if (known >= 0) improve(best, points, pieces, known, 1, x);
+    std::pair<std::int32_t, double> waiting[MOST_WAITING];
     int size = 0;
-    waiting[size++] = {root, square_to(boxes[root], x)};
+    waiting[size++] = {root, 0.0};
     while (size && best.square > enough) {
-        auto [at, square] = waiting[--size];
+        auto [child, square] = waiting[--size];
         if (square > best.square) continue;
-        auto [link, count] = links[at];
-        if (count) {
-            for (std::int32_t i = link; i < link + count; ++i) improve(best, points, pieces[i], i, x);
+        if (child < 0) {
+            auto [first, count] = pieces_of(child);
+            improve(best, points, pieces, first, count, x);
             continue;
         }
-        std::pair<std::int32_t, double> one{at + 1, square_to(boxes[at + 1], x)};
-        std::pair<std::int32_t, double> other{link, square_to(boxes[link], x)};
-        if (one.second < other.second) std::swap(one, other);
-        if (one.second <= best.square) waiting[size++] = one;
-        if (other.second <= best.square) waiting[size++] = other;  // the nearer is popped first
+        Four squares = squares_to(&boxes[std::size_t{SIDES} * child], x);
+        int begin = size;
+        for (int i = 0; i < CHILDREN; ++i) {
+            if (links[child][i] == NO_CHILD || !(squares[i] <= best.square)) continue;
+            int place = size++;  // the nearest is popped first
+            for (; place > begin && waiting[place - 1].second < squares[i]; --place)
+                waiting[place] = waiting[place - 1];
+            waiting[place] = {links[child][i], squares[i]};
+        }
     }
     return best;
-}
-
-std::tuple<IntArray, OwnedArray<double, 6>, OwnedArray<std::int32_t, 2>, IntArray> build_trees(
-    Points points, std::span<const Piece> pieces, Indices start) {
-    TreeBuilder builder(points, pieces);
-    std::vector<std::int32_t> roots;
-    for (std::size_t t = 0; t + 1 < start.size(); ++t) {
-        expect(start[t] >= 0 && start[t] < start[t + 1] && start[t + 1] <= static_cast<std::int64_t>(pieces.size()),
-               "start does not ascend: expected at least one piece a tree");
-        roots.push_back(static_cast<std::int32_t>(builder.links.size() / 2));
-        builder.add(start[t], start[t + 1]);
-    }
-    return {{std::move(builder.order)}, {std::move(builder.boxes)}, {std::move(builder.links)}, {std::move(roots)}};
-}
-
-void refit(Points points, std::span<const Piece> pieces, std::span<const TreeLink> links, std::span<Box> boxes) {
-    expect(links.size() == boxes.size(), "links and boxes have different lengths: expected a row a box");
-    for (std::size_t at = links.size(); at-- > 0;) {  // children follow their parents
-        auto [link, count] = links[at];
-        Box &box = boxes[at];
-        if (count == 0) {
-            const Box &one = boxes[at + 1], &other = boxes[link];
-            for (int k = 0; k < 3; ++k)
-                box[k] = std::min(one[k], other[k]), box[k + 3] = std::max(one[k + 3], other[k + 3]);
-            continue;
-        }
-        box = EMPTY;
-        for (std::int32_t i = link; i < link + count; ++i)
-            for (Node node : pieces[i]) include(box, points[node]);
-    }
 }
 
 void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std::span<std::int32_t> piece,
@@ -211,7 +151,7 @@ void distances_from(Points points, std::span<const Piece> pieces, Points x, Indi
         distances[i] = INF;
         if (piece[i] < 0) return;
         auto [a, b, c] = pieces[piece[i]];
-        Vector known =
+        V3<double> known =
             weights[i][0] * vector(points[a]) + weights[i][1] * vector(points[b]) + weights[i][2] * vector(points[c]);
         distances[i] = std::sqrt(square(known - vector(x[i])));
     });
@@ -220,7 +160,7 @@ void distances_from(Points points, std::span<const Piece> pieces, Points x, Indi
 void means(Points points, std::span<const std::array<Node, 4>> nodes, std::span<Point> x) {
     expect(x.size() == nodes.size(), "x: a row for each of nodes is expected");
     parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
-        Vector sum = vector(points[nodes[i][0]]);
+        V3<double> sum = vector(points[nodes[i][0]]);
         for (int k = 1; k < 4; ++k) sum = sum + vector(points[nodes[i][k]]);
         x[i] = point(0.25 * sum);
     });

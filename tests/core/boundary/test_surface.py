@@ -78,6 +78,25 @@ def test_trees_whose_points_have_moved_find_what_new_ones_do_and_enough_is_enoug
     np.testing.assert_allclose(rough[far > enough], far[far > enough], rtol=1e-12)
 
 
+def test_trees_that_threads_build_in_parts_are_those_of_one_thread_and_find_the_closest_of_all_pieces():
+    random, n = np.random.default_rng(7), 20_000
+    centres = random.normal(size=(n, 3))
+    points = (centres[:, None] + 0.01 * random.normal(size=(n, 3, 3))).reshape(-1, 3)
+    pieces, group = np.arange(3 * n, dtype=np.int32).reshape(-1, 3), np.zeros(n, dtype=np.int64)
+    trees = ClosestPointTrees(points, pieces, group)
+    assert np.array_equal(np.sort(trees.order), np.arange(n))
+    with ThreadPoolExecutor() as pool:
+        alone = pool.submit(lambda: (kernels.set_threads(1), ClosestPointTrees(points, pieces, group))[1]).result()
+    for name in ("order", "boxes", "links", "roots"):
+        np.testing.assert_array_equal(getattr(alone, name), getattr(trees, name))
+    x = 2 * random.normal(size=(50, 3))
+    found = np.linalg.norm(trees.closest(x, np.zeros(50, dtype=np.int64)).points - x, axis=1)
+    for i in range(50):
+        near = np.argsort(np.linalg.norm(centres - x[i], axis=1))[:200]  # pieces are smaller than the gaps between them
+        one = ClosestPointTrees(points, pieces[near], group[near]).closest(x[i : i + 1], np.zeros(1, dtype=np.int64))
+        assert found[i] == pytest.approx(np.linalg.norm(one.points[0] - x[i]), rel=1e-14)
+
+
 @given(st.integers(0, 2**31), st.integers(-60, 60))
 def test_the_closest_point_sees_the_whole_triangle_at_a_right_angle_or_more(seed, exponent):
     """(x - p) . (v - p) <= 0 for every v of a convex set is what makes p its closest point, in any unit."""

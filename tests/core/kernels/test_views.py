@@ -66,8 +66,8 @@ def test_arrays_of_another_type_or_shape_are_refused_by_name():
         with pytest.raises(ValueError, match=f"^{name}: "):
             HexMesh(*wrong)
     points, none = np.zeros((4, 3)), np.zeros((0, 4), np.int32)
-    pieces, boxes, links = np.zeros((1, 3), np.int32), np.zeros((1, 6)), np.zeros((1, 2), np.int32)
-    with pytest.raises(ValueError, match=r"^links: "):
+    pieces, boxes, links = np.zeros((1, 3), np.int32), np.zeros((6, 4)), np.zeros((1, 4), np.int32)
+    with pytest.raises(ValueError, match=r"^boxes: "):
         BoxTrees(points, pieces, boxes, links[1:])
     with pytest.raises(ValueError, match=r"^outward: "):
         BoundaryQuads(np.zeros(1, np.int32), np.zeros(0, np.int32), none, points)

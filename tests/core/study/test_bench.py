@@ -5,11 +5,13 @@ import argparse
 import pytest
 
 from hexmend import io
+from hexmend.boundary import SkinSurface
 from hexmend.cli.commands.bench import command
 from hexmend.gallery import make
-from hexmend.study.bench import scale
+from hexmend.study.bench import scale, surfaces
 from hexmend.study.bench.scale import SCALE, measure_process
 from hexmend.study.bench.sections import sections
+from hexmend.study.bench.surfaces import SURFACES
 
 
 def test_the_help_names_all_sections():
@@ -37,3 +39,20 @@ def test_the_table_has_a_row_a_mesh_and_says_how_far_nodes_are_from_the_lattice(
     assert head.count("|") == five.count("|") == kershaw.count("|")
     assert "inverted hexes left: 0" in last
     assert float(last.split()[-2]) == pytest.approx(0, abs=1e-6)
+
+
+def test_a_skin_is_divided_until_it_has_enough_triangles_and_stays_where_it_is(monkeypatch):
+    mesh = make("cube", size=8)
+    points, triangles = surfaces.refined(mesh.points, mesh.topology.boundary_faces, 300)
+    assert len(triangles) == 4 * 4 * 24
+    skin = SkinSurface(points, triangles)
+    assert len(skin.edges.nodes) == 3 * len(triangles) // 2
+    assert skin.volume() == pytest.approx(SkinSurface(mesh.points, mesh.topology.boundary_faces).volume())
+    monkeypatch.delenv("HEXMEND_MESHES", raising=False)
+    monkeypatch.setattr(surfaces, "_METHODS", ("laplacian",))
+    monkeypatch.setattr(surfaces, "_TIMES", 1)
+    monkeypatch.setattr(surfaces, "_TRIANGLES", 100)
+    monkeypatch.setattr(surfaces, "make", lambda name, size: make("five-side", size=100))
+    head, _, row = SURFACES.lines(SURFACES.measure())
+    assert head.count("|") == row.count("|")
+    assert "| laplacian |" in row
