@@ -7,6 +7,7 @@ from hexmend.boundary.closest_point import triangulate
 from hexmend.errors import FileError
 from hexmend.io import read_surface
 from hexmend.io.surfaces import SURFACE_FORMATS
+from hexmend.io.surfaces.merge_points import SORT_DIRECTION, merge_points
 
 pv = pytest.importorskip("pyvista")
 
@@ -226,3 +227,19 @@ def test_what_is_not_there(tmp_path):
 def test_every_format_is_tried():
     suffixes = {suffix for one in SURFACE_FORMATS.values() for suffix in one.suffixes}
     assert suffixes == {"." + name.rpartition(".")[2] for name in WRITERS}
+
+
+@pytest.mark.parametrize("flat", [False, True], ids=["sphere", "plane across the direction of sorting"])
+def test_corners_are_merged_where_they_coincide_up_to_rounding(flat):
+    random = np.random.default_rng(3)
+    points, triangles = sphere().points.astype(np.float64), sphere().regular_faces.astype(np.int64)
+    if flat:
+        points -= (points @ SORT_DIRECTION)[:, None] * SORT_DIRECTION
+    corners = points[triangles].reshape(-1, 3)
+    corners = corners + 1e-12 * random.normal(size=corners.shape) * (random.random(len(corners)) < 0.5)[:, None]
+    merged, faces = merge_points(corners, np.arange(len(corners)).reshape(-1, 3))
+    assert len(merged) == len(points)
+    np.testing.assert_allclose(merged[faces], points[triangles], atol=1e-11)
+    exactly, again = merge_points(points[triangles].reshape(-1, 3), np.arange(len(corners)).reshape(-1, 3))
+    assert len(exactly) == len(points)
+    np.testing.assert_array_equal(exactly[again], points[triangles])

@@ -12,10 +12,8 @@ from hexmend.errors import FileError
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.files import check_readable, reading
 from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons
-from hexmend.mesh.topology.components import components
+from hexmend.io.surfaces.merge_points import merge_points
 
-#: Corners at a smaller distance, relative to the diagonal of the bounding box, are merged.
-_MERGE_TOLERANCE = 1e-9
 #: Smallest area, relative to the square of the extent.
 _MIN_AREA = 1e-9
 
@@ -61,7 +59,7 @@ def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
             expected = f"expected numbers from 0 to {len(polygons.points) - 1}"
             raise FileError(path, f"a face uses the point {outside}: {expected}", "Correct it.")
     faces = _with_equal_width([nodes for nodes in polygons.faces if nodes.size and nodes.shape[1] > 2])
-    points, faces = _merge_corners(polygons.points, faces)
+    points, faces = merge_points(polygons.points, faces)
     # Drop faces with fewer than three different corners.
     distinct = np.sort(faces, axis=1)
     faces = faces[(distinct[:, 1:] != distinct[:, :-1]).sum(axis=1) >= 2]
@@ -91,18 +89,3 @@ def _with_equal_width(faces: list[np.ndarray]) -> np.ndarray:
     if not quads:
         return np.concatenate([np.empty((0, 3), np.int64), *triangles])
     return np.concatenate([*quads, *(nodes[:, [0, 1, 2, 2]] for nodes in triangles)])
-
-
-def _merge_corners(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Drop unused points and merge coincident ones; returns points (n, 3) and renumbered faces."""
-    from scipy.spatial import cKDTree
-
-    width = faces.shape[1]
-    used, faces = np.unique(faces, return_inverse=True)
-    if not used.size:
-        return points[:0], faces.reshape(-1, width)
-    points, index = np.unique(points[used], axis=0, return_inverse=True)
-    distance = _MERGE_TOLERANCE * float(np.linalg.norm(np.ptp(points, axis=0)))
-    merged = components(len(points), cKDTree(points).query_pairs(distance, output_type="ndarray"))
-    _, first = np.unique(merged, return_index=True)
-    return points[first], merged[index.ravel()][faces].reshape(-1, width)
