@@ -19,6 +19,7 @@ from hexmend.smoothers.mend.off_surface import (
     MaxMinResult,
     improve_off_surface,
     raise_in_wider_band,
+    raise_nearer,
     raise_to_the_end,
     raise_within_tolerance,
 )
@@ -98,7 +99,14 @@ class LeavingSurface:
         optimiser = self._with_released(shape.points, released)
         if not self.settings.maximises_jacobian and optimiser.corners.active_minimum >= MAXMIN.barrier_safe:
             return MaxMinResult(optimiser, NO_CORNERS)
-        result = yield from raise_within_tolerance(optimiser, limit, MAXMIN.programs_between)
+        nearer = [smaller for smaller in self._limits if smaller < limit]
+        if nearer:
+            result = yield from infeasible(raise_within_tolerance(optimiser, limit, MAXMIN.programs_between))
+            result = yield from raise_nearer(result, nearer)
+            limit = min(limit, result.optimiser.envelope.max_deviation)
+            yield result.step()
+        else:
+            result = yield from raise_within_tolerance(optimiser, limit, MAXMIN.programs_between)
         if not limit < tolerance or result.least >= MAXMIN.acceptable:
             return result
         return (yield from raise_within_tolerance(optimiser, tolerance, MAXMIN.programs_between))

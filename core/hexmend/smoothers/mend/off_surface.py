@@ -158,6 +158,38 @@ def raise_to_the_end(result: MaxMinResult, config: MaxMinConfig = MAXMIN) -> Gen
     return (yield from raise_within_tolerance(optimiser, optimiser.envelope.max_deviation, config=config))
 
 
+def raise_nearer(
+    result: MaxMinResult, limits: Sequence[float], config: MaxMinConfig = MAXMIN
+) -> Generator[Step, None, MaxMinResult]:
+    """Bring the boundary back as near to the surface as no hex is inverted there, and raise the least there.
+
+    Parameters
+    ----------
+    result : MaxMinResult
+        Nodes have left the surface, and no hex is inverted.
+    limits : sequence of float
+        Smaller distances from the surface that the boundary may have, ascending, in the mesh's unit of length.
+
+    Returns
+    -------
+    MaxMinResult
+        `result` where the boundary does not come back, or the least falls to less than a share of what it was.
+    """
+    optimiser, within = result.optimiser.fork(), None
+    with optimiser.envelope.relaxed(optimiser.envelope.max_deviation):
+        for limit in reversed(limits):
+            for step in islice(optimiser.return_to_band(limit), 0, None, config.programs_per_iteration):
+                yield step.step(infeasible=True)
+            if not _is_within(optimiser, limit) or not optimiser.corners.movable_minimum > 0:
+                break
+            within = limit, optimiser.points
+    if within is None:
+        return result
+    optimiser.move_to(within[1])
+    nearer = yield from infeasible(raise_within_tolerance(optimiser, within[0], config.programs_between, config))
+    return nearer if nearer.least >= config.returned_share * result.least else result
+
+
 def raise_in_wider_band(
     result: MaxMinResult, max_deviation: float, config: MaxMinConfig = MAXMIN
 ) -> Generator[Step, None, MaxMinResult]:
