@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 from statistics import median
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -15,6 +14,7 @@ from hexmend.gallery import make
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend.study.bench.section import BenchSection
+from hexmend_app.bench.large_meshes import VARIABLE, lines_of, measure_large
 from hexmend_app.bench.windows import draw, end_run, measure_meshes, report, run_event_loop
 from hexmend_app.picture import Cut, CutStyle
 
@@ -27,7 +27,12 @@ _BEAT = 5  # milliseconds between two ticks of the timer
 
 
 def _measure() -> dict[str, Any]:
-    return measure_meshes((make("bridge-sharp"), make("five-side", size=110450)), _row)
+    figures = measure_meshes((make("bridge-sharp"), make("five-side", size=110450)), _row)
+    return figures if "skipped" in figures else figures | {"large": measure_large()}
+
+
+def _report(figures: dict[str, Any]) -> list[str]:
+    return report(figures, _lines) + (lines_of(figures["large"]) if "large" in figures else [])
 
 
 def _row(window: Window) -> dict[str, Any]:
@@ -111,7 +116,7 @@ def _lines(row: dict[str, Any]) -> Iterator[str]:
 
 viewer = BenchSection(
     "viewer",
-    f"The viewer: frames with points and colours changing (median of {_FRAMES})",
+    f"The viewer: frames with points and colours changing (median of {_FRAMES}); large meshes ({VARIABLE} names sizes)",
     _measure,
-    partial(report, lines=_lines),
+    _report,
 )

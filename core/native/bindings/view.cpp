@@ -20,6 +20,20 @@ void bind_clip_planes(nb::module_ m) {
           ReleaseGil(),
           "Hexes whose centre remains after the cut; writes kept (m,) bool.\n\n"
           "With `notch` what is beyond all planes is cut away, else what is beyond any of them.");
+    m.def(
+        "centre_heights",
+        [](Points points, Hexes hexes, Points normal, std::span<double> eightfold) {
+            expect(normal.size() == 1, "normal: one is expected");
+            return centre_heights(points, hexes, normal[0], eightfold);
+        },
+        "points"_a, "hexes"_a, "normal"_a, "eightfold"_a, ReleaseGil(),
+        "Eight times the heights of the centres of hexes along a normal (1, 3), as `centres_kept` compares them with\n"
+        "eight times the offset; writes eightfold (m,) float64.\n\n"
+        "Returns the largest extent of a hex along the normal.");
+    m.def("opened", &opened, "hexes"_a, "neighbours"_a, "eightfold"_a, "extent"_a, "offset"_a, ReleaseGil(),
+          "Faces that a plane opens: those between hexes whose centres are before it and beyond it.\n\n"
+          "eightfold (m,) float64 and extent are those of `centre_heights`; neighbours (m, 6) int32 the hex behind\n"
+          "each face, -1 for none. Returns the nodes of the faces (k, 4) and the hex before the plane (k,), int32.");
     m.def("touched", &touched, "points"_a, "hexes"_a, "normals"_a, "offsets"_a, "notch"_a, "answer"_a, ReleaseGil(),
           "Planes that cross or touch each hex where the section is visible; writes answer (m * k,) bool, hex by\n"
           "hex.\n\n"

@@ -62,6 +62,41 @@ void centres_kept(Points points, Hexes hexes, Points normals, Numbers offsets, b
     }
 }
 
+double centre_heights(Points points, Hexes hexes, const Point &normal, std::span<double> eightfold) {
+    expect(eightfold.size() == hexes.size(), "eightfold: a row for each of hexes is expected");
+    std::vector<double> heights(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) heights[i] = height(points[i], normal);
+    double furthest = 0;
+    for (std::size_t h = 0; h < hexes.size(); ++h) {
+        double sum = 0, low = INF, high = -INF;
+        for (Node node : hexes[h]) {
+            sum += heights[node];
+            low = std::min(low, heights[node]), high = std::max(high, heights[node]);
+        }
+        eightfold[h] = sum;
+        furthest = std::max(furthest, high - low);
+    }
+    return furthest;
+}
+
+std::pair<OwnedArray<Node, 4>, OwnedArray<Node>> opened(Hexes hexes, Neighbours neighbours, Numbers eightfold,
+                                                        double extent, double offset) {
+    expect(neighbours.size() == hexes.size() && eightfold.size() == hexes.size(),
+           "hexes, neighbours and eightfold have different lengths: expected a row a hex");
+    std::vector<Node> quads, owners;
+    double most = 8 * offset, least = 8 * (offset - extent);  // the centre of a neighbour is an extent higher at most
+    for (std::size_t h = 0; h < hexes.size(); ++h) {
+        if (!(eightfold[h] <= most && eightfold[h] > least)) continue;
+        for (int face = 0; face < 6; ++face) {
+            Node behind = neighbours[h][face];
+            if (behind < 0 || eightfold[behind] <= most) continue;
+            for (int corner : FACES[face]) quads.push_back(hexes[h][corner]);
+            owners.push_back(static_cast<Node>(h));
+        }
+    }
+    return {{std::move(quads)}, {std::move(owners)}};
+}
+
 void touched(Points points, Hexes hexes, Points normals, Numbers offsets, bool notch, std::span<bool> answer) {
     std::size_t planes = normals.size();
     std::vector<double> heights(points.size() * planes), slack(planes);

@@ -23,6 +23,9 @@ void edges_kept(Hexes hexes, Indices start, Indices corners, ArrayView<const Nod
 
 // Sides of planes on which hexes lie: a point is beyond a plane if x . normal > offset; normals (k, 3), offsets (k,).
 void centres_kept(Points points, Hexes hexes, Points normals, Numbers offsets, bool notch, std::span<bool> kept);
+double centre_heights(Points points, Hexes hexes, const Point &normal, std::span<double> eightfold);
+std::pair<OwnedArray<Node, 4>, OwnedArray<Node>> opened(Hexes hexes, Neighbours neighbours, Numbers eightfold,
+                                                        double extent, double offset);
 void touched(Points points, Hexes hexes, Points normals, Numbers offsets, bool notch, std::span<bool> answer);
 
 // x . normal without fused multiply-add: whether a node lies on a plane does not depend on the processor.

@@ -29,6 +29,7 @@ class HexColours:
         self.values, self.kinds = np.empty(0), np.empty(0, dtype=bool)
         self.colouring: Colouring | None = None
         self._ends_of_views: tuple[float, float] | None = None
+        self._counts: tuple[np.ndarray, np.ndarray] | None = None  # kinds, and the number of hexes of each
 
     def measure(self, frame: Frame) -> None:
         """Compute the values and the colouring of a frame."""
@@ -77,6 +78,10 @@ class HexColours:
     @property
     def special_counts(self) -> list[tuple[str, int, tuple[int, int, int]]]:
         """Name, number of hexes and colour of each special colour."""
-        counts = np.bincount(self.kinds, minlength=len(self.colouring.special_colours) + 1)
+        if self._counts is None or self._counts[0] is not self.kinds:
+            self._counts = self.kinds, np.bincount(self.kinds)
+        counts = np.zeros(len(self.colouring.special_colours) + 1, dtype=np.int64)
+        known = self._counts[1][: len(counts)]
+        counts[: len(known)] = known
         pairs = zip(self.colouring.special_colours, counts[1:], strict=False)
         return [(special.name, int(count), special.colour) for special, count in pairs]

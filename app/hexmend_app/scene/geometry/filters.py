@@ -11,13 +11,17 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.colour.value_range import within
 from hexmend_app.scene.cutting.cut import remaining_hexes
-from hexmend_app.scene.geometry import plane_sides
+from hexmend_app.scene.cutting.moving_planes import MovingPlanes
 from hexmend_app.scene.views.frame import Frame, same_hexes
 from hexmend_app.state.mesh.metric_cache import metric_values
 
 
 class Filters:
     """Selects the hexes of one mesh that a look shows.
+
+    Attributes
+    ----------
+    planes : MovingPlanes
 
     Parameters
     ----------
@@ -27,6 +31,7 @@ class Filters:
     def __init__(self, mesh: Mesh):
         self._mesh = mesh
         self._known: dict[str, tuple[Hashable, np.ndarray | None]] = {}
+        self.planes = MovingPlanes(mesh)
 
     def matches(self, mesh: Mesh) -> bool:
         """Return True if the filters apply to a mesh, which is the case if it has the same hexes."""
@@ -40,6 +45,8 @@ class Filters:
         """
         points, figures, topology, m = frame.mesh.points, frame.figures, self._mesh.topology, self._mesh.n_hexes
         cut, show, quality = frame.look.cut, frame.look.show, frame.look.show.by_quality
+        if not cut.active:
+            self.planes.forget()
         filters = (
             self._mask(
                 "cut",
@@ -60,8 +67,7 @@ class Filters:
 
     def hexes_kept_by_cut(self, points: np.ndarray, cut: Cut) -> np.ndarray:
         """Return True for hexes that a cut by whole hexes leaves at the given positions, (m,) bool."""
-        normals, offsets = zip(*(plane.equation for plane in cut.sides), strict=True)
-        return plane_sides.centres_kept(points, self._mesh.hexes, np.array(normals), np.array(offsets), cut.notch)
+        return self.planes.kept(points, cut.sides, cut.notch)
 
     def cut_left(self, frame: Frame) -> np.ndarray | None:
         """Return True for the hexes that the cut by whole hexes has left, (m,) bool.

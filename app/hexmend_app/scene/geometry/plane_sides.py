@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.kernels import clip_planes
+from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_hexes, as_points, as_reals
 
 
@@ -33,6 +34,42 @@ def centres_kept(
     kept = np.empty(len(hexes), bool)
     clip_planes.centres_kept(points, hexes, normals, offsets, notch, kept)
     return kept
+
+
+def centre_heights(points: np.ndarray, hexes: np.ndarray, normal: np.ndarray) -> tuple[np.ndarray, float]:
+    """Return eight times the heights of the centres of hexes along a normal, (m,) float64.
+
+    `centres_kept` compares them with eight times the offset of a plane. Also returns the largest extent of a hex along
+    the normal.
+
+    Parameters are those of `centres_kept`; normal is (3,).
+    """
+    points, hexes, normal, _ = _checked(points, hexes, normal[None], np.zeros(1))
+    eightfold = np.empty(len(hexes))
+    return eightfold, clip_planes.centre_heights(points, hexes, normal, eightfold)
+
+
+def opened(mesh: Mesh, eightfold: np.ndarray, extent: float, offset: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the faces between hexes whose centres are before a plane and beyond it.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    eightfold : (m,) float64
+    extent : float
+        Results of `centre_heights`.
+    offset : float
+        Of the plane.
+
+    Returns
+    -------
+    quads : (k, 4) int32
+        Nodes of the faces, counter-clockwise as seen from beyond the plane.
+    hexes : (k,) int32
+        Hex before the plane.
+    """
+    eightfold = as_reals(eightfold, "eightfold")
+    return clip_planes.opened(mesh.hexes, mesh.topology.face_neighbours, eightfold, extent, offset)
 
 
 def touched(points: np.ndarray, hexes: np.ndarray, normals: np.ndarray, offsets: np.ndarray, notch: bool) -> np.ndarray:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pyvista as pv
 
 from hexmend.mesh.mesh import Mesh
+from hexmend_app.picture.cut_planes import Plane
 from hexmend_app.scene.colour.hex_colours import HexColours
+from hexmend_app.scene.cutting.coarse_section import coarse_section
 from hexmend_app.scene.cutting.cut import remaining_skin, sections
 from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
 from hexmend_app.scene.geometry.decimated_surface import MANY, decimated
@@ -46,6 +50,7 @@ class MeshLayer:
         self.skin, self.section = Surface(pane.renderer, pixel_ratio), Surface(pane.renderer, pixel_ratio)
         self._outlines = [(s, InvertedOutline(pane.renderer, pixel_ratio)) for s in (self.skin, self.section)]
         self._coarse: pv.PolyData | None = None  # decimated skin, drawn while the camera moves
+        self._body: tuple[object, object, pv.PolyData] | None = None  # points, colouring, decimated skin without a cut
         self._steady = False  # True if only the camera has moved since the last fine frame
         self._shading = True
         self._scene: Polygons | None = None  # all drawn polygons; None before their first fine frame
@@ -55,7 +60,7 @@ class MeshLayer:
 
     def set_mesh(self, mesh: Mesh) -> None:
         """Replace the mesh; `rebuild` draws it."""
-        self._skin = Skin(mesh)
+        self._skin, self._body = Skin(mesh), None
 
     def hide(self) -> None:
         """Hide the hexes."""
@@ -89,6 +94,43 @@ class MeshLayer:
         set_colours(self.whole, colours.of(self.faces.hexes, self._opened))
         self._draw(frame, keep, colours)
 
+    def draw_coarse_cut(
+        self, frame: Frame, planes: Sequence[Plane], opened: tuple[np.ndarray, np.ndarray], colours: HexColours
+    ) -> None:
+        """Draw the skin coarsely, cut by planes, and the faces that the cut opens; `rebuild` draws the rest again.
+
+        Parameters
+        ----------
+        frame : Frame
+        planes : sequence of Plane
+        opened : tuple of array
+            Nodes (k, 4) of these faces, and their hexes (k,).
+        colours : HexColours
+        """
+        points = frame.mesh.points
+        if self._body is None or self._body[0] is not points or self._body[1] is not colours.colouring:
+            faces = self._skin.visible()
+            hidden = np.zeros(len(faces.quads), dtype=bool)
+            skin = quads(faces.places(points), faces.quads, colours.of(faces.hexes, hidden), faces.hexes)
+            self._diagonal = float(np.linalg.norm(np.ptp(skin.points, axis=0)))
+            self._body = points, colours.colouring, decimated(skin) if len(faces.quads) > MANY else skin
+        self._steady, self._coarse, self._scene = False, None, None
+        for _, outline in self._outlines:
+            outline.hide()
+        self.skin.replace(self._body[2])
+        self.skin.show_proxy(self._body[2])
+        self.skin.clip(planes)
+        nodes, hexes = opened
+        coarse = len(hexes) > MANY
+        if coarse:
+            corners, hexes = coarse_section(points, nodes, hexes, planes, self._diagonal)
+        else:
+            corners = points[nodes.ravel()]
+        places = np.arange(len(corners), dtype=np.int32).reshape(-1, 4)
+        section = quads(corners, places, colours.of(hexes), hexes)
+        self.section.replace(section)
+        self.section.show_proxy(section if coarse else None)  # edges of squares are none of the mesh
+
     def _visible(self, frame: Frame, keep: np.ndarray | None) -> Faces:
         look = frame.look
         if look.show.shrink and not look.cut.smooth:
@@ -100,6 +142,7 @@ class MeshLayer:
         self._shading = frame.look.page.shading
         for surface in (self.skin, self.section):
             surface.show_proxy(None)
+            surface.clip(())
         # Back faces take a third of the frame time, but inverted hexes may turn them towards the viewer.
         self._inverted = frame.figures.n_inverted
         self.skin.cull(self._inverted == 0)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pyvista as pv
+from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
+from hexmend_app.picture.cut_planes import Plane
 from hexmend_app.scene.layers.edge_lines import EDGE, tone_edges
 from hexmend_app.theme.palette import rgb
 
@@ -63,6 +67,15 @@ class Surface:
         self.actor.SetMapper(self._flat)
         self._without_edges = poly is not None
         self._update_edges()
+
+    def clip(self, planes: Sequence[Plane]) -> None:
+        """Draw nothing beyond any of some planes; no planes draw all."""
+        self._flat.RemoveAllClippingPlanes()
+        for plane in planes:
+            kept = vtkPlane()
+            kept.SetNormal(*(-x for x in plane.normal))
+            kept.SetOrigin(plane.point)
+            self._flat.AddClippingPlane(kept)
 
     def refine(self, poly: pv.PolyData) -> None:
         """Set the fine polygons, as made by `hexmend_app.scene.geometry.shaded_surface.shaded_surface`."""

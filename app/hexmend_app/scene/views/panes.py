@@ -60,6 +60,7 @@ class Panes:
         self._arrangement = Arrangement(self._window, pixel_ratio)
         self.camera_controller = CameraController(lambda: self.visible, lambda: self._arrangement.aspect)
         self.arrange()
+        self.first.coarse_cuts = True
         self._observe(self.first)
         # Widgets that are dragged are in the first view.
         self._window.AddObserver("EndEvent", lambda *_: self._aim(self.first))
@@ -123,6 +124,7 @@ class Panes:
         pane = Pane(self._window, self.first.camera)
         view = Viewport(pane, False, self.first.filters, self._pixel_ratio, self._on_failure)
         view.set_dark(self._dark)
+        view.coarse_cuts = True
         view.draw(Frame(mesh, figures).matching(self.first.frame))
         self._observe(view)
         return view

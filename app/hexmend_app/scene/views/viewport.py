@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
@@ -11,6 +12,7 @@ from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.camera.fitting import bounds_of
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.scene.colour.hex_colours import HexColours
+from hexmend_app.scene.cutting.moving_planes import MOST_PLANES
 from hexmend_app.scene.geometry import occlusion
 from hexmend_app.scene.geometry.filters import Filters, same_mask
 from hexmend_app.scene.layers.axes import AxesLayer
@@ -20,6 +22,9 @@ from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.picking import Hit, Picker
 from hexmend_app.theme.palette import BACKGROUND
+
+#: Number of hexes from which on a cut whose planes move is drawn coarsely.
+COARSE_CUT_HEXES = 1_000_000
 
 
 class Viewport:
@@ -37,6 +42,8 @@ class Viewport:
     mesh_layer : MeshLayer
     overlay_layers : OverlayLayers
         Layers besides the hexes.
+    coarse_cuts : bool
+        Draw cuts of large meshes coarsely while their planes move; `still` draws them as they are.
 
     Parameters
     ----------
@@ -62,7 +69,8 @@ class Viewport:
         self._pane = pane
         self.frame: Frame | None = None
         self.filters = filters
-        self._fast = False
+        self._fast = self.coarse_cuts = False
+        self._coarse_cut = False  # True while a cut is drawn coarsely
         pane.window.SetMultiSamples(0)
         self.colours = HexColours()
         self.mesh_layer = MeshLayer(pane, pixel_ratio)
@@ -113,15 +121,44 @@ class Viewport:
         if new_mesh:
             self._set_mesh()
         self.overlay_layers.update(frame, moved and not new_mesh, pinned, classed)
+        if not (recoloured or pinned or classed) and self._is_moving_cut(last):
+            self._draw_coarse_cut()
+            return
         if recoloured:
             self.colours.measure(frame)
         keep = self.kept()
         self.overlay_layers.draw_optional(frame, keep)
-        if restyled or not same_mask(keep, self._keep):
-            self._keep = keep
+        if restyled or self._coarse_cut or not same_mask(keep, self._keep):
+            self._keep, self._coarse_cut = keep, False
             self._rebuild()
         elif recoloured or pinned or classed:
             self._move()
+
+    def _is_moving_cut(self, last: Frame) -> bool:
+        """Return True if only planes that cut a large mesh have moved, so that the cut can be drawn coarsely."""
+        look, show = self.frame.look, self.frame.look.show
+        filtered = show.quality or show.peel or show.isolate or show.hidden or show.shrink
+        return (
+            self.coarse_cuts
+            and self.frame.mesh.n_hexes >= COARSE_CUT_HEXES
+            and 0 < len(look.cut.planes) <= MOST_PLANES
+            and not (look.cut.notch or look.cut.hexes or filtered)
+            and last.look.cut != look.cut
+            and replace(last.look, cut=look.cut) == look
+        )
+
+    def _draw_coarse_cut(self) -> None:
+        """Draw the hexes at a cut, and the skin coarsely."""
+        self._coarse_cut, cut, points = True, self.frame.look.cut, self.frame.mesh.points
+        opened = self.filters.planes.sections(points, cut.planes)
+        self.mesh_layer.draw_coarse_cut(self.frame, cut.planes, opened, self.colours)
+
+    def _finish_cut(self) -> None:
+        """Draw a cut as it is, if it is drawn coarsely."""
+        if self._coarse_cut:
+            self._coarse_cut, self._keep = False, self.kept()
+            self.overlay_layers.draw_optional(self.frame, self._keep)
+            self._rebuild()
 
     def _set_mesh(self) -> None:
         self.overlay_layers.set_mesh(self.frame)
@@ -174,6 +211,7 @@ class Viewport:
         """Pick at a position in pixels of the picture, from its lower left corner; None outside the mesh."""
         if self.frame is None:
             return None
+        self._finish_cut()
         self._set_fast(False)  # fast frames omit faces
         self.mesh_layer.show_fine()
         return self._picker.pick(x, y, self.frame.mesh)
@@ -193,6 +231,7 @@ class Viewport:
     @property
     def places(self) -> np.ndarray:
         """Points that a fitted camera includes, (k, 3): of everything shown, or of the mesh if nothing is shown."""
+        self._finish_cut()
         places = np.concatenate([self.mesh_layer.places, self.overlay_layers.places])
         mesh = self.frame.mesh
         return places if len(places) else mesh.points[mesh.topology.used]
@@ -216,6 +255,7 @@ class Viewport:
 
     def still(self) -> None:
         """Prepare for a fine frame, with antialiasing."""
+        self._finish_cut()
         self._pane.window.SetMultiSamples(4)
         self._set_fast(False)
         self.mesh_layer.come_to_rest()

@@ -93,6 +93,37 @@ def test_a_cut_through_nodes_is_closed(seen):
     assert np.abs(pixels()[middle] - whole[middle]).max() <= 2  # q = 1 everywhere, lit alike
 
 
+@pytest.mark.parametrize("style", list(CutStyle))
+@pytest.mark.parametrize("many", [0, 1000], ids=["squares", "faces"])
+def test_a_cut_that_moves_is_drawn_coarsely_and_at_rest_as_it_is(seen, monkeypatch, style, many):
+    monkeypatch.setattr("hexmend_app.scene.views.viewport.COARSE_CUT_HEXES", 1)
+    monkeypatch.setattr("hexmend_app.scene.layers.mesh.MANY", many)
+    viewport, pixels = seen
+    looks = [Look(cut=Cut.at((0, 0.1, 1), (0, 0, z), style)) for z in (1.3, 2.4, 3.1)]
+    expected = []
+    for look in looks:
+        show(viewport, look=look)
+        viewport.still()
+        expected.append(pixels())
+    viewport.coarse_cuts = True
+    show(viewport, look=looks[0])
+    figures = viewport.frame.figures
+    for look, picture in zip(looks[1:], expected[1:], strict=True):
+        viewport.draw(Frame(MESH, figures, look=look))
+        coarse = pixels()
+        assert (coarse != picture).any()
+        assert viewport.mesh_layer.section.shown
+        assert (np.abs(coarse - picture).max(axis=2) < 60).mean() > 0.6
+        viewport.still()
+        np.testing.assert_array_equal(pixels(), picture)
+    viewport.draw(Frame(MESH, figures, look=looks[1]))
+    assert viewport.pick(100, 75) is not None
+    viewport.draw(Frame(MESH, figures, look=looks[2]))
+    show(viewport, MESH.with_points(MESH.points * 1.0), looks[1])
+    viewport.still()
+    np.testing.assert_array_equal(pixels(), expected[1])
+
+
 def test_faces_turned_inside_out_are_seen(seen):
     viewport, pixels = seen
     show(viewport, look=Look(lines=LineStyle(edges=0.0), show=Show(outline=False)))
