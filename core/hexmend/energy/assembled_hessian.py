@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: A matrix whose largest entry is smaller than this loses digits of its other entries in single precision.
 _SINGLE_UNDERFLOW = 1e-25
+#: Exponents of two up to this size are no more than a factor that float64 has.
+_MAX_EXPONENT = 900
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,11 +92,20 @@ class AssembledHessian(SymmetricOperator):
         kernels.product(self.sparsity.pattern, self.off_diagonal, self.diagonal, self.order, x, y)
         return np.ldexp(y.ravel(), self.exponent) if self.exponent else y.ravel()
 
-    def _slotted(self, v: np.ndarray) -> np.ndarray:
-        """Rearrange v (3 k,) by slots, (k, 4), in the matrix's precision; the fourth column is 0."""
-        x = np.zeros((self.order.size, 4), self.off_diagonal.dtype)
-        x[self.order, :3] = v.reshape(-1, 3)
+    def _to_slots(self, v: np.ndarray, exponent: int) -> np.ndarray:
+        """Rearrange v (3 k,) times 2^exponent by slots, (k, 4), in the matrix's precision; the fourth column is 0."""
+        x = np.empty((self.order.size, 4), self.off_diagonal.dtype)
+        if abs(exponent) > _MAX_EXPONENT:
+            v, exponent = np.ldexp(v, exponent), 0
+        kernels.to_slots(v.reshape(-1, 3), self.order, 2.0**exponent, x)
         return x
+
+    def _from_slots(self, x: np.ndarray, exponent: int) -> np.ndarray:
+        """Rearrange x (k, 4) times 2^exponent by free nodes, (3 k,) float64; infinite where it overflows."""
+        v, large = np.empty((self.order.size, 3)), abs(exponent) > _MAX_EXPONENT
+        kernels.from_slots(x, self.order, 1.0 if large else 2.0**exponent, v)
+        with np.errstate(over="ignore"):
+            return np.ldexp(v.ravel(), exponent) if large else v.ravel()
 
     def solve(self, right: np.ndarray, tolerance: float, iterations: int, damping: float = 0.0) -> CGResult:
         """Solve by conjugate gradients, preconditioned by symmetric Gauss-Seidel.
@@ -130,13 +141,12 @@ class AssembledHessian(SymmetricOperator):
         if size == 0 or not np.isfinite(size):
             return CGResult(np.zeros(right.size), 0, False)
         exponent = int(np.frexp(size)[1])
-        b = self._slotted(np.ldexp(right, -exponent))  # scaling by a power of two is exact
-        x, work = np.empty_like(b), self.sparsity.workspace.array((64 * self.order.size + 16,), b.dtype.type)
+        b = self._to_slots(right, -exponent)  # scaling by a power of two is exact
+        x, work = np.empty_like(b), self.sparsity.workspace.array((40 * self.order.size + 16,), b.dtype.type)
         count, end = kernels.solve(
             self.sparsity.pattern, self.off_diagonal, self.diagonal, damping, b, tolerance, iterations, x, work
         )
-        with np.errstate(over="ignore"):
-            solution = np.ldexp(x[self.order, :3].astype(np.float64).ravel(), exponent - self.exponent)
+        solution = self._from_slots(x, exponent - self.exponent)
         return CGResult(solution, count, end is kernels.SolveStatus.NEGATIVE_CURVATURE)
 
     @property

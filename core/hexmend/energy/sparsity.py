@@ -57,46 +57,47 @@ class BlockSparsity:
             parts = max((parts for least, parts in _PARTS if free >= least), default=1)
         self.nodes, self.bounds = ordering.slots(mesh.hexes, rings.start, rings.items, mesh.free, parts)
         self.order = np.argsort(self.nodes)
-        slots = index_of(self.nodes, mesh.n_nodes)[mesh.hexes]
+        self._slot_of_node = index_of(self.nodes, mesh.n_nodes)
+        slots = self._slot_of_node[mesh.hexes]
         with overflow_as_mesh_error("pairs of free nodes that share a hex"):
             self.row_start, self.columns, target = kernels.pattern(
                 slots, self.nodes, corners.start, corners.items, MAX_ITEMS
             )
         self._hexes = mesh.hexes
-        self._rows = np.arange(mesh.n_hexes), slots, target
+        self._rows = np.arange(mesh.n_hexes), target
         self._shares: tuple[int, HexShares | None] = 0, None
 
     @property
     def slots(self) -> np.ndarray:
         """Slot of each corner, -1 if it is fixed, (m, 8) int32."""
-        return self._of_hexes()[0]
+        return self._slot_of_node[self._hexes]
 
     @property
     def target(self) -> np.ndarray:
-        """Block to which each pair of a hex's corners contributes, (m, 28) int32."""
-        return self._of_hexes()[1]
+        """Block to which each pair of a hex's corners contributes, (m, 28) uint16; see `hexmend.kernels.sparsity`.
 
-    def _of_hexes(self) -> tuple[np.ndarray, np.ndarray]:
-        """`slots` and `target`, from those in shares: a hex may be in two of them, and one that is fixed is in none."""
-        hexes, *rows = self._rows  # one read, as another thread may replace it
-        slots, target = (np.full((len(self._hexes), row.shape[1]), -1, np.int32) for row in rows)
-        slots[hexes], target[hexes] = rows
-        return slots, target
+        It is put together from the rows in shares: a hex may be in two of them, and one that is fixed is in none.
+        """
+        hexes, rows = self._rows  # one read, as another thread may replace it
+        target = np.full((len(self._hexes), rows.shape[1]), np.iinfo(rows.dtype).max, rows.dtype)
+        target[hexes] = rows
+        return target
 
     def shares(self, count: int) -> HexShares:
         """The slots in `count` shares, and the hexes at the slots of each; those of the last count are kept."""
         known, shares = self._shares
         if known != count:
             bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)
-            slots, target = self._of_hexes()
+            slots = self.slots
             lowest, highest = slots.view(np.uint32).min(axis=1), slots.max(axis=1)  # -1, fixed, becomes the largest
+            del slots
             order = np.argsort(lowest, kind="stable").astype(np.int32)
             lowest, highest = lowest[order], highest[order]
             there = [order[(lowest < high) & (highest >= low)] for low, high in itertools.pairwise(bounds)]
             start = np.cumsum([0, *map(len, there)], dtype=np.int32)
             chosen = np.concatenate(there)
-            self._rows = chosen, slots, target = chosen, slots[chosen], target[chosen]
-            shares = HexShares(bounds, start, chosen, self._hexes[chosen], slots, target)
+            self._rows = chosen, target = chosen, self.target[chosen]
+            shares = HexShares(bounds, start, chosen, target, self._hexes, self._slot_of_node, self.row_start)
             self._shares = count, shares
         return shares
 

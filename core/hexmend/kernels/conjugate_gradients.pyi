@@ -43,8 +43,28 @@ def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64],
 
     off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:
     this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand
-    side, both in the norm of M^-1. work (64 k + 16,): workspace. Writes x; returns the iterations and the
+    side, both in the norm of M^-1. work (40 k + 16,): workspace. Writes x; returns the iterations and the
     status.
+    """
+
+@overload
+def to_slots(of_nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], scale: float, of_slots: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu')]) -> None: ...
+
+@overload
+def to_slots(of_nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], scale: float, of_slots: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')]) -> None:
+    """
+    Write vectors of nodes (k, 3), times a scale, to slots (k, 4), whose fourth number becomes 0.
+
+    Row k of of_nodes belongs to slot order[k], int64.
+    """
+
+@overload
+def from_slots(of_slots: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], scale: float, of_nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None: ...
+
+@overload
+def from_slots(of_slots: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], scale: float, of_nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
+    """
+    Write vectors of slots (k, 4), times a scale, to nodes (k, 3); see `to_slots`.
     """
 
 @overload

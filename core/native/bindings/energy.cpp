@@ -59,19 +59,21 @@ void bind_assembly(nb::module_ m) {
                           "summed over its hexes in one order for any number of shares.")
         .def(
             "__init__",
-            [](HexShares *self, Indices bounds, Indices start, Indices numbers, Hexes hexes, Hexes slots,
-               BlockTargets target) {
+            [](HexShares *self, Indices bounds, Indices start, Indices numbers, BlockTargets target, Hexes hexes,
+               Indices slots, Indices row_start) {
                 expect(!bounds.empty() && start.size() == bounds.size(), "start: one for each of bounds is expected");
-                expect(numbers.size() == hexes.size() && slots.size() == hexes.size() && target.size() == hexes.size(),
-                       "numbers, hexes, slots and target: as many rows in each are expected");
-                new (self) HexShares{bounds, start, numbers, hexes, slots, target};
+                expect(target.size() == numbers.size(), "target: a row for each of numbers is expected");
+                expect(static_cast<std::int64_t>(row_start.size()) == bounds.back() + 1,
+                       "row_start: one more than the slots is expected");
+                new (self) HexShares{bounds, start, numbers, target, hexes, slots, row_start};
             },
-            "bounds"_a, "start"_a, "numbers"_a, "hexes"_a, "slots"_a, "target"_a, nb::keep_alive<1, 2>(),
+            "bounds"_a, "start"_a, "numbers"_a, "target"_a, "hexes"_a, "slots"_a, "row_start"_a, nb::keep_alive<1, 2>(),
             nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
-            nb::keep_alive<1, 7>(),
+            nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(),
             "Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: rows start[k] to start[k + 1] - 1 of\n"
-            "numbers, in the mesh; hexes (.., 8); slots (.., 8), -1 where a corner is fixed; target (.., 28), from\n"
-            "`sparsity.pattern`; all int32. Arrays are not copied.");
+            "numbers, in the mesh, int32, and of target (.., 28) uint16, from `sparsity.pattern`. hexes (m, 8) int32\n"
+            "of the mesh; slots (n,) int32 of its nodes, -1 for fixed ones; row_start (k + 1,) int32. Arrays are not\n"
+            "copied.");
     bind_assemble<float>(m);
     bind_assemble<double>(m);
 }

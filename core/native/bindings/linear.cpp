@@ -15,8 +15,13 @@ template <class Real> void bind_for(nb::module_ m) {
           "with a fourth number 0, are in the precision of the matrix; sums over them are in double precision.\n\n"
           "off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:\n"
           "this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand\n"
-          "side, both in the norm of M^-1. work (64 k + 16,): workspace. Writes x; returns the iterations and the\n"
+          "side, both in the norm of M^-1. work (40 k + 16,): workspace. Writes x; returns the iterations and the\n"
           "status.");
+    m.def("to_slots", &to_slots<Real>, "of_nodes"_a, "order"_a, "scale"_a, "of_slots"_a, ReleaseGil(),
+          "Write vectors of nodes (k, 3), times a scale, to slots (k, 4), whose fourth number becomes 0.\n\n"
+          "Row k of of_nodes belongs to slot order[k], int64.");
+    m.def("from_slots", &from_slots<Real>, "of_slots"_a, "order"_a, "scale"_a, "of_nodes"_a, ReleaseGil(),
+          "Write vectors of slots (k, 4), times a scale, to nodes (k, 3); see `to_slots`.");
     m.def("product", &product<Real>, "pattern"_a, "off_diagonal"_a, "diagonal"_a, "order"_a, "x"_a, "y"_a, ReleaseGil(),
           "Product A x of x (k, 3) in double precision; writes y (k, 3).\n\n"
           "Row k of x and y belongs to slot order[k].");
@@ -65,11 +70,12 @@ void bind_sparsity(nb::module_ m) {
     m.doc() = "Sparsity of a Hessian: the 3 x 3 blocks above its diagonal, one for each pair of free nodes of a hex.";
     m.attr("PAIRS") = PAIRS;
     m.def("pattern", &pattern, "slots"_a, "nodes"_a, "start"_a, "corners"_a, "max_items"_a = MOST_ITEMS, ReleaseGil(),
-          "Blocks above the diagonal, and the block that each pair of a hex's corners adds to; all int32.\n\n"
+          "Blocks above the diagonal, and the block that each pair of a hex's corners adds to.\n\n"
           "slots (m, 8): the slot of each corner, -1 if it is fixed; nodes (k,): the node of each slot; start,\n"
           "corners: `Topology.node_corners`. Returns row_start (k + 1,) and columns, ascending within a row; and\n"
-          "target (m, 28), of the pairs 01, 02... 07, 12...: the block, -1 where a corner is fixed, -2 - slot where\n"
-          "both are one node. OverflowError where there are more than `max_items` blocks.");
+          "target (m, 28) uint16, of the pairs 01, 02... 07, 12...: the block, from the first of the row of the\n"
+          "lower slot on, 65535 where a corner is fixed or both are one node. The others are int32.\n"
+          "OverflowError where there are more than `max_items` blocks.");
 }
 
 }  // namespace hexmend

@@ -18,22 +18,35 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
         auto values = std::make_unique<Real[][HEX_STRIDE]>(LANES);
         for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
             int count = std::min(LANES, shared.start[share + 1] - first);
-            auto x = gather_corners<Lanes>(points, shared.hexes, first, count);
-            auto scales =
-                scales_of<Lanes>(target, [&](int i) { return shared.numbers[first + (i < count ? i : count - 1)]; });
+            // Hexes are in the order of slots, and their nodes in that of the mesh: what the next ones need is
+            // prefetched.
+            for (auto next = first + LANES; next < std::min(first + 2 * LANES, shared.start[share + 1]); ++next)
+                for (Node node : shared.hexes[shared.numbers[next]])
+                    __builtin_prefetch(&shared.slots[node]), __builtin_prefetch(&points[node]);
+            for (auto next = first + 2 * LANES; next < std::min(first + 3 * LANES, shared.start[share + 1]); ++next)
+                __builtin_prefetch(&shared.hexes[shared.numbers[next]]);
+            Hex hexes[LANES], slots[LANES];
+            for (int i = 0; i < count; ++i) {
+                hexes[i] = shared.hexes[shared.numbers[first + i]];
+                slots[i] = shared.slots_of(shared.numbers[first + i]);
+            }
+            auto x = gather_corners<Lanes>(points, hexes, 0, count);
+            auto scales = scales_of<Lanes>(target, [&](int i) { return shared.number(first, i, count); });
             std::uint8_t bits[LANES];
             for (int i = 0; i < count; ++i) bits[i] = omitted[shared.numbers[first + i]];
             CornerMask<Lanes> counted(bits, 0, count);
-            // The target blocks are scattered in memory: prefetch them while the values are computed.
-            for (int i = 0; i < count; ++i)
-                for (auto s : shared.target[first + i])
+            // The blocks are scattered in memory: prefetch them while the values are computed.
+            PairBlocks blocks[LANES];
+            for (int i = 0; i < count; ++i) {
+                blocks[i] = blocks_of(slots[i], shared.target[first + i], shared.row_start);
+                for (auto s : blocks[i])
                     if (s >= 0) __builtin_prefetch(&off_diagonal[s], 1), __builtin_prefetch(&off_diagonal[s][8], 1);
+            }
             *sums = HessianSums{};
             unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x, scales, delta, counted(t), *sums); });
             weigh_hessian<Real>(*sums, norm, values.get());
             for (int i = 0; i < count; ++i)
-                scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off_diagonal,
-                              diagonal);
+                scatter<Real>(values[i], slots[i], blocks[i], low, high, off_diagonal, diagonal);
         }
     });
 }
@@ -46,8 +59,8 @@ void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners om
               const TargetMatrices *matrices) {
     expect_rows(matrices, omitted.size());
     // A copy that the compiler can keep in registers: the AVX-512 build then rounds the same sums as before.
-    const auto [bounds, start, numbers, hexes, slots, target] = shared;
-    const HexShares local{bounds, start, numbers, hexes, slots, target};
+    const auto [bounds, start, numbers, target, hexes, slots, row_start] = shared;
+    const HexShares local{bounds, start, numbers, target, hexes, slots, row_start};
     with_target(matrices, [&](const auto &w) {
         if (delta != 0) assemble_of<true, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal, w);
         else assemble_of<false, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal, w);

@@ -2,6 +2,8 @@
 // preconditioner needs its blocks.
 #pragma once
 
+#include <algorithm>
+
 #include "energy/objective.hpp"
 #include "energy/objective_norm.hpp"
 #include "energy/target.hpp"
@@ -9,15 +11,26 @@
 
 namespace hexmend {
 
-using BlockTargets = std::span<const std::array<std::int32_t, PAIRS>>;
+using BlockTargets = std::span<const std::array<PairBlock, PAIRS>>;
 
 // Slots divided into shares that are assembled in parallel: share s has the slots bounds[s] to bounds[s + 1] - 1 and
-// all hexes at these, rows start[s] to start[s + 1] - 1 of the other arrays.
+// all hexes at these, rows start[s] to start[s + 1] - 1 of numbers and target.
 struct HexShares {
     Indices bounds, start;
     Indices numbers;      // of the hexes in the mesh; a hex at slots of several shares is in each
-    Hexes hexes, slots;   // (.., 8): nodes and slots of the corners, -1 where a corner is fixed
-    BlockTargets target;  // (.., 28): block of each pair of corners: -1 if one is fixed, -2 - slot if both are one node
+    BlockTargets target;  // (.., 28)
+    Hexes hexes;          // (m, 8), of the mesh
+    Indices slots;        // (n,): slot of each node, -1 for a fixed one
+    Indices row_start;    // (k + 1,): first block of each slot's row
+
+    // The number in the mesh of hex i of `count` from row `first` on; that of the last one beyond.
+    std::int32_t number(std::int64_t first, int i, int count) const { return numbers[first + std::min(i, count - 1)]; }
+
+    Hex slots_of(std::int32_t hex) const {
+        Hex of;
+        for (int c = 0; c < 8; ++c) of[c] = slots[hexes[hex][c]];
+        return of;
+    }
 };
 
 // Add the Hessian of sum eta(H)^p to the blocks above and on the diagonal, see block_matrix.hpp. Each share computes

@@ -41,10 +41,27 @@ template <class Real> void add_with_transpose(const Real *block, std::array<Real
         for (int j = i; j < 3; ++j) own[at++] += block[3 * i + j] + block[3 * j + i];
 }
 
+// Block of each pair of a hex's corners: -1 if a corner is fixed, -2 - slot if both are one node.
+using PairBlocks = std::array<std::int32_t, PAIRS>;
+
+inline PairBlocks blocks_of(const Hex &slots, const std::array<PairBlock, PAIRS> &target, Indices row_start) {
+    std::int32_t first[8];
+    for (int c = 0; c < 8; ++c) first[c] = slots[c] < 0 ? 0 : row_start[slots[c]];
+    PairBlocks blocks;
+    int pair = 0;
+    for (int a = 0; a < 8; ++a)
+        for (int b = a + 1; b < 8; ++b, ++pair) {
+            std::int32_t row = slots[a] < slots[b] ? first[a] : first[b];
+            std::int32_t none = slots[a] == slots[b] && slots[a] >= 0 ? -2 - slots[a] : -1;
+            blocks[pair] = target[pair] == NO_BLOCK ? none : row + target[pair];
+        }
+    return blocks;
+}
+
 // Add the values of a hex to the blocks of slots from `low` to `high`.
 template <class Real>
-void scatter(const Real *values, const Hex &slots, const std::array<std::int32_t, PAIRS> &target, std::int32_t low,
-             std::int32_t high, std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal) {
+void scatter(const Real *values, const Hex &slots, const PairBlocks &target, std::int32_t low, std::int32_t high,
+             std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal) {
     int pair = 0;
     for (int a = 0; a < 8; ++a) {
         auto i = slots[a];

@@ -197,9 +197,10 @@ void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, co
             int count = std::min(LANES, shared.start[share + 1] - first);
             LaneFloors block(floors, count, [&](int i) { return shared.numbers[first + i]; });
             if (!block.any()) continue;
-            auto x = gather_corners<Lanes>(points, shared.hexes, first, count);
-            auto scales =
-                scales_of<Lanes>(target, [&](int i) { return shared.numbers[first + (i < count ? i : count - 1)]; });
+            Hex hexes[LANES];
+            for (int i = 0; i < count; ++i) hexes[i] = shared.hexes[shared.numbers[first + i]];
+            auto x = gather_corners<Lanes>(points, hexes, 0, count);
+            auto scales = scales_of<Lanes>(target, [&](int i) { return shared.number(first, i, count); });
             std::uint8_t bits[LANES] = {};
             for (int i = 0; i < count; ++i) bits[i] = omitted[shared.numbers[first + i]];
             CornerMask<Lanes> counted(bits, 0, count);
@@ -221,9 +222,11 @@ void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, co
             if (!some) continue;
             auto weight = broadcast<Lanes>(floors.weight);
             weigh_hessian<Real>(*sums, weight, floors.weight * by.second, values.get());
-            for (int i = 0; i < count; ++i)
-                scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off_diagonal,
-                              diagonal);
+            for (int i = 0; i < count; ++i) {
+                Hex slots = shared.slots_of(shared.numbers[first + i]);
+                scatter<Real>(values[i], slots, blocks_of(slots, shared.target[first + i], shared.row_start), low, high,
+                              off_diagonal, diagonal);
+            }
         }
     });
 }

@@ -38,6 +38,24 @@ template <class Real> Block<Real> block(const SymmetricMatrix &a) {
     return {column(a.xx, a.xy, a.xz), column(a.xy, a.yy, a.yz), column(a.xz, a.yz, a.zz)};
 }
 
+// A symmetric block as xx xy xz 0 and yy yz zz 0.
+template <class Real> struct HalfBlock {
+    Vec4<Real> first, second;
+
+    Block<Real> whole() const {
+        return {first, __builtin_shufflevector(first, second, 1, 4, 5, 7),
+                __builtin_shufflevector(first, second, 2, 5, 6, 7)};
+    }
+    Vec4<Real> operator*(const Vec4<Real> &v) const { return whole() * v; }
+};
+
+template <class Real> HalfBlock<Real> half_block(const SymmetricMatrix &a) {
+    auto four = [](double x, double y, double z) {
+        return Vec4<Real>{static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z), 0};
+    };
+    return {four(a.xx, a.xy, a.xz), four(a.yy, a.yz, a.zz)};
+}
+
 template <class Real> SymmetricMatrix widened(const std::array<Real, 6> &a) {
     return {a[0], a[1], a[2], a[3], a[4], a[5]};
 }

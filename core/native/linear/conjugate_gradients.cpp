@@ -10,6 +10,8 @@
 namespace hexmend {
 namespace {
 
+constexpr std::int64_t NODES_PER_CHUNK = 4096;
+
 // D, a diagonal block with its smallest eigenvalue raised as in Algorithm A.4, and D^-1.
 inline std::pair<SymmetricMatrix, SymmetricMatrix> make_positive_definite(SymmetricMatrix a) {
     {
@@ -40,11 +42,11 @@ template <class Real> class PreconditionedCG {
   public:
     using V = Vec4<Real>;
 
-    // Size of the workspace in numbers: three blocks and seven vectors for each slot, and alignment.
-    static constexpr std::int64_t workspace_size(std::int64_t slots) { return 64 * slots + 16; }
+    // Size of the workspace in numbers: two blocks and six vectors for each slot, and alignment.
+    static constexpr std::int64_t workspace_size(std::int64_t slots) { return 40 * slots + 16; }
 
     PreconditionedCG(BlockMatrix<Real> &system, DiagonalBlocks<Real> diagonal, double damping, std::span<Real> work)
-        : system_(system) {
+        : system_(system), own_(diagonal), share_(static_cast<Real>((2 + damping) / (1 + damping))) {
         void *free = work.data();
         std::size_t left = work.size_bytes();
         free = std::align(alignof(V), left - alignof(V), free, left);
@@ -53,17 +55,13 @@ template <class Real> class PreconditionedCG {
             array = static_cast<T *>(free);
             free = array + system.size();
         };
-        take(positive_), take(inverse_), take(rest_);
-        for (auto *vector : {&residual_, &scaled_, &v_, &t_, &product_, &w_[0], &w_[1]}) take(*vector);
+        take(positive_), take(inverse_);
+        for (auto *vector : {&residual_, &v_, &t_, &product_, &w_[0], &w_[1]}) take(*vector);
         sum_over_slots([&](std::int32_t i) {
             v_[i] = w_[0][i] = w_[1][i] = V{};
-            SymmetricMatrix own = widened(diagonal[i]);
-            auto [d, inverse] = make_positive_definite(own);
-            positive_[i] = block<Real>((1 + damping) * d);
-            inverse_[i] = block<Real>((1 / (1 + damping)) * inverse);
-            double k = 2 + damping;
-            rest_[i] = block<Real>({own.xx - k * d.xx, own.xy - k * d.xy, own.xz - k * d.xz, own.yy - k * d.yy,
-                                    own.yz - k * d.yz, own.zz - k * d.zz});
+            auto [d, inverse] = make_positive_definite(widened(diagonal[i]));
+            positive_[i] = half_block<Real>((1 + damping) * d);
+            inverse_[i] = half_block<Real>((1 / (1 + damping)) * inverse);
             return 0.0;
         });
     }
@@ -80,7 +78,7 @@ template <class Real> class PreconditionedCG {
     void next_direction(Real beta) {
         auto back = [&](std::int32_t begin, std::int32_t end, int) {
             for (auto i = end - 1; i >= begin; --i) {
-                V v = scaled_[i] + beta * v_[i];
+                V v = positive_[i] * residual_[i] + beta * v_[i];
                 v_[i] = v;
                 t_[i] = inverse_[i] * (v - system_.row_times(i, t_));
             }
@@ -93,7 +91,7 @@ template <class Real> class PreconditionedCG {
     // Compute product = (D + L)^-1 A t = t + (D + L)^-1 (v + rest t); returns its product with v.
     double curvature() {
         return system_.forward(w_, [&](std::int32_t i, const V &below) {
-            V p = inverse_[i] * (v_[i] + rest_[i] * t_[i] - below);
+            V p = inverse_[i] * (v_[i] + rest(i) * t_[i] - below);
             product_[i] = p + t_[i];
             return std::pair{p, dot(v_[i], product_[i])};
         });
@@ -120,15 +118,21 @@ template <class Real> class PreconditionedCG {
 
   private:
     BlockMatrix<Real> &system_;
-    Block<Real> *positive_, *inverse_, *rest_;
-    V *residual_, *scaled_, *v_, *t_, *product_;
+    DiagonalBlocks<Real> own_;
+    Real share_;
+    HalfBlock<Real> *positive_, *inverse_;  // D and D^-1, damped
+    V *residual_, *v_, *t_, *product_;
     // Contributions of rows to later rows; two vectors, because two parts add to one separator.
     V *w_[2];
 
-    double square_of_residual(std::int32_t i) {
-        scaled_[i] = positive_[i] * residual_[i];
-        return dot(residual_[i], scaled_[i]);
+    // A_D - 2 D, undamped D and damped A_D.
+    HalfBlock<Real> rest(std::int32_t i) const {
+        const auto &a = own_[i];
+        return {V{a[0], a[1], a[2], 0} - share_ * positive_[i].first,
+                V{a[3], a[4], a[5], 0} - share_ * positive_[i].second};
     }
+
+    double square_of_residual(std::int32_t i) { return dot(residual_[i], positive_[i] * residual_[i]); }
 
     template <class Body> double sum_over_slots(const Body &body) {
         auto over = [&](std::int32_t begin, std::int32_t end, int) {
@@ -149,7 +153,7 @@ std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real>
                                   int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work) {
     BlockMatrix<Real> system(pattern, off_diagonal);
     if (static_cast<std::int64_t>(work.size()) < PreconditionedCG<Real>::workspace_size(system.size()))
-        throw std::invalid_argument("work is too small: 64 numbers a slot, and 16, are needed");
+        throw std::invalid_argument("work is too small: 40 numbers a slot, and 16, are needed");
     PreconditionedCG<Real> solver(system, diagonal, damping, work);
     std::fill(x.begin(), x.end(), std::array<Real, 4>{});
     double square = solver.start(right);
@@ -168,6 +172,27 @@ std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real>
         beta = square / before;
     }
     return {max_iterations, TOO_MANY};
+}
+
+template <class Real>
+void to_slots(Points of_nodes, std::span<const std::int64_t> order, double scale,
+              std::span<std::array<Real, 4>> of_slots) {
+    expect(order.size() == of_nodes.size() && of_slots.size() == of_nodes.size(),
+           "of_nodes, order and of_slots have different lengths: expected a row a node");
+    parallel_for(order.size(), NODES_PER_CHUNK, [&](std::int64_t k) {
+        auto number = [&](int i) { return static_cast<Real>(scale * of_nodes[k][i]); };
+        of_slots[order[k]] = {number(0), number(1), number(2), 0};
+    });
+}
+
+template <class Real>
+void from_slots(Vectors<Real> of_slots, std::span<const std::int64_t> order, double scale, std::span<Point> of_nodes) {
+    expect(order.size() == of_nodes.size() && of_slots.size() == of_nodes.size(),
+           "of_nodes, order and of_slots have different lengths: expected a row a node");
+    parallel_for(order.size(), NODES_PER_CHUNK, [&](std::int64_t k) {
+        const auto &there = of_slots[order[k]];
+        for (int i = 0; i < 3; ++i) of_nodes[k][i] = scale * static_cast<double>(there[i]);
+    });
 }
 
 template <class Real>
@@ -190,7 +215,9 @@ void product(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, Diagon
                                                Vectors<Real>, double, int, std::span<std::array<Real, 4>>,            \
                                                std::span<Real>);                                                      \
     template void product(const BlockPattern &, UpperBlocks<Real>, DiagonalBlocks<Real>,                              \
-                          std::span<const std::int64_t>, Points, std::span<Point>);
+                          std::span<const std::int64_t>, Points, std::span<Point>);                                   \
+    template void to_slots(Points, std::span<const std::int64_t>, double, std::span<std::array<Real, 4>>);            \
+    template void from_slots(Vectors<Real>, std::span<const std::int64_t>, double, std::span<Point>);
 FOR_REAL(float)
 FOR_REAL(double)
 

@@ -23,11 +23,19 @@ enum SolveStatus { DONE, NEGATIVE_CURVATURE, TOO_MANY };
 //
 // damping adds that multiple of D to the diagonal. The tolerance is relative to the right-hand side, both in the norm
 // of M^-1; max_iterations limits the iterations. At a direction of negative curvature (Steihaug 1983) x is the iterate
-// so far or, if it is the first, that direction. Vectors are (k, 4), see block_matrix.hpp; work has 64 k + 16 numbers.
+// so far or, if it is the first, that direction. Vectors are (k, 4), see block_matrix.hpp; work has 40 k + 16 numbers.
 template <class Real>
 std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal,
                                   DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
                                   int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work);
+
+// Write right-hand sides or solutions of nodes, scaled, to their slots and back: row k of `of_nodes` belongs to slot
+// order[k]. The fourth number of a slot becomes 0.
+template <class Real>
+void to_slots(Points of_nodes, std::span<const std::int64_t> order, double scale,
+              std::span<std::array<Real, 4>> of_slots);
+template <class Real>
+void from_slots(Vectors<Real> of_slots, std::span<const std::int64_t> order, double scale, std::span<Point> of_nodes);
 
 // Write y = A x (k, 3) in double precision; row k of x and y belongs to slot order[k].
 template <class Real>

@@ -12,8 +12,8 @@ constexpr std::int64_t PIECES = 16;
 
 }  // namespace
 
-std::tuple<IntArray, IntArray, OwnedArray<std::int32_t, PAIRS>> pattern(Hexes slots, Indices nodes, Indices start,
-                                                                        Indices corners, std::int64_t max_items) {
+std::tuple<IntArray, IntArray, OwnedArray<PairBlock, PAIRS>> pattern(Hexes slots, Indices nodes, Indices start,
+                                                                     Indices corners, std::int64_t max_items) {
     std::int64_t count = nodes.size(), size = std::max<std::int64_t>((count + PIECES - 1) / PIECES, 1);
     std::vector<std::int32_t> row_start(count + 1), found[PIECES];
     parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t end) {
@@ -33,7 +33,11 @@ std::tuple<IntArray, IntArray, OwnedArray<std::int32_t, PAIRS>> pattern(Hexes sl
     });
     accumulate(row_start, max_items);
 
-    std::vector<std::int32_t> columns(row_start[count]), target(slots.size() * PAIRS, -1);
+    for (std::int64_t i = 0; i < count; ++i)
+        if (row_start[i + 1] - row_start[i] >= NO_BLOCK)
+            throw std::overflow_error("a node shares hexes with too many nodes: fewer than 65,535 are expected");
+    std::vector<std::int32_t> columns(row_start[count]);
+    std::vector<PairBlock> target(slots.size() * PAIRS, NO_BLOCK);
     parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t end) {
         std::copy(found[begin / size].begin(), found[begin / size].end(), columns.begin() + row_start[begin]);
         std::vector<std::int32_t> block(count);
@@ -43,9 +47,9 @@ std::tuple<IntArray, IntArray, OwnedArray<std::int32_t, PAIRS>> pattern(Hexes sl
                 int h = corners[s] / 8, a = corners[s] % 8;
                 for (int b = 0; b < 8; ++b) {
                     auto j = slots[h][b];
-                    if (j < i || a == b) continue;
+                    if (j <= i) continue;
                     target[PAIRS * std::int64_t{h} + pair_of(std::min(a, b), std::max(a, b))] =
-                        j > i ? block[j] : -2 - i;
+                        static_cast<PairBlock>(block[j] - row_start[i]);
                 }
             }
         }

@@ -188,7 +188,7 @@ def test_the_end_of_a_solve_is_reported():
             1e-4,
             most,
             np.empty_like(right),
-            np.empty(64 * len(right) + 16, np.float32),
+            np.empty(40 * len(right) + 16, np.float32),
         )
 
     assert end(0.5, 100)[1] == conjugate_gradients.SolveStatus.DONE
