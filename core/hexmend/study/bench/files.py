@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -13,6 +14,8 @@ from hexmend.gallery import make
 from hexmend.io import write
 from hexmend.study.bench.section import BenchSection
 
+#: Variable that names another number of hexes.
+_VARIABLE = "HEXMEND_FILES"
 _SIZE = 1_000_000
 _SUFFIXES = ".vtu", ".vtkhdf", ".vtk", ".meshb", ".msh", ".exo"
 
@@ -52,7 +55,7 @@ def _files() -> dict[str, Any]:
     rows = []
     with tempfile.TemporaryDirectory(prefix="hexmend-") as name:
         given = Path(name) / "given.vtu"
-        mesh = make("five-side", size=_SIZE, scramble=0.3)
+        mesh = make("five-side", size=int(os.environ.get(_VARIABLE, _SIZE)), scramble=0.3)
         write(given, mesh)
         for suffix in _SUFFIXES:
             path = Path(name) / f"mesh{suffix}"
@@ -81,4 +84,5 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     return lines
 
 
-FILES = BenchSection("files", f"Files of five-side with {_SIZE:,} hexes", _files, _lines)
+_TITLE = f"Files of five-side with {_SIZE:,} hexes ({_VARIABLE} names another number)"
+FILES = BenchSection("files", _TITLE, _files, _lines)
