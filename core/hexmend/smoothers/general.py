@@ -33,7 +33,7 @@ class General(TargetedSmoother):
     source = "Wilson 5.1, Algorithm 5.1"
     optimises = True
     keeps_linear_motion = True
-    bytes_per_hex = 3000  # of the global Newton's method that it may go on with
+    bytes_per_hex = 2700  # of the global Newton's method that it may go on with
 
     q_target: float = parameter(
         0.9, low=0, high=1, help="Least q(H) at which GETMe's result is accepted; with 1 an optimiser always follows."

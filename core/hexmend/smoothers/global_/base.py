@@ -56,7 +56,7 @@ SOLVERS = {"minres": Minres, "cg": ConjugateGradients}
 class GlobalNewton(GlobalDescent):
     """Newton's direction for all free nodes; a method chooses the treatment of the Hessian."""
 
-    bytes_per_hex = 3000
+    bytes_per_hex = 2700
 
     solver: str = parameter(
         "minres",
