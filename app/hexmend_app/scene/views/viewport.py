@@ -108,6 +108,7 @@ class Viewport:
     def clear(self) -> None:
         """Draw no mesh."""
         self.frame = self.filters = self.colours.colouring = None
+        self._coarse_cut = False
         self.mesh_layer.hide()
         self.overlay_layers.hide()
 
@@ -174,6 +175,9 @@ class Viewport:
 
     def _move(self) -> None:
         """Update positions and colours of the same faces."""
+        if self._coarse_cut:
+            self._finish_cut()
+            return
         self.mesh_layer.move(self.frame, self._keep, self.colours)
         self.overlay_layers.move(self.frame, self._keep, self.mesh_layer)
 
@@ -275,7 +279,7 @@ class Viewport:
             return
         if self.mesh_layer.faces.many:
             self._rebuild()
-        else:
+        elif not self._coarse_cut:
             self.mesh_layer.outline_inverted()
 
     @property

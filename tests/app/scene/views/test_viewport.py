@@ -124,6 +124,34 @@ def test_a_cut_that_moves_is_drawn_coarsely_and_at_rest_as_it_is(seen, monkeypat
     np.testing.assert_array_equal(pixels(), expected[1])
 
 
+def test_a_coarse_cut_of_a_tangled_mesh_survives_what_comes_between_it_and_the_fine_frame(seen, monkeypatch):
+    monkeypatch.setattr("hexmend_app.scene.views.viewport.COARSE_CUT_HEXES", 1)
+    monkeypatch.setattr("hexmend_app.scene.layers.mesh.MANY", 0)
+    viewport, pixels = seen
+    tangled, scale = scrambled(MESH, 1.5), Colours(range=Range.FITTED)
+    looks = [Look(cut=Cut.at((0, 0, 1), (0, 0, z)), colours=scale) for z in (1.3, 2.4)]
+    figures = figures_of(tangled)
+    assert figures.n_inverted
+    viewport.coarse_cuts = True
+    for look in (*looks, looks[0]):
+        viewport.draw(Frame(tangled, figures, look=look))
+        viewport.moving()
+    coarse = pixels()
+    viewport.extend_range((-2.0, 2.0))  # of another view: drawn as it is
+    assert (pixels() != coarse).any()
+    viewport.extend_range(None)
+    viewport.still()
+    fine = pixels()
+    show(viewport, MESH)
+    show(viewport, tangled, looks[0])
+    viewport.still()
+    np.testing.assert_array_equal(pixels(), fine)
+    viewport.draw(Frame(tangled, viewport.frame.figures, look=looks[1]))
+    viewport.clear()
+    viewport.still()
+    pixels()
+
+
 def test_faces_turned_inside_out_are_seen(seen):
     viewport, pixels = seen
     show(viewport, look=Look(lines=LineStyle(edges=0.0), show=Show(outline=False)))
