@@ -1,0 +1,39 @@
+"""Take the pictures of docs/performance.md: ten million hexes in the window, cut, and the cut while it is dragged.
+
+Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/pictures/large.py FOLDER
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+from screenshots import close_window, cut_mesh, open_window, screenshot, wait_until_drawn
+
+from hexmend.gallery import make
+from hexmend.io import write
+from hexmend_app.bench.windows import draw
+
+_HEXES = 10_000_000
+
+
+def take_pictures(folder: Path) -> None:
+    """Take the picture of a cut at rest in the window, and that of the view while another one is dragged."""
+    with tempfile.TemporaryDirectory() as directory:
+        path = Path(directory) / "five-side.vtkhdf"
+        write(path, make("five-side", size=_HEXES, scramble=0.3))
+        window = open_window(path, (1160, 680))
+        window.session.view.set_handles(False)
+        cut_mesh(window)
+        wait_until_drawn(window)
+        screenshot(window, folder / "large-rest.png")
+        cut_mesh(window, (1, 0.05, 0))
+        draw(window)
+        assert window.canvas.viewport.mesh_layer.section.shown  # that of a coarse cut
+        window.canvas.interactor.grabFramebuffer().save(str(folder / "large-dragged.png"))
+        close_window(window)
+
+
+if __name__ == "__main__":
+    take_pictures(Path(sys.argv[1]))
