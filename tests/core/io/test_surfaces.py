@@ -7,7 +7,8 @@ from hexmend.boundary.closest_point import triangulate
 from hexmend.errors import FileError
 from hexmend.io import read_surface
 from hexmend.io.surfaces import SURFACE_FORMATS
-from hexmend.io.surfaces.merge_points import SORT_DIRECTION, merge_points
+from hexmend.io.surfaces.merge_points import merge_points
+from hexmend.mesh.close_pairs import LATTICE_FREE_DIRECTION
 
 pv = pytest.importorskip("pyvista")
 
@@ -234,7 +235,7 @@ def test_corners_are_merged_where_they_coincide_up_to_rounding(flat):
     random = np.random.default_rng(3)
     points, triangles = sphere().points.astype(np.float64), sphere().regular_faces.astype(np.int64)
     if flat:
-        points -= (points @ SORT_DIRECTION)[:, None] * SORT_DIRECTION
+        points -= (points @ LATTICE_FREE_DIRECTION)[:, None] * LATTICE_FREE_DIRECTION
     corners = points[triangles].reshape(-1, 3)
     corners = corners + 1e-12 * random.normal(size=corners.shape) * (random.random(len(corners)) < 0.5)[:, None]
     merged, faces = merge_points(corners, np.arange(len(corners)).reshape(-1, 3))

@@ -13,7 +13,8 @@ from hexmend.io.surfaces.format import Polygons, SurfaceFormat, parse_surface, r
 
 #: Bytes before the triangles of a binary file.
 _HEADER = 84
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+#: A triangle of a binary file.
+TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 def read(path: Path) -> Polygons:
@@ -21,10 +22,10 @@ def read(path: Path) -> Polygons:
     data = path.read_bytes()
     if len(data) >= _HEADER:
         count = int.from_bytes(data[_HEADER - 4 : _HEADER], "little")
-        if len(data) == _HEADER + _TRIANGLE.itemsize * count:
-            return _polygons(np.frombuffer(data, _TRIANGLE, offset=_HEADER)["corners"])
+        if len(data) == _HEADER + TRIANGLE.itemsize * count:
+            return _polygons(np.frombuffer(data, TRIANGLE, offset=_HEADER)["corners"])
     if data.lstrip()[:5].lower() != b"solid":
-        have = max(len(data) - _HEADER, 0) / _TRIANGLE.itemsize
+        have = max(len(data) - _HEADER, 0) / TRIANGLE.itemsize
         problem = f"is no STL: it begins without 'solid' and ends after {have:.1f} binary triangles"
         raise FileError(path, problem, DAMAGED)
     return parse_surface(path, "STL", lambda: _polygons(_corners(data.lower())))

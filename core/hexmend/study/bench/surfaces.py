@@ -13,6 +13,7 @@ import numpy as np
 from hexmend.boundary.closest_point import triangulate
 from hexmend.gallery import make
 from hexmend.io import read, write
+from hexmend.io.surfaces.stl import TRIANGLE
 from hexmend.study.bench.scale import measure_process
 from hexmend.study.bench.section import BenchSection
 
@@ -23,8 +24,6 @@ _TIMES = 3
 _ITERATIONS = 30
 #: The skin is refined until it has as many triangles.
 _TRIANGLES = 128_000
-
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 def refined(points: np.ndarray, faces: np.ndarray, triangles: int) -> tuple[np.ndarray, np.ndarray]:
@@ -56,7 +55,7 @@ def refined(points: np.ndarray, faces: np.ndarray, triangles: int) -> tuple[np.n
 
 
 def _write_stl(path: Path, points: np.ndarray, triangles: np.ndarray) -> None:
-    rows = np.zeros(len(triangles), dtype=_TRIANGLE)
+    rows = np.zeros(len(triangles), dtype=TRIANGLE)
     rows["corners"] = points[triangles]
     path.write_bytes(bytes(80) + np.uint32(len(rows)).tobytes() + rows.tobytes())
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 #: A direction along which the points of no lattice coincide; its length is 1.
-_DIRECTION = np.array([0.5378216, 0.6219573, 0.5690947]) / np.linalg.norm([0.5378216, 0.6219573, 0.5690947])
+LATTICE_FREE_DIRECTION = np.array([0.5378216, 0.6219573, 0.5690947]) / np.linalg.norm([0.5378216, 0.6219573, 0.5690947])
 #: Neighbours of a point in the order along it, beyond which a tree finds the pairs sooner.
 _MAX_NEIGHBOURS = 64
 
@@ -26,7 +26,7 @@ def close_pairs(points: np.ndarray, distance: float) -> np.ndarray:
     (k, 2) int64
         The smaller number first; in no particular order.
     """
-    along = points @ _DIRECTION
+    along = points @ LATTICE_FREE_DIRECTION
     order = np.argsort(along)
     along, found = along[order], [np.empty((0, 2), dtype=np.int64)]
     reach = distance + 4 * np.finfo(float).eps * float(np.abs(along).max(initial=0.0))
