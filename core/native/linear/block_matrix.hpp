@@ -31,13 +31,6 @@ template <class Real> struct Block {
     Vec4<Real> operator*(const Vec4<Real> &v) const { return x * v[0] + y * v[1] + z * v[2]; }
 };
 
-template <class Real> Block<Real> block(const SymmetricMatrix &a) {
-    auto column = [](double x, double y, double z) {
-        return Vec4<Real>{static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z), 0};
-    };
-    return {column(a.xx, a.xy, a.xz), column(a.xy, a.yy, a.yz), column(a.xz, a.yz, a.zz)};
-}
-
 // A symmetric block as xx xy xz 0 and yy yz zz 0.
 template <class Real> struct HalfBlock {
     Vec4<Real> first, second;

@@ -125,7 +125,7 @@ template <class Real> class PreconditionedCG {
     // Contributions of rows to later rows; two vectors, because two parts add to one separator.
     V *w_[2];
 
-    // A_D - 2 D, undamped D and damped A_D.
+    // The damped diagonal less twice the damped D: with damping d and undamped D, A_D + d D - 2 (1 + d) D.
     HalfBlock<Real> rest(std::int32_t i) const {
         const auto &a = own_[i];
         return {V{a[0], a[1], a[2], 0} - share_ * positive_[i].first,
@@ -204,7 +204,7 @@ void product(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, Diagon
     V *const w[2] = {below[0].data(), below[1].data()};
     for (std::size_t k = 0; k < x.size(); ++k) of[order[k]] = V{x[k][0], x[k][1], x[k][2], 0};
     system.forward(w, [&](std::int32_t i, const V &left) {
-        there[i] = block<double>(widened(diagonal[i])) * of[i] + system.row_times(i, of.data()) + left;
+        there[i] = half_block<double>(widened(diagonal[i])) * of[i] + system.row_times(i, of.data()) + left;
         return std::pair{of[i], 0.0};
     });
     for (std::size_t k = 0; k < x.size(); ++k) std::memcpy(y[k].data(), &there[order[k]], sizeof y[k]);
