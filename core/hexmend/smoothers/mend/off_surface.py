@@ -13,6 +13,8 @@ from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.smoothers.mend.maxmin import MAXMIN, MaxMinConfig, maximise_minimum
 from hexmend.smoothers.mend.release import infeasible
 
+_POSITIVE = float(np.finfo(float).tiny)
+
 
 @dataclass(frozen=True, eq=False)
 class MaxMinResult:
@@ -175,18 +177,12 @@ def raise_nearer(
     MaxMinResult
         `result` where the boundary does not come back, or the least falls to less than a share of what it was.
     """
-    optimiser, within = result.optimiser.fork(), None
+    optimiser = result.optimiser.fork()
     with optimiser.envelope.relaxed(optimiser.envelope.max_deviation):
-        for limit in reversed(limits):
-            for step in islice(optimiser.return_to_band(limit), 0, None, config.programs_per_iteration):
-                yield step.step(infeasible=True)
-            if not _is_within(optimiser, limit) or not optimiser.corners.movable_minimum > 0:
-                break
-            within = limit, optimiser.points
-    if within is None:
+        band = yield from _return_to_bands(optimiser, limits, _POSITIVE, _POSITIVE, config)
+    if band is None:
         return result
-    optimiser.move_to(within[1])
-    nearer = yield from infeasible(raise_within_tolerance(optimiser, within[0], config.programs_between, config))
+    nearer = yield from infeasible(raise_within_tolerance(optimiser, band, config.programs_between, config))
     return nearer if nearer.least >= config.returned_share * result.least else result
 
 
@@ -214,7 +210,6 @@ def _detour(
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least to a target in a band as wide as `far`, and return to a limit; `reached` if that is no gain."""
     envelope, least_before = optimiser.envelope, reached.least
-    groups, within = config.max_groups_off_surface, None
     envelope.limit_to(limits[-1])
     enough, share = 0.0 if least_before <= 0 else config.acceptable, config.returned_share
     with envelope.relaxed(far):
@@ -222,24 +217,17 @@ def _detour(
             optimiser,
             target,
             release_below=config.acceptable,
-            groups=groups,
+            groups=config.max_groups_off_surface,
             infeasible=True,
             give_up_below=least_before,
             max_programs=max_programs,
             config=config,
         )
-        for limit in reversed(limits):
-            for step in islice(optimiser.return_to_band(limit), 0, None, config.programs_per_iteration):
-                yield step.step(infeasible=True)
-            least = optimiser.corners.movable_minimum
-            lowest = max(least_before, enough) if within else least_before - (1 - share) * abs(least_before)
-            if not _is_within(optimiser, limit) or least < lowest:
-                break
-            within = limit, optimiser.points
-    if within is None:
+        first_lowest = least_before - (1 - share) * abs(least_before)
+        band = yield from _return_to_bands(optimiser, limits, first_lowest, max(least_before, enough), config)
+    if band is None:
         return reached
-    optimiser.move_to(within[1])
-    rising = raise_within_tolerance(optimiser, within[0], config.programs_between, config)
+    rising = raise_within_tolerance(optimiser, band, config.programs_between, config)
     if not optimiser.corners.movable_minimum < least_before:
         return (yield from rising)
     result = yield from infeasible(rising, every=1)  # lower at first than what is reached
@@ -247,6 +235,28 @@ def _detour(
         return reached
     yield result.step()
     return result
+
+
+def _return_to_bands(
+    optimiser: MaxMinOptimiser, limits: Sequence[float], first_lowest: float, lowest: float, config: MaxMinConfig
+) -> Generator[Step, None, float | None]:
+    """Bring the boundary back to limits (ascending), the widest first, as long as the least stays.
+
+    The optimiser ends in the narrowest band that was reached, which is returned; None if none was. In the widest band
+    the least has to be at least `first_lowest`, in narrower ones at least `lowest`.
+    """
+    reached = None
+    for limit in reversed(limits):
+        for step in islice(optimiser.return_to_band(limit), 0, None, config.programs_per_iteration):
+            yield step.step(infeasible=True)
+        least = optimiser.corners.movable_minimum
+        if not _is_within(optimiser, limit) or least < (lowest if reached else first_lowest):
+            break
+        reached = limit, optimiser.points
+    if reached is None:
+        return None
+    optimiser.move_to(reached[1])
+    return reached[0]
 
 
 def _is_within(optimiser: MaxMinOptimiser, limit: float) -> bool:
