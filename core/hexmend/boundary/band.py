@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.arrays import any_of_rows, differing_rows, mask, row_norms
 from hexmend.boundary.closest_point import NearPoints, means
-from hexmend.boundary.comparison import SAMPLE_DISTANCE, SkinSurface
+from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
 _ROUNDING = 1e-9

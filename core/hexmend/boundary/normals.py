@@ -39,7 +39,7 @@ def vertex_normals(vertices: np.ndarray, triangles: np.ndarray, patch: np.ndarra
     cosines = np.stack([-np.einsum("ti,ti->t", sides[k], sides[k - 1]) for k in range(3)], axis=1)
     angle = np.arctan2(row_norms(area)[:, None], cosines)
     vertex = patch[:, None].astype(np.int64) * len(vertices) + triangles
-    if vertex.max(initial=0) > 2 * vertex.size:  # of many patches few have one vertex
+    if vertex.max(initial=0) > 2 * vertex.size:  # most vertices are in few of the many patches
         _, vertex = np.unique(vertex, return_inverse=True)
     share = angle[:, :, None] * unit_vectors(area)[:, None, :]
     sums = np.column_stack([np.bincount(vertex.ravel(), share[:, :, k].ravel()) for k in range(3)])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.boundary.closest_point import NearPoints
-from hexmend.boundary.comparison import SkinSurface
+from hexmend.boundary.skin_surface import SkinSurface
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
 

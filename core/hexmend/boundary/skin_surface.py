@@ -1,0 +1,173 @@
+"""Surface of triangles or quads as a whole: what a mesh is compared with, and what its boundary may slide on."""
+
+from __future__ import annotations
+
+import copy
+
+import numpy as np
+
+from hexmend.arrays import mask, row_norms
+from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, NearPoints, triangulate, vertices_of
+from hexmend.boundary.edges import SurfaceEdges
+from hexmend.boundary.surface import PartitionedSurface
+from hexmend.errors import MeshError
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.validation import as_faces, as_points, points_like
+
+#: A boundary lies near a surface if 90 % of its nodes are within this many mean edge lengths of it.
+MAX_TARGET_DISTANCE = 2.0
+#: Edges and faces of a surface that was read are sampled where they are longer than this many mean edge lengths.
+SAMPLE_DISTANCE = 0.5
+
+
+class SkinSurface:
+    """Surface of triangles or quads as a whole, without patches, for comparison with others.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    faces : (k, 4) or (k, 3) int32
+    name : str
+        Name in messages; the file's name if it was read.
+
+    Attributes
+    ----------
+    nodes : (b,) int64
+        Nodes of the faces, ascending.
+    edges : SurfaceEdges
+    derived : dict
+        Curves and patches by feature angle, for those who slide on the surface.
+
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type, and for a node that does not exist.
+    """
+
+    def __init__(self, points: np.ndarray, faces: np.ndarray, name: str = ""):
+        points = as_points(points)
+        faces = as_faces(faces, len(points))
+        self.points, self.faces, self.name = points, faces, name
+        self.derived: dict[float | str, PartitionedSurface] = {}
+        self.nodes, self.edges = np.unique(faces), SurfaceEdges(faces, len(points))
+        vertices, triangles, _ = triangulate(points, faces)
+        self._trees = ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
+
+    def with_points(self, points: np.ndarray) -> SkinSurface:
+        """Return a surface of the same faces with other node positions (n, 3) float64."""
+        other, points = copy.copy(self), points_like(points, self.points.shape)
+        other.points, other._trees = points, self._trees.with_points(vertices_of(points, self.faces))
+        other.derived = {}
+        return other
+
+    def samples(self, spacing: float = 0.0) -> np.ndarray:
+        """Return the positions of `nodes`, of edge midpoints and of face midpoints, in this order, (s, 3).
+
+        Midpoints of edges that are no longer than `spacing` and of faces without a longer edge are left out.
+        """
+        edges, faces = self.edges.nodes, self.faces
+        if spacing > 0:
+            one, other = (self.points[edges[:, end]] for end in range(2))
+            longer = row_norms(other - one) > spacing
+            edges, faces = edges[longer], faces[mask(self.edges.neighbours[longer].ravel(), len(faces))]
+        return np.concatenate([self.points[self.nodes], _middles(self.points, edges), _middles(self.points, faces)])
+
+    def distances(self, x: np.ndarray) -> np.ndarray:
+        """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit."""
+        return np.linalg.norm(self.closest(x) - x, axis=1)
+
+    def closest_on(
+        self,
+        x: np.ndarray,
+        stop_distance: float = 0.0,
+        near: NearPoints | None = None,
+        known: np.ndarray | None = None,
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Find the points of the surface closest to x, with the nodes of their faces.
+
+        Parameters
+        ----------
+        x : (k, 3) float64
+        stop_distance : float
+            The search ends at any point within this distance.
+        near : NearPoints, optional
+            Stores what is found.
+        known : (k,) int32, optional
+            See `ClosestPointTrees.closest`.
+
+        Returns
+        -------
+        places : (k, 3) float64
+        nodes : (k, 4) or (k, 3) int
+            Nodes of the face on which each point lies.
+        weights : (k, 4) or (k, 3) float64
+            Weights of these nodes, whose mean is the point.
+        """
+        found = self._found(x, stop_distance, known)
+        if near is not None:
+            near.store(found)
+        pieces, width = self._trees.pieces[found.pieces], self.faces.shape[1]
+        if width == 3:
+            return found.points, pieces, found.weights
+        nodes = self.faces[pieces[:, 2] - len(self.points)]
+        weights = np.repeat(found.weights[:, 2:] / width, width, axis=1)
+        for end in range(2):
+            weights += np.where(nodes == pieces[:, end, None], found.weights[:, end, None], 0.0)
+        return found.points, nodes, weights
+
+    def closest(self, x: np.ndarray, stop_distance: float = 0.0, known: np.ndarray | None = None) -> np.ndarray:
+        """Return the points of the surface closest to x (k, 3), or any within `stop_distance`, (k, 3)."""
+        return self._found(x, stop_distance, known).points
+
+    def beyond(
+        self,
+        x: np.ndarray,
+        near: NearPoints,
+        limits: np.ndarray,
+        samples: np.ndarray | None = None,
+        points: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Find points x (k, 3) that are further than limits (k,) from the surface, (k,) bool.
+
+        Parameters
+        ----------
+        x, near, limits, samples
+            See `NearPoints.beyond`.
+        points : (n, 3) float64, optional
+            Positions of the surface's nodes; its own by default.
+        """
+        vertices = self._trees.points if points is None else vertices_of(points, self.faces)
+        return near.beyond(self._trees, vertices, x, limits, samples)
+
+    def nodes_of_pieces(self, pieces: np.ndarray) -> np.ndarray:
+        """Return the nodes of the faces on which pieces (k,), such as `NearPoints.pieces`, lie, (k, 4) or (k, 3)."""
+        pieces = self._trees.pieces[pieces]
+        return pieces if self.faces.shape[1] == 3 else self.faces[pieces[:, 2] - len(self.points)]
+
+    def _found(self, x: np.ndarray, stop_distance: float, known: np.ndarray | None) -> ClosestPoints:
+        return self._trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance, known)
+
+    def check_near(self, mesh: Mesh) -> None:
+        """Raise `MeshError` unless the boundary of a mesh lies near the surface."""
+        on = np.flatnonzero(mesh.topology.boundary)
+        far = float(np.quantile(self.distances(mesh.surface_points[on]), 0.9)) / (mesh.mean_edge_length or 1.0)
+        if far <= MAX_TARGET_DISTANCE:
+            return
+        both = self.points[self.nodes], mesh.surface_points[on]
+        boxes = (" x ".join(f"{side:.3g}" for side in np.ptp(x, axis=0)) for x in both)
+        raise MeshError(
+            f"{self.name or 'the surface'}: one in ten nodes of the mesh's boundary is {far:.3g} mean edge lengths "
+            f"or more from it: expected at most {MAX_TARGET_DISTANCE:g}. It measures {next(boxes)}, the boundary "
+            f"{next(boxes)}: scale or move it if its unit or position differs, or choose the surface of this mesh."
+        )
+
+    def volume(self) -> float:
+        """Return the enclosed volume of a closed surface."""
+        x, triangles = self._trees.points - self.points[self.nodes].mean(axis=0), self._trees.pieces
+        a, b, c = (x[triangles[:, k]] for k in range(3))
+        return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
+
+
+def _middles(points: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Return the mean of the points (n, 3) of each row (k, w) of nodes, (k, 3)."""
+    return sum(points[rows[:, column]] for column in range(rows.shape[1])) / rows.shape[1]
