@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.cut import Cut, CutStyle
@@ -14,45 +13,10 @@ from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
-from tests.core.grids import grid, scrambled
+from tests.app.scene.views.showing import MESH, figures_of, show
+from tests.core.grids import scrambled
 
-MESH = grid(4)
 INSIDE = Cut.at((0, 0, 1), (0, 0, 2), CutStyle.SMOOTH)
-
-
-def figures_of(mesh):
-    return measure(mesh.points, mesh.hexes)
-
-
-def show(viewport, mesh=None, look=None):
-    """Draw another mesh with the same look, or the same mesh with another look."""
-    last = viewport.frame
-    mesh = mesh or (last and last.mesh) or MESH
-    viewport.draw(Frame(mesh, figures_of(mesh), look=look or (last.look if last else Look())))
-
-
-@pytest.fixture
-def stage():
-    with Stage((200, 150)) as stage:
-        yield stage
-
-
-@pytest.fixture
-def pane(stage):
-    return Pane(stage.window)
-
-
-@pytest.fixture
-def seen(stage, pane):
-    """A viewport that shows a grid from above, and a function that returns its pixels."""
-    viewport = Viewport(pane)
-    show(viewport, MESH)
-    viewport.view("+z")
-    return viewport, lambda: stage.picture().astype(int)
 
 
 def magenta(image):
@@ -91,65 +55,6 @@ def test_a_cut_through_nodes_is_closed(seen):
     show(viewport, look=Look(cut=INSIDE, lines=LineStyle(edges=0.0)))
     middle = np.s_[60:90, 85:115]
     assert np.abs(pixels()[middle] - whole[middle]).max() <= 2  # q = 1 everywhere, lit alike
-
-
-@pytest.mark.parametrize("style", list(CutStyle))
-@pytest.mark.parametrize("many", [0, 1000], ids=["squares", "faces"])
-def test_a_cut_that_moves_is_drawn_coarsely_and_at_rest_as_it_is(seen, monkeypatch, style, many):
-    monkeypatch.setattr("hexmend_app.scene.views.viewport.COARSE_CUT_HEXES", 1)
-    monkeypatch.setattr("hexmend_app.scene.layers.mesh.MANY", many)
-    viewport, pixels = seen
-    looks = [Look(cut=Cut.at((0, 0.1, 1), (0, 0, z), style)) for z in (1.3, 2.4, 3.1)]
-    expected = []
-    for look in looks:
-        show(viewport, look=look)
-        viewport.still()
-        expected.append(pixels())
-    viewport.coarse_cuts = True
-    show(viewport, look=looks[0])
-    figures = viewport.frame.figures
-    for look, picture in zip(looks[1:], expected[1:], strict=True):
-        viewport.draw(Frame(MESH, figures, look=look))
-        coarse = pixels()
-        assert (coarse != picture).any()
-        assert viewport.mesh_layer.section.shown
-        assert (np.abs(coarse - picture).max(axis=2) < 60).mean() > 0.6
-        viewport.still()
-        np.testing.assert_array_equal(pixels(), picture)
-    viewport.draw(Frame(MESH, figures, look=looks[1]))
-    assert viewport.pick(100, 75) is not None
-    viewport.draw(Frame(MESH, figures, look=looks[2]))
-    show(viewport, MESH.with_points(MESH.points * 1.0), looks[1])
-    viewport.still()
-    np.testing.assert_array_equal(pixels(), expected[1])
-
-
-def test_a_coarse_cut_of_a_tangled_mesh_survives_what_comes_between_it_and_the_fine_frame(seen, monkeypatch):
-    monkeypatch.setattr("hexmend_app.scene.views.viewport.COARSE_CUT_HEXES", 1)
-    monkeypatch.setattr("hexmend_app.scene.layers.mesh.MANY", 0)
-    viewport, pixels = seen
-    tangled, scale = scrambled(MESH, 1.5), Colours(range=Range.FITTED)
-    looks = [Look(cut=Cut.at((0, 0, 1), (0, 0, z)), colours=scale) for z in (1.3, 2.4)]
-    figures = figures_of(tangled)
-    assert figures.n_inverted
-    viewport.coarse_cuts = True
-    for look in (*looks, looks[0]):
-        viewport.draw(Frame(tangled, figures, look=look))
-        viewport.moving()
-    coarse = pixels()
-    viewport.extend_range((-2.0, 2.0))  # of another view: drawn as it is
-    assert (pixels() != coarse).any()
-    viewport.extend_range(None)
-    viewport.still()
-    fine = pixels()
-    show(viewport, MESH)
-    show(viewport, tangled, looks[0])
-    viewport.still()
-    np.testing.assert_array_equal(pixels(), fine)
-    viewport.draw(Frame(tangled, viewport.frame.figures, look=looks[1]))
-    viewport.clear()
-    viewport.still()
-    pixels()
 
 
 def test_faces_turned_inside_out_are_seen(seen):
