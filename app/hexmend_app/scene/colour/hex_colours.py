@@ -78,10 +78,9 @@ class HexColours:
     @property
     def special_counts(self) -> list[tuple[str, int, tuple[int, int, int]]]:
         """Name, number of hexes and colour of each special colour."""
+        colours = self.colouring.special_colours
         if self._counts is None or self._counts[0] is not self.kinds:
             self._counts = self.kinds, np.bincount(self.kinds)
-        counts = np.zeros(len(self.colouring.special_colours) + 1, dtype=np.int64)
-        known = self._counts[1][: len(counts)]
-        counts[: len(known)] = known
-        pairs = zip(self.colouring.special_colours, counts[1:], strict=False)
-        return [(special.name, int(count), special.colour) for special, count in pairs]
+        counts = [*self._counts[1].tolist(), *(0 for _ in colours)]
+        pairs = zip(colours, counts[1:], strict=False)
+        return [(special.name, count, special.colour) for special, count in pairs]

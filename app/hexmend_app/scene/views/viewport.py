@@ -234,7 +234,10 @@ class Viewport:
 
     @property
     def places(self) -> np.ndarray:
-        """Points that a fitted camera includes, (k, 3): of everything shown, or of the mesh if nothing is shown."""
+        """Points that a fitted camera includes, (k, 3): of everything shown, or of the mesh if nothing is shown.
+
+        A cut that is drawn coarsely is drawn as it is first.
+        """
         self._finish_cut()
         places = np.concatenate([self.mesh_layer.places, self.overlay_layers.places])
         mesh = self.frame.mesh

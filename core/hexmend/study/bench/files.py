@@ -74,6 +74,8 @@ def _files() -> dict[str, Any]:
 
 def _lines(figures: dict[str, Any]) -> list[str]:
     lines = [
+        f"five-side, {figures['hexes']:,} hexes",
+        "",
         "| file | size, MB | written, s | read, s | memory to read, in arrays of the mesh |",
         "|:---|---:|---:|---:|---:|",
     ]
@@ -84,5 +86,4 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     return lines
 
 
-_TITLE = f"Files of five-side with {_SIZE:,} hexes ({_VARIABLE} names another number)"
-FILES = BenchSection("files", _TITLE, _files, _lines)
+FILES = BenchSection("files", f"Files of a mesh of the size {_VARIABLE} or {_SIZE:,} hexes", _files, _lines)
