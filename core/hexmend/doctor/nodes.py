@@ -6,8 +6,8 @@ import numpy as np
 
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.doctor.removal import has_repeated_node, referenced_nodes, renumber_nodes
-from hexmend.mesh.close_pairs import close_pairs
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology.close_pairs import close_pairs
 from hexmend.mesh.topology.components import components
 from hexmend.terminal_text import count_phrase
 

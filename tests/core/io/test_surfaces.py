@@ -8,7 +8,7 @@ from hexmend.errors import FileError
 from hexmend.io import read_surface
 from hexmend.io.surfaces import SURFACE_FORMATS
 from hexmend.io.surfaces.merge_points import merge_points
-from hexmend.mesh.close_pairs import LATTICE_FREE_DIRECTION
+from hexmend.mesh.topology.close_pairs import LATTICE_FREE_DIRECTION
 
 pv = pytest.importorskip("pyvista")
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from hexmend.mesh.close_pairs import close_pairs
+from hexmend.mesh.topology.close_pairs import close_pairs
 
 
 def as_set(pairs):

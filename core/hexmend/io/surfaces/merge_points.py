@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.arrays import differing_rows, mask
-from hexmend.mesh.close_pairs import LATTICE_FREE_DIRECTION, close_pairs
+from hexmend.mesh.topology.close_pairs import LATTICE_FREE_DIRECTION, close_pairs
 from hexmend.mesh.topology.components import components
 
 #: Points at a smaller distance, relative to the diagonal of the bounding box, are merged.
