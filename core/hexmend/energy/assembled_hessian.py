@@ -55,7 +55,7 @@ class AssembledHessian(SymmetricOperator):
     """
 
     def __init__(self, sparsity: BlockSparsity, off_diagonal: np.ndarray, diagonal: np.ndarray, exponent: int = 0):
-        super().__init__(3 * sparsity.nodes.size)
+        super().__init__(3 * sparsity.order.size)
         self.sparsity, self.off_diagonal, self.diagonal, self.exponent = sparsity, off_diagonal, diagonal, exponent
         self.order = sparsity.order
         #: Matrix of all free nodes from which this one of fewer was made; see `hexmend.energy.reduction`.
@@ -76,11 +76,15 @@ class AssembledHessian(SymmetricOperator):
 
     def underflows(self) -> bool:
         """Return True if the blocks are so small that single precision loses digits of them."""
-        return float(np.abs(self.diagonal).max(initial=0.0)) < _SINGLE_UNDERFLOW
+        return self._largest(self.diagonal) < _SINGLE_UNDERFLOW
+
+    def _largest(self, numbers: np.ndarray) -> float:
+        """Return the largest absolute value of some numbers of each rank."""
+        return self.sparsity.ranks.greatest(float(np.abs(numbers).max(initial=0.0)))
 
     def normalised(self, dtype: type) -> AssembledHessian:
         """Return the matrix in another precision, scaled so that its largest diagonal entry lies in [1/2, 1)."""
-        exponent = int(np.frexp(np.abs(self.diagonal).max(initial=0.0))[1])
+        exponent = int(np.frexp(self._largest(self.diagonal))[1])
         off_diagonal, diagonal = (
             np.ldexp(blocks, -exponent).astype(dtype) for blocks in (self.off_diagonal, self.diagonal)
         )
@@ -137,15 +141,18 @@ class AssembledHessian(SymmetricOperator):
             For a right-hand side of another shape or type.
         """
         right = self._vector(right, "the right-hand side")
-        size = float(np.abs(right).max(initial=0.0))
+        size = self._largest(right)
         if size == 0 or not np.isfinite(size):
             return CGResult(np.zeros(right.size), 0, False)
         exponent = int(np.frexp(size)[1])
         b = self._to_slots(right, -exponent)  # scaling by a power of two is exact
-        x, work = np.empty_like(b), self.sparsity.workspace.array((40 * self.order.size + 16,), b.dtype.type)
-        count, end = kernels.solve(
-            self.sparsity.pattern, self.off_diagonal, self.diagonal, damping, b, tolerance, iterations, x, work
-        )
+        sparsity, x = self.sparsity, np.empty_like(b)
+        coupled = sparsity.ranks.count > 1
+        size = kernels.workspace_size(self.order.size, sparsity.ghosts, coupled)
+        coupling = (sparsity.ghosts, sparsity.ranks.sum, sparsity.exchange) if coupled else ()
+        work = sparsity.workspace.array((size,), b.dtype.type)
+        blocks = self.off_diagonal, self.diagonal
+        count, end = kernels.solve(sparsity.pattern, *blocks, damping, b, tolerance, iterations, x, work, *coupling)
         solution = self._from_slots(x, exponent - self.exponent)
         return CGResult(solution, count, end is kernels.SolveStatus.NEGATIVE_CURVATURE)
 

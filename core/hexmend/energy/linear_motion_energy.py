@@ -52,6 +52,8 @@ class LinearMotionEnergy(MeshEnergy):
         The boundary slides.
     """
 
+    has_parts = False
+
     def __init__(self, energy: MeshEnergy):
         super().__init__(energy.mesh, energy.norm, energy.omitted)
         self.unit, self._lengths, self.target = energy.unit, energy._lengths, energy.target

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
 
@@ -18,11 +19,13 @@ from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.target import wanted_lengths
 from hexmend.energy.workspace import Workspace
-from hexmend.kernels import assembly, step_limits, threads
+from hexmend.kernels import assembly, local, step_limits, threads
 from hexmend.kernels import objective as kernels
+from hexmend.kernels.local import NodeStepSettings
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
+from hexmend.ranks.ranks import ONE_RANK, Ranks
 
 #: Longest over shortest target length of a hex up to which single precision is enough for the Hessian: the terms of its
 #: directions differ by the square.
@@ -67,6 +70,12 @@ class MeshEnergy:
 
     #: True if nodes slide on a surface of triangles: its creases slow down Newton's method.
     faceted = False
+    #: The ranks among which the hexes are divided; values and slopes are sums over all of them.
+    ranks: Ranks = ONE_RANK
+    #: True if nodes move independently of each other, so that the energy of a part of the mesh has the same form.
+    has_parts = True
+    #: The hexes that this rank counts, as an index of (m,).
+    counted: slice | np.ndarray = slice(None)
 
     def __init__(self, mesh: Mesh, norm: ObjectiveNorm = SQUARES, omitted: np.ndarray | None = None):
         self.mesh = mesh
@@ -136,9 +145,26 @@ class MeshEnergy:
     @property
     def cube_value(self) -> float:
         """Value of the energy if all hexes are cubes, or as the target wants them, and delta is 0."""
-        return self.norm.cube_value * self.mesh.n_hexes
+        return self.norm.cube_value * self.n_hexes
 
-    def on_part(self, part: Mesh, hexes: np.ndarray) -> MeshEnergy:
+    @property
+    def n_hexes(self) -> int:
+        """Number of hexes, of all ranks."""
+        return self.mesh.n_hexes
+
+    def count(self, marks: np.ndarray) -> int:
+        """Count the marked hexes of all ranks; marks (m,), marked where they are not 0."""
+        return self.ranks.sum(int(np.count_nonzero(marks[self.counted])))
+
+    def smallest(self, values: np.ndarray, number: int, most: float) -> float:
+        """Return a value (m,) of the hexes of all ranks, the first being number 0 in ascending order; or `most`."""
+        return min(float(np.partition(values, number)[number]), most)
+
+    def mean(self, values: np.ndarray) -> float:
+        """Return the mean of a value (m,) of the hexes of all ranks."""
+        return self.ranks.sum(float(values[self.counted].sum())) / self.n_hexes
+
+    def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray) -> MeshEnergy:
         """Return the energy of a part of the mesh, as a function of the free nodes of the part.
 
         Parameters
@@ -147,6 +173,8 @@ class MeshEnergy:
             Its hexes are some of this mesh.
         hexes : (k,) int
             Their numbers in this mesh.
+        nodes : (j,) int
+            Numbers of its nodes in this mesh.
 
         Returns
         -------
@@ -154,12 +182,16 @@ class MeshEnergy:
             Of positions in mean edge lengths of this mesh, with its norm, omitted corners and target.
         """
         energy = MeshEnergy(part, self.norm, self.omitted[hexes])
+        self._give_to_part(energy, hexes)
+        return energy
+
+    def _give_to_part(self, energy: MeshEnergy, hexes: np.ndarray) -> None:
+        """Give the unit, barrier and target of some hexes (k,) to the energy of a part."""
         energy.unit = self.unit
         energy.barrier = None if self.barrier is None else self.barrier.on_part(hexes)
         if self._lengths is not None:
             lengths, weight = self._lengths[hexes], self.mesh.element_target.size_weight
             energy._lengths, energy.target = lengths, TargetMatrices(self.unit / lengths, weight)
-        return energy
 
     def with_objective(self, norm: ObjectiveNorm, omitted: np.ndarray) -> MeshEnergy:
         """Return a copy with another norm and other omitted corners; the data that depend on the mesh alone are shared.
@@ -213,7 +245,10 @@ class MeshEnergy:
         p, offset = self.norm
         eta = self.hex_energies(x, delta, offset)
         with np.errstate(over="ignore"):  # near the barrier, or with a node far away, it is infinite
-            return float((np.square(eta) if p == 2 else np.power(eta, p)).sum() + np.sum(self.barriers(x)))
+            values = (np.square(eta) if p == 2 else np.power(eta, p))[self.counted]
+            barriers = self.barriers(x)
+            own = float(values.sum() + (0.0 if np.isscalar(barriers) else barriers[self.counted].sum()))
+        return self.ranks.sum(own)
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Compute the gradient with respect to the free nodes at points x (n, 3), (k, 3): (B.3), (B.21), (C.2)."""
@@ -229,7 +264,7 @@ class MeshEnergy:
 
     def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
         """Compute the slope of `value` at x along a step (k, 3) of the free nodes from the gradient (k, 3) there."""
-        return dot(step, gradient)
+        return self.ranks.sum(dot(step, gradient))
 
     def infeasible_nodes(
         self, x: np.ndarray, moved: np.ndarray, changed: np.ndarray | None = None
@@ -242,7 +277,16 @@ class MeshEnergy:
 
     def with_masters(self, marks: np.ndarray) -> np.ndarray:
         """Return marks of nodes, (n,) bool, to which the nodes are added that others of them move with."""
-        return marks
+        return self.ranks.complete(marks)
+
+    def sweep(self, x: np.ndarray, chosen: np.ndarray) -> Callable[[NodeStepSettings], None]:
+        """Make a function that sweeps over chosen nodes (n,) bool with local steps; it changes their rows of x (n, 3).
+
+        No two nodes of a hex move at once.
+        """
+        topology = self.mesh.topology
+        colours = topology.colouring(chosen)
+        return lambda settings: local.sweep(x, topology.hex_mesh, colours.start, colours.items, settings)
 
     @property
     def _corner_buffer(self) -> np.ndarray:

@@ -41,6 +41,8 @@ class SlidingEnergy(MeshEnergy):
         Nodes that are projected.
     """
 
+    has_parts = False
+
     def __init__(
         self,
         sliding: SlidingBoundary,

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 
@@ -14,6 +16,7 @@ from hexmend.kernels.assembly import HexShares
 from hexmend.kernels.conjugate_gradients import BlockPattern
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
+from hexmend.ranks.ranks import ONE_RANK, Ranks
 
 #: Numbers of slots from which on they are divided into 2, 4 and 8 parts that threads solve in parallel.
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))
@@ -31,6 +34,10 @@ class BlockSparsity:
         Number of parts of the slots; chosen by the number of free nodes by default.
     workspace : Workspace, optional
         For the solution of systems; by default one of its own.
+    owned : (n,) bool, optional
+        Nodes of this rank where a mesh is divided among several; the other free nodes are ghosts.
+    ranks : Ranks, optional
+        The ranks that share the matrix.
 
     Raises
     ------
@@ -39,24 +46,37 @@ class BlockSparsity:
 
     Attributes
     ----------
-    nodes : (k,) int32
-        Node in each slot.
+    nodes : (k + ghosts,) int32
+        Node in each slot; ghosts come last.
+    ghosts : int
+        Number of ghosts.
     bounds : (2 parts,) int32
         Limits of the parts, then of the separators, in slots.
     order : (k,) int64
-        Slot of each free node, in the order of node numbers.
-    row_start, columns : (k + 1,) int32, (blocks,) int32
+        Slot of each free node of this rank, in the order of node numbers.
+    row_start, columns : (k + ghosts + 1,) int32, (blocks,) int32
         Blocks above the diagonal, as compressed rows.
     """
 
-    def __init__(self, mesh: Mesh, parts: int | None = None, workspace: Workspace | None = None):
-        self.workspace = workspace or Workspace()
+    def __init__(
+        self,
+        mesh: Mesh,
+        parts: int | None = None,
+        workspace: Workspace | None = None,
+        owned: np.ndarray | None = None,
+        ranks: Ranks = ONE_RANK,
+    ):
+        self.workspace, self.ranks = workspace or Workspace(), ranks
         corners, rings = mesh.topology.node_corners, mesh.topology.rings
+        free = mesh.free if owned is None else mesh.free & owned
         if parts is None:
-            free = np.count_nonzero(mesh.free)
-            parts = max((parts for least, parts in _PARTS if free >= least), default=1)
-        self.nodes, self.bounds = ordering.slots(mesh.hexes, rings.start, rings.items, mesh.free, parts)
-        self.order = np.argsort(self.nodes)
+            count = np.count_nonzero(free)
+            parts = max((parts for least, parts in _PARTS if count >= least), default=1)
+        self.nodes, self.bounds = ordering.slots(mesh.hexes, rings.start, rings.items, free, parts)
+        self.order, self.ghosts = np.argsort(self.nodes), 0
+        if owned is not None:
+            ghosts = np.flatnonzero(mesh.free & ~owned).astype(np.int32)
+            self.nodes, self.ghosts = np.concatenate([self.nodes, ghosts]), ghosts.size
         self._slot_of_node = index_of(self.nodes, mesh.n_nodes)
         slots = self._slot_of_node[mesh.hexes]
         with overflow_as_mesh_error("pairs of free nodes that share a hex"):
@@ -103,8 +123,14 @@ class BlockSparsity:
 
     @property
     def pattern(self) -> BlockPattern:
-        """`bounds`, `row_start` and `columns` as kernels take them; a view, cheap to make."""
-        return BlockPattern(self.bounds, self.row_start, self.columns)
+        """`bounds`, `row_start` and `columns` of the rows of this rank; a view, cheap to make."""
+        row_start = self.row_start[: self.order.size + 1]
+        return BlockPattern(self.bounds, row_start, self.columns[: row_start[-1]])
+
+    @cached_property
+    def exchange(self) -> Callable[[np.ndarray], object]:
+        """Function that writes the rows of ghosts of an array (k + ghosts, ...) with a row for each slot."""
+        return self.ranks.exchange_of(self._slot_of_node)
 
     @property
     def blocks(self) -> int:

@@ -30,11 +30,16 @@ class BlockPattern:
         above the diagonal, `sparsity.pattern`. Arrays are not copied.
         """
 
-@overload
-def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> tuple[int, SolveStatus]: ...
+def workspace_size(slots: int, ghosts: int = 0, coupled: bool = False) -> int:
+    """
+    Numbers of the workspace of `solve`; `coupled`: with `sum` and `exchange`.
+    """
 
 @overload
-def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> tuple[int, SolveStatus]:
+def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')], ghosts: int = 0, sum: object | None = None, exchange: object | None = None) -> tuple[int, SolveStatus]: ...
+
+@overload
+def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], ghosts: int = 0, sum: object | None = None, exchange: object | None = None) -> tuple[int, SolveStatus]:
     """
     Solve A x = rhs, stopping at a direction of negative curvature (Steihaug 1983).
 
@@ -43,8 +48,12 @@ def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64],
 
     off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:
     this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand
-    side, both in the norm of M^-1. work (40 k + 16,): workspace. Writes x; returns the iterations and the
+    side, both in the norm of M^-1. work: see `workspace_size`. Writes x; returns the iterations and the
     status.
+
+    Where several processes share a matrix, its columns from k on belong to ghosts, slots of other
+    processes. `sum` adds a number over all processes; `exchange` is called with an array (k + ghosts, 4)
+    of which it sends rows, and receives those of the ghosts. All processes call it together.
     """
 
 @overload

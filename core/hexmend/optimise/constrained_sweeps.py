@@ -88,7 +88,7 @@ class _Colour:
         own = Mesh(mesh.points[self._nodes], number[mesh.hexes[hexes]])
         own = own.with_linear_motion(mesh.linear_motion.renumbered(number))
         own = own.with_fixed(index[root[self._nodes]] < 0)
-        self._energy = LinearMotionEnergy(energy.on_part(own, hexes))
+        self._energy = LinearMotionEnergy(energy.on_part(own, hexes, self._nodes))
         # The one independent node at each hex, as a row of the gradient.
         rows = index_of(self._energy.nodes, own.n_nodes)[number[root[self._nodes]]]
         self._row = rows[own.hexes].max(axis=1)

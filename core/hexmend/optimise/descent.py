@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.arrays import differing_rows, euclidean_norm
+from hexmend.arrays import differing_rows
 from hexmend.energy import MeshEnergy
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten
 from hexmend.optimise.search_direction import DirectionMethod, SearchDirection, steepest_descent
+from hexmend.ranks.ranks import ONE_RANK, Ranks
 
 
 @dataclass(frozen=True)
@@ -119,14 +120,14 @@ def descend(
     if not np.isfinite(value):
         return None
     gradient = energy.gradient(x, delta)
-    length = euclidean_norm(gradient)
+    length = energy.ranks.norm(gradient)
     if not np.isfinite(length):
         return None
     if is_perfect(energy, value, delta):
         return Descent(x, value, 0.0, length, SearchDirection(np.zeros_like(gradient)), 0.0, 0)
     hessian = energy.hessian(x, delta)
     found = direction(value, gradient, hessian)  # A.2, A.3, A.4
-    if not np.isfinite(found.vector).all():
+    if energy.ranks.any(~np.isfinite(found.vector)):
         found = steepest_descent(value, gradient, hessian)
     slope = _limit(energy, x, delta, found.vector, gradient, max_step)
     if not slope < 0:
@@ -157,7 +158,7 @@ def _limit(
     by_edges: bool = True,
 ) -> float:
     """Limit a step (k, 3), changed, to the range of numbers, `max_step` and the hexes around; returns its slope."""
-    shorten_to_range(step, energy.unit)
+    shorten_to_range(step, energy.unit, energy.ranks)
     if np.isfinite(max_step):
         if by_edges:
             ring = energy.mesh.topology.rings
@@ -166,9 +167,9 @@ def _limit(
     return energy.directional_derivative(x, delta, step, gradient)
 
 
-def shorten_to_range(step: np.ndarray, unit: float) -> None:
+def shorten_to_range(step: np.ndarray, unit: float, ranks: Ranks = ONE_RANK) -> None:
     """Shorten a step (k, 3), changed, that would overflow; `unit` is its unit of length in units of the mesh."""
-    size = float(np.abs(step).max(initial=0.0))
+    size = ranks.greatest(float(np.abs(step).max(initial=0.0)))
     if size > DESCENT.max_coordinate / unit:
         step *= DESCENT.max_coordinate / unit / size
 
@@ -197,7 +198,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
         share[halved & (share <= DESCENT.stay_below)] = 0.0
         halved[hexes[worsened]] = True
         halved = energy.with_masters(halved)
-        if not halved.any():
+        if not energy.ranks.any(halved):
             break
         share[halved] *= 0.5
     else:
@@ -211,4 +212,4 @@ def is_perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
     eta = DESCENT.cube_rounding * np.finfo(float).eps
     # Softened, a hex may have less energy than a cube.
     highest = energy.norm.contribution(eta) if delta == 0 else eta**energy.norm.p
-    return bool(value <= energy.mesh.n_hexes * highest)
+    return bool(value <= energy.n_hexes * highest)

@@ -7,7 +7,6 @@ from typing import Protocol
 
 import numpy as np
 
-from hexmend.arrays import euclidean_norm
 from hexmend.energy import Hessian
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.optimise.blas_threads import one_blas_thread
@@ -115,7 +114,7 @@ class TruncatedNewton:
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
         config, matrix = self.config, hessian.assembled(reuse=self._matrix)
         self._matrix = matrix
-        right, tolerance = -gradient.ravel(), self._tolerance(gradient)
+        right, tolerance = -gradient.ravel(), self._tolerance(hessian.energy.ranks.norm(gradient))
         solved = matrix.solve(right, tolerance, config.iterations, self._damping)
         count, damping = solved.iterations, self._damping
         for _ in range(config.max_damping_increases):
@@ -129,8 +128,8 @@ class TruncatedNewton:
             self._damping = 0.0
         return SearchDirection(solved.x.reshape(-1, 3), count, damping)
 
-    def _tolerance(self, gradient: np.ndarray) -> float:
-        length = euclidean_norm(gradient)
+    def _tolerance(self, length: float) -> float:
+        """Return the tolerance at a gradient of this length."""
         if self._first == np.inf:
             self._first = self._last = length
         if length == 0:

@@ -7,16 +7,46 @@
 namespace hexmend {
 namespace {
 
+// The functions of Python by which processes are coupled; the caller holds them, and the interpreter's lock is not
+// held.
+template <class Real>
+Coupling<Real> coupling_of(std::int64_t slots, std::int64_t ghosts, nb::handle sum, nb::handle exchange) {
+    if (sum.is_none()) return {};
+    return {ghosts,
+            [sum](double own) {
+                nb::gil_scoped_acquire lock;
+                return nb::cast<double>(sum(own));
+            },
+            [=](std::array<Real, 4> *t) {
+                nb::gil_scoped_acquire lock;
+                nb::ndarray<nb::numpy, Real, nb::ndim<2>> rows(t, {static_cast<std::size_t>(slots + ghosts), 4},
+                                                               nb::handle());
+                exchange(nb::cast(rows, nb::rv_policy::reference));
+            }};
+}
+
 template <class Real> void bind_for(nb::module_ m) {
-    m.def("solve", &solve<Real>, "pattern"_a, "off_diagonal"_a, "diagonal"_a, "damping"_a, "rhs"_a, "tolerance"_a,
-          "max_iterations"_a, "x"_a, "work"_a, ReleaseGil(),
-          "Solve A x = rhs, stopping at a direction of negative curvature (Steihaug 1983).\n\n"
-          "At such a direction x is the iterate so far or, if it is the first, that direction. Vectors, (k, 4)\n"
-          "with a fourth number 0, are in the precision of the matrix; sums over them are in double precision.\n\n"
-          "off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:\n"
-          "this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand\n"
-          "side, both in the norm of M^-1. work (40 k + 16,): workspace. Writes x; returns the iterations and the\n"
-          "status.");
+    m.def(
+        "solve",
+        [](const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, DiagonalBlocks<Real> diagonal, double damping,
+           Vectors<Real> right, double tolerance, int max_iterations, std::span<std::array<Real, 4>> x,
+           std::span<Real> work, std::int64_t ghosts, nb::handle sum, nb::handle exchange) {
+            auto coupling = coupling_of<Real>(pattern.bounds.back(), ghosts, sum, exchange);
+            return solve<Real>(pattern, off_diagonal, diagonal, damping, right, tolerance, max_iterations, x, work,
+                               coupling);
+        },
+        "pattern"_a, "off_diagonal"_a, "diagonal"_a, "damping"_a, "rhs"_a, "tolerance"_a, "max_iterations"_a, "x"_a,
+        "work"_a, "ghosts"_a = 0, "sum"_a.none() = nb::none(), "exchange"_a.none() = nb::none(), ReleaseGil(),
+        "Solve A x = rhs, stopping at a direction of negative curvature (Steihaug 1983).\n\n"
+        "At such a direction x is the iterate so far or, if it is the first, that direction. Vectors, (k, 4)\n"
+        "with a fourth number 0, are in the precision of the matrix; sums over them are in double precision.\n\n"
+        "off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:\n"
+        "this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand\n"
+        "side, both in the norm of M^-1. work: see `workspace_size`. Writes x; returns the iterations and the\n"
+        "status.\n\n"
+        "Where several processes share a matrix, its columns from k on belong to ghosts, slots of other\n"
+        "processes. `sum` adds a number over all processes; `exchange` is called with an array (k + ghosts, 4)\n"
+        "of which it sends rows, and receives those of the ghosts. All processes call it together.");
     m.def("to_slots", &to_slots<Real>, "of_nodes"_a, "order"_a, "scale"_a, "of_slots"_a, ReleaseGil(),
           "Write vectors of nodes (k, 3), times a scale, to slots (k, 4), whose fourth number becomes 0.\n\n"
           "Row k of of_nodes belongs to slot order[k], int64.");
@@ -52,6 +82,8 @@ void bind_conjugate_gradients(nb::module_ m) {
             nb::keep_alive<1, 4>(),
             "bounds (2 parts,) int32: `ordering.slots`; row_start (k + 1,) and columns (blocks,) int32: blocks\n"
             "above the diagonal, `sparsity.pattern`. Arrays are not copied.");
+    m.def("workspace_size", &workspace_size, "slots"_a, "ghosts"_a = 0, "coupled"_a = false,
+          "Numbers of the workspace of `solve`; `coupled`: with `sum` and `exchange`.");
     bind_for<float>(m);
     bind_for<double>(m);
 }

@@ -1,6 +1,7 @@
 // Symmetric matrix of 3 x 3 blocks, such as an assembled Hessian, and loops over its rows.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -60,7 +61,7 @@ template <class Real> using DiagonalBlocks = std::span<const std::array<Real, 6>
 template <class Real> using Vectors = std::span<const std::array<Real, 4>>;
 
 // Pattern of a matrix: bounds (2 parts,) of the parts of slots and then of the separators, see sparsity.hpp; row_start
-// (k + 1,) and columns of the blocks above the diagonal.
+// (k + 1,) and columns of the blocks above the diagonal. Columns from k on belong to ghosts, slots of another process.
 struct BlockPattern {
     Indices bounds, row_start, columns;
 };
@@ -85,9 +86,18 @@ template <class Real, class Number = Real> class BlockMatrix {
     template <class Body> double over_separators(const Body &body) { return over(parts_, 2 * parts_ - 1, body); }
 
     // Row i above the diagonal times t. The nearest column, which a back substitution computes last, comes last.
-    V row_times(std::int32_t i, const V *t) const {
+    V row_times(std::int32_t i, const V *t) const { return row_times_from(row_start_[i], i, t); }
+
+    // First block of row i in a column of a ghost; the end of the row if there is none. Columns ascend.
+    std::int32_t first_ghost(std::int32_t i) const {
+        auto first = columns_.begin() + row_start_[i], last = columns_.begin() + row_start_[i + 1];
+        return static_cast<std::int32_t>(std::lower_bound(first, last, size_) - columns_.begin());
+    }
+
+    // Row i from block `first` on times t.
+    V row_times_from(std::int32_t first, std::int32_t i, const V *t) const {
         V x{}, y{}, z{};
-        for (auto s = row_start_[i + 1] - 1; s >= row_start_[i]; --s) {
+        for (auto s = row_start_[i + 1] - 1; s >= first; --s) {
             const V &of = t[columns_[s]];
             x += row(s, 0) * of, y += row(s, 1) * of, z += row(s, 2) * of;
         }

@@ -42,23 +42,31 @@ template <class Real> class PreconditionedCG {
   public:
     using V = Vec4<Real>;
 
-    // Size of the workspace in numbers: two blocks and six vectors for each slot, and alignment.
-    static constexpr std::int64_t workspace_size(std::int64_t slots) { return 40 * slots + 16; }
-
-    PreconditionedCG(BlockMatrix<Real> &system, DiagonalBlocks<Real> diagonal, double damping, std::span<Real> work)
-        : system_(system), own_(diagonal), share_(static_cast<Real>((2 + damping) / (1 + damping))) {
+    PreconditionedCG(BlockMatrix<Real> &system, DiagonalBlocks<Real> diagonal, double damping, std::span<Real> work,
+                     const Coupling<Real> &coupling)
+        : system_(system),
+          own_(diagonal),
+          share_(static_cast<Real>((2 + damping) / (1 + damping))),
+          coupling_(coupling) {
         void *free = work.data();
         std::size_t left = work.size_bytes();
         free = std::align(alignof(V), left - alignof(V), free, left);
-        auto take = [&](auto &array) {
+        auto take = [&](auto &array, std::int64_t size) {
             using T = std::remove_reference_t<decltype(*array)>;
             array = static_cast<T *>(free);
-            free = array + system.size();
+            free = array + size;
         };
-        take(positive_), take(inverse_);
-        for (auto *vector : {&residual_, &v_, &t_, &product_, &w_[0], &w_[1]}) take(*vector);
+        const auto size = system.size(), all = size + coupling.ghosts;
+        take(positive_, size), take(inverse_, size);
+        for (auto *vector : {&residual_, &v_, &product_}) take(*vector, size);
+        for (auto *vector : {&t_, &w_[0], &w_[1]}) {
+            take(*vector, all);
+            std::fill(*vector + size, *vector + all, V{});
+        }
+        if (coupling.exchange) take(from_ghosts_, size);
         sum_over_slots([&](std::int32_t i) {
             v_[i] = w_[0][i] = w_[1][i] = V{};
+            if (from_ghosts_) from_ghosts_[i] = V{};
             auto [d, inverse] = make_positive_definite(widened(diagonal[i]));
             positive_[i] = half_block<Real>((1 + damping) * d);
             inverse_[i] = half_block<Real>((1 / (1 + damping)) * inverse);
@@ -86,12 +94,14 @@ template <class Real> class PreconditionedCG {
         };
         system_.over_separators(back);
         system_.over_parts(back);
+        if (coupling_.exchange) add_ghosts();
     }
 
-    // Compute product = (D + L)^-1 A t = t + (D + L)^-1 (v + rest t); returns its product with v.
+    // Compute product = (D + L)^-1 A t = t + (D + L)^-1 (v + R t + rest t); returns its product with v.
     double curvature() {
         return system_.forward(w_, [&](std::int32_t i, const V &below) {
-            V p = inverse_[i] * (v_[i] + rest(i) * t_[i] - below);
+            V right = from_ghosts_ ? v_[i] + from_ghosts_[i] : v_[i];
+            V p = inverse_[i] * (right + rest(i) * t_[i] - below);
             product_[i] = p + t_[i];
             return std::pair{p, dot(v_[i], product_[i])};
         });
@@ -122,6 +132,8 @@ template <class Real> class PreconditionedCG {
     Real share_;
     HalfBlock<Real> *positive_, *inverse_;  // D and D^-1, damped
     V *residual_, *v_, *t_, *product_;
+    const Coupling<Real> &coupling_;
+    V *from_ghosts_ = nullptr;  // R t, if processes are coupled
     // Contributions of rows to later rows; two vectors, because two parts add to one separator.
     V *w_[2];
 
@@ -130,6 +142,16 @@ template <class Real> class PreconditionedCG {
         const auto &a = own_[i];
         return {V{a[0], a[1], a[2], 0} - share_ * positive_[i].first,
                 V{a[3], a[4], a[5], 0} - share_ * positive_[i].second};
+    }
+
+    // Receive t of the ghosts, and compute R t; their t is 0 again afterwards, for the next back substitution.
+    void add_ghosts() {
+        coupling_.exchange(reinterpret_cast<std::array<Real, 4> *>(t_));
+        sum_over_slots([&](std::int32_t i) {
+            from_ghosts_[i] = system_.row_times_from(system_.first_ghost(i), i, t_);
+            return 0.0;
+        });
+        std::fill(t_ + system_.size(), t_ + system_.size() + coupling_.ghosts, V{});
     }
 
     double square_of_residual(std::int32_t i) { return dot(residual_[i], positive_[i] * residual_[i]); }
@@ -150,24 +172,27 @@ template <class Real> class PreconditionedCG {
 template <class Real>
 std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal,
                                   DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
-                                  int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work) {
+                                  int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work,
+                                  const Coupling<Real> &coupling) {
     BlockMatrix<Real> system(pattern, off_diagonal);
-    if (static_cast<std::int64_t>(work.size()) < PreconditionedCG<Real>::workspace_size(system.size()))
-        throw std::invalid_argument("work is too small: 40 numbers a slot, and 16, are needed");
-    PreconditionedCG<Real> solver(system, diagonal, damping, work);
+    if (static_cast<std::int64_t>(work.size()) <
+        workspace_size(system.size(), coupling.ghosts, static_cast<bool>(coupling.exchange)))
+        throw std::invalid_argument("work is too small: see `workspace_size`");
+    PreconditionedCG<Real> solver(system, diagonal, damping, work, coupling);
+    auto total = [&](double own) { return coupling.sum ? coupling.sum(own) : own; };
     std::fill(x.begin(), x.end(), std::array<Real, 4>{});
-    double square = solver.start(right);
+    double square = total(solver.start(right));
     if (square == 0) return {0, DONE};
     double goal = tolerance * tolerance * square, beta = 0;
     for (int count = 1; count <= max_iterations; ++count) {
         solver.next_direction(static_cast<Real>(beta));
-        double curvature = solver.curvature();
+        double curvature = total(solver.curvature());
         if (!(curvature > 0)) {
             if (count == 1) solver.fall_back(std::isfinite(curvature), right, x);
             return {count, NEGATIVE_CURVATURE};
         }
         double before = square;
-        square = solver.advance(static_cast<Real>(square / curvature), x);
+        square = total(solver.advance(static_cast<Real>(square / curvature), x));
         if (square <= goal) return {count, DONE};
         beta = square / before;
     }
@@ -213,7 +238,7 @@ void product(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, Diagon
 #define FOR_REAL(Real)                                                                                                \
     template std::pair<int, SolveStatus> solve(const BlockPattern &, UpperBlocks<Real>, DiagonalBlocks<Real>, double, \
                                                Vectors<Real>, double, int, std::span<std::array<Real, 4>>,            \
-                                               std::span<Real>);                                                      \
+                                               std::span<Real>, const Coupling<Real> &);                              \
     template void product(const BlockPattern &, UpperBlocks<Real>, DiagonalBlocks<Real>,                              \
                           std::span<const std::int64_t>, Points, std::span<Point>);                                   \
     template void to_slots(Points, std::span<const std::int64_t>, double, std::span<std::array<Real, 4>>);            \

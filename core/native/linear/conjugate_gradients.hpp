@@ -6,10 +6,14 @@
 //
 //     (D + L)^-1 A t = t + (D + L)^-1 (v - (2 D - A_D) t).
 //
+// Where several processes share a matrix, each has the rows of its own slots, with columns of ghosts, and D, L and U
+// are those of its own slots: with the blocks R of the ghosts, R t joins v, t of the ghosts being received beforehand.
+//
 // Slots are ordered in parts that share no block, followed by separators (`slots`): forward substitution solves
 // the parts in parallel and then the separators, backward substitution the reverse.
 #pragma once
 
+#include <functional>
 #include <tuple>
 
 #include "linear/block_matrix.hpp"
@@ -19,15 +23,30 @@ namespace hexmend {
 // Result of a solve: converged; stopped at a direction of negative curvature; too many iterations.
 enum SolveStatus { DONE, NEGATIVE_CURVATURE, TOO_MANY };
 
+// Contributions of the other processes that share a matrix; without functions there are none. Ghosts are the slots that
+// follow the own ones. All processes call `exchange`, with ghosts or without: others may need slots of theirs.
+template <class Real> struct Coupling {
+    std::int64_t ghosts = 0;
+    std::function<double(double)> sum;  // over all processes
+    // Send rows of t (slots + ghosts, 4), and receive those of the ghosts.
+    std::function<void(std::array<Real, 4> *t)> exchange;
+};
+
+// Numbers of the workspace of `solve`.
+constexpr std::int64_t workspace_size(std::int64_t slots, std::int64_t ghosts, bool coupled) {
+    return 40 * slots + (coupled ? 4 * slots + 12 * ghosts : 0) + 16;
+}
+
 // Solve A x = right in the precision of the matrix; returns the iterations and the status.
 //
 // damping adds that multiple of D to the diagonal. The tolerance is relative to the right-hand side, both in the norm
 // of M^-1; max_iterations limits the iterations. At a direction of negative curvature (Steihaug 1983) x is the iterate
-// so far or, if it is the first, that direction. Vectors are (k, 4), see block_matrix.hpp; work has 40 k + 16 numbers.
+// so far or, if it is the first, that direction. Vectors are (k, 4), see block_matrix.hpp; work: `workspace_size`.
 template <class Real>
 std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal,
                                   DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
-                                  int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work);
+                                  int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work,
+                                  const Coupling<Real> &coupling);
 
 // Write right-hand sides or solutions of nodes, scaled, to their slots and back: row k of `of_nodes` belongs to slot
 // order[k]. The fourth number of a slot becomes 0.

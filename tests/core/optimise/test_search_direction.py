@@ -10,6 +10,7 @@ from scipy.sparse.linalg import ArpackNoConvergence
 from hexmend.energy import MeshEnergy
 from hexmend.optimise import search_direction
 from hexmend.optimise.search_direction import ModifiedNewton, TruncatedNewton, TruncatedNewtonConfig
+from hexmend.ranks.ranks import ONE_RANK
 from tests.core.grids import grid, scrambled
 
 CONFIG = TruncatedNewtonConfig()
@@ -21,6 +22,7 @@ class Matrix:
 
     def __init__(self, needed=0.0):
         self.needed, self.asked = needed, []
+        self.energy = SimpleNamespace(ranks=ONE_RANK)
 
     def assembled(self, reuse=None):
         return self

@@ -126,7 +126,8 @@ class CentralPath:
     @property
     def least(self) -> Least:
         """The present least values; inf where nothing can be moved."""
-        return Least(float(self._jacobians.min(initial=np.inf)), float(self._qualities.min(initial=np.inf)))
+        values = self._jacobians, self._qualities
+        return Least(*(self.energy.ranks.least(float(of.min(initial=np.inf))) for of in values))
 
     def move_to(self, x: np.ndarray) -> None:
         """Go to other positions, (n, 3) in mean edge lengths, such as earlier ones."""
@@ -195,8 +196,8 @@ class CentralPath:
     def _centre(self, floors: Least, scale: float, weight: float, config: CentralPathConfig) -> None:
         """Minimise the energy with the barrier of floors, in the part of the mesh where it acts."""
         bands = (
-            _band(self._jacobians - floors.jacobian, scale * config.jacobian_band, config),
-            _band(self._qualities - floors.quality, scale * config.quality_band, config),
+            _band(self.energy, self._jacobians - floors.jacobian, scale * config.jacobian_band, config),
+            _band(self.energy, self._qualities - floors.quality, scale * config.quality_band, config),
         )
         energy, hexes, x = self._around(floors, bands)
         energy = energy.with_barrier(hexes.barrier(floors.jacobian, floors.quality, *bands, weight))
@@ -217,8 +218,8 @@ class CentralPath:
         near = (self._jacobians < floors.jacobian + bands[0]) | (self._qualities < floors.quality + bands[1])
         mesh, core = self.energy.mesh, near
         for _ in range(self.config.rings):
-            core = mask(mesh.hexes[core], mesh.n_nodes)[mesh.hexes].any(axis=1)
-        if type(self.energy) is not MeshEnergy or np.count_nonzero(core) > self.config.whole * mesh.n_hexes:
+            core = self.energy.ranks.complete(mask(mesh.hexes[core], mesh.n_nodes))[mesh.hexes].any(axis=1)
+        if not self.energy.has_parts or self.energy.count(core) > self.config.whole * self.energy.n_hexes:
             self._region = None
             return self.energy, self._hexes, self.x
         self._region = Region(self.energy, np.flatnonzero(core))
@@ -233,12 +234,12 @@ class CentralPath:
         self._jacobians[at], self._qualities[at] = hexes.jacobians(x), hexes.qualities(x)
 
 
-def _band(distances: np.ndarray, band: float, config: CentralPathConfig) -> float:
+def _band(energy: MeshEnergy, distances: np.ndarray, band: float, config: CentralPathConfig) -> float:
     """Narrow a band until not too many of these distances from a floor, (m,), are in it."""
-    limit = max(config.few_hexes, int(config.max_hexes * distances.size))
-    if limit >= distances.size or np.count_nonzero(distances < band) <= limit:
+    limit = max(config.few_hexes, int(config.max_hexes * energy.n_hexes))
+    if limit >= energy.n_hexes or energy.count(distances < band) <= limit:
         return band
-    return max(float(np.partition(distances, limit)[limit]), config.min_band_share * band)
+    return max(energy.smallest(distances, limit, band), config.min_band_share * band)
 
 
 def _next(floor: float, least: float, target: float, share: float) -> float:

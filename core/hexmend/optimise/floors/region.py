@@ -29,12 +29,13 @@ class Region:
 
     def __init__(self, energy: MeshEnergy, hexes: np.ndarray):
         mesh = energy.mesh
-        moves = mask(mesh.hexes[hexes], mesh.n_nodes) & mesh.free
-        self.hexes = attached = np.flatnonzero(moves[mesh.hexes].any(axis=1))
+        moves = energy.ranks.complete(mask(mesh.hexes[hexes], mesh.n_nodes) & mesh.free)
+        attached = np.flatnonzero(moves[mesh.hexes].any(axis=1))
+        self.hexes = attached = attached if attached.size else np.array([0])  # those that move are other ranks'
         self._nodes = np.flatnonzero(mask(mesh.hexes[attached], mesh.n_nodes))
         number = index_of(self._nodes, mesh.n_nodes)
         part = Mesh(mesh.points[self._nodes], number[mesh.hexes[attached]]).with_fixed(~moves[self._nodes])
-        self.energy = energy.on_part(part, attached)
+        self.energy = energy.on_part(part, attached, self._nodes)
 
     def inside(self, x: np.ndarray) -> np.ndarray:
         """Return the positions of the part's nodes, of those of the whole mesh, (n, 3)."""

@@ -109,7 +109,7 @@ def floors_of(energy: MeshEnergy, points: np.ndarray) -> Floors:
     least, quality = CentralPath(energy, points).least, measure(points, energy.mesh.hexes)
     if not least.jacobian > 0:
         return Floors(-np.inf, -np.inf, -np.inf)
-    return Floors(least.jacobian, least.quality, float(quality.q.mean()))
+    return Floors(least.jacobian, least.quality, energy.mean(quality.q))
 
 
 def balance(
@@ -166,11 +166,11 @@ def balance(
             min(floor.quality, _below(top.quality, config.margin)),
         )
         yield from _steps(path, path.minimise_above(floors, config.weights), energy.norm)
-        if not measure(path.points, energy.mesh.hexes).q.mean() < start.mean:
+        if not energy.mean(measure(path.points, energy.mesh.hexes).q) < start.mean:
             break
     else:
         yield from _return_towards(path, energy.to_edge_units(given), start, config.returns)
-    return Balanced(path.points, _message(path, top, float(measure(points, energy.mesh.hexes).q.mean())))
+    return Balanced(path.points, _message(path, top, energy.mean(measure(points, energy.mesh.hexes).q)))
 
 
 def _rise_on(path: CentralPath, target: Least, config: BalanceConfig) -> Iterator[Step]:
@@ -183,7 +183,7 @@ def _rise_on(path: CentralPath, target: Least, config: BalanceConfig) -> Iterato
 
 def _message(path: CentralPath, top: Least, mean_without: float) -> str:
     """Say which floors hold, and what they cost: the mean of q(H) at the optimum of shape is higher, without them."""
-    kept, mean = path.least, float(measure(path.points, path.energy.mesh.hexes).q.mean())
+    kept, mean = path.least, path.energy.mean(measure(path.points, path.energy.mesh.hexes).q)
     message = (
         f"The least scaled Jacobian of the corners that can be moved can be {top.jacobian:.4f}; it is kept at "
         f"{kept.jacobian:.4f} at least, and the least q(H) at {kept.quality:.4f}."
@@ -209,7 +209,7 @@ def _return_towards(path: CentralPath, given: np.ndarray, start: Floors, shares:
         if (
             least.jacobian >= start.jacobian
             and least.quality >= start.quality
-            and not measure(path.points, path.energy.mesh.hexes).q.mean() < start.mean
+            and not path.energy.mean(measure(path.points, path.energy.mesh.hexes).q) < start.mean
         ):
             yield from _steps(path, iter([least]), path.energy.norm)
             return

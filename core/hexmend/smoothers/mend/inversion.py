@@ -76,10 +76,10 @@ def count_inverted(
     points: np.ndarray,
     hexes: np.ndarray,
     omitted: np.ndarray,
-    quality: ElementQuality,
+    where: np.ndarray,
     sizes: np.ndarray | float = 1.0,
 ) -> tuple[int, float]:
-    """Count the hexes that have an inverted corner, and find the least determinant of these corners.
+    """Count hexes that have an inverted corner, and find the least determinant of these corners.
 
     Parameters
     ----------
@@ -87,8 +87,8 @@ def count_inverted(
     hexes : (m, 8) int32
     omitted : (m,) uint8
         Corners that do not count, bits as in `inverted_corners`.
-    quality : ElementQuality
-        Of these hexes at these points.
+    where : (k,) int
+        Hexes that are inverted.
     sizes : (m,) float64 or float
         Lengths to whose cubes determinants are relative; see `MeshEnergy.hex_sizes`.
 
@@ -98,7 +98,6 @@ def count_inverted(
     least : float
         0 where no corner is inverted.
     """
-    where = np.flatnonzero(quality.inverted)
     sigma = np.where(unpack_corners(omitted[where]), np.inf, corner_determinants(points, hexes, where))
     inverted = ~(sigma > 0)
     volumes = np.broadcast_to(np.power(sizes, 3), len(hexes))[where]

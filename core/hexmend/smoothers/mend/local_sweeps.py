@@ -50,19 +50,19 @@ def local_sweeps(
     mesh = energy.mesh
     x = points_like(x, mesh.points.shape)
     around, omitted = as_bools(around, "around", mesh.n_hexes), as_omitted_corners(omitted, mesh.n_hexes)
-    near = mask(mesh.hexes[around], mesh.n_nodes)
+    near = energy.ranks.complete(mask(mesh.hexes[around], mesh.n_nodes))
     near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
     near[mesh.hexes[omitted != 0]] = False
     motion = mesh.linear_motion
     linear = np.zeros(mesh.n_nodes, dtype=bool) if motion is None else motion.marks(mesh.n_nodes)
-    colours = mesh.topology.colouring(near & mesh.free & mesh.interior & ~linear)
     settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, delta, energy.norm, SEARCH, energy.target)
     constrained = None
     if (near & linear).any() and isinstance(energy, LinearMotionEnergy) and not energy.slides:
         constrained = ConstrainedSweeps(energy.with_objective(energy.norm, omitted), near & linear)
     swept = x.copy()
+    sweep = energy.sweep(swept, near & mesh.free & mesh.interior & ~linear)
     for _ in range(sweeps):
-        local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
+        sweep(settings)
         if constrained is not None:
             constrained(swept, delta, newton_steps, SEARCH)
     return swept

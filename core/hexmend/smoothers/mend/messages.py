@@ -9,15 +9,14 @@ from hexmend.smoothers.mend.maxmin import locked_below
 from hexmend.terminal_text import count_phrase
 
 
-def omission_message(omitted: np.ndarray, locked: np.ndarray) -> str:
+def omission_message(by_fixed: int, others: int) -> str:
     """Tell how many hexes have corners that the energy omits.
 
     Parameters
     ----------
-    omitted, locked : (m,) uint8
-        A bit for each corner that is omitted, and that fixed nodes lock.
+    by_fixed, others : int
+        Numbers of hexes with corners that fixed nodes lock, and with other ones.
     """
-    by_fixed, others = int(np.count_nonzero(locked)), int(np.count_nonzero(omitted & ~locked))
     fixed = f"{count_phrase(by_fixed, 'hex has', 'hexes have')} corners that fixed nodes lock in inversion"
     resisting = count_phrase(others, "hex has corners that stay inverted", "hexes have corners that stay inverted")
     clauses = [fixed] * bool(by_fixed) + [resisting] * bool(others)

@@ -96,13 +96,13 @@ def _minimise(
 ) -> Generator[Step, None, ShapeOptimum]:
     """Minimise the energy with one p; if p rises afterwards, only until no node moves far."""
     omitted, direction = energy.omitted, config.newton.direction()
-    min_fall = config.min_fall_omitting if omitted.any() else config.min_fall
+    min_fall = config.min_fall_omitting if energy.ranks.any(omitted) else config.min_fall
     x, full_step = energy.to_edge_units(points), False
     values: list[float] = []
     while True:
         if not full_step:  # after a full step no hex has limited the line search
             poor = energy.hex_energies(x) > config.poor
-            if poor.any():
+            if energy.ranks.any(poor):
                 x = local_sweeps(energy, x, poor, omitted, 0.0, config.sweeps)
         descent = config.newton.step(energy, x, 0.0, direction)
         if descent is None or (descent.alpha == 0 and (descent.slope < 0 or intermediate)):
@@ -112,9 +112,9 @@ def _minimise(
         if judged and values[-config.window] - values[-1] < min_fall * values[-1]:
             return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)
         moves = descent.x - energy.to_edge_units(points)
-        move = relative_move = largest_norm(moves)
+        move = relative_move = energy.ranks.greatest(largest_norm(moves))
         if energy.node_lengths is not None:
-            relative_move = largest_norm(moves[energy.nodes] / energy.node_lengths)
+            relative_move = energy.ranks.greatest(largest_norm(moves[energy.nodes] / energy.node_lengths))
         x, points, full_step = descent.x, energy.to_mesh_units(descent.x), descent.backtracks == 0
         diagnostics = descent.diagnostics(0.0) | {"p": energy.norm.p}
         yield Step(points, diagnostics, intermediate=p_will_rise or intermediate, norm=energy.norm)

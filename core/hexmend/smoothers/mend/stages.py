@@ -55,7 +55,7 @@ class Stages:
             mesh = mesh.keeping_surface().with_points(self.settings.sliding(mesh).mesh.points)
             given = mesh.points
             yield Step(given, intermediate=True, quality=measure(given, mesh.hexes), begins=True)
-        energy = energy_of(mesh, self.settings.first_norm_on(mesh))
+        energy = self._energy(mesh, self.settings.first_norm_on(mesh))
         shape = yield from self._shape(mesh, energy, intermediate or mesh.linear_motion is not None)
         if not intermediate:
             return shape.outcome
@@ -102,6 +102,10 @@ class Stages:
             yield Step(points, decision=decision, intermediate=True, quality=quality, active=active)
         return outcome
 
+    def _energy(self, mesh: Mesh, norm: ObjectiveNorm, sliding: SlidingBoundary | None = None) -> MeshEnergy:
+        """The energy of a mesh, whose boundary is fixed or slides."""
+        return energy_of(mesh, norm, sliding)
+
     def _raise_fixed(
         self, mesh: Mesh, candidates: Sequence[np.ndarray], given: np.ndarray
     ) -> Generator[Step, None, tuple[MaxMinResult | None, np.ndarray, ElementQuality | None]]:
@@ -131,13 +135,14 @@ class Stages:
         newton, locked = NewtonConfig(self.settings.solver_iterations), locked_corners(mesh, quality)
         energy = energy.with_objective(energy.norm, locked)
         untangled = yield from self._untangle(mesh, energy, quality, locked)
-        if untangled.left(locked) and energy.norm.p < SQUARES.p and not energy.faceted:
+        left = untangled.left(locked, energy)
+        if left and energy.norm.p < SQUARES.p and not energy.faceted:
             # Squares weigh the worst hexes more, and untangle some meshes that sums do not.
             again = yield from self._untangle(mesh, energy.with_objective(SQUARES, locked), quality, locked)
-            untangled = again if again.left(locked) < untangled.left(locked) else untangled
+            untangled = again if again.left(locked, energy) < left else untangled
         points, omitted = untangled.points, untangled.omitted
-        if omitted.any() and not self.settings.slides_on(mesh):
-            decision = omission_message(omitted, locked)
+        if energy.ranks.any(omitted) and not self.settings.slides_on(mesh):
+            decision = omission_message(energy.count(locked), energy.count(omitted & ~locked))
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)
         del untangled, quality  # large meshes have no memory for what is no longer needed
@@ -148,12 +153,12 @@ class Stages:
         """The energy that floors are added to, without the corners that are inverted at these points."""
         inverted = inverted_corners(points, mesh.hexes, measure(points, mesh.hexes))
         mean = ObjectiveNorm(1.0, self.settings.offset)
-        energy = energy_of(mesh, self.settings.first_norm_on(mesh) if self.settings.balances else mean, sliding)
+        energy = self._energy(mesh, self.settings.first_norm_on(mesh) if self.settings.balances else mean, sliding)
         return energy.with_objective(energy.norm, inverted)
 
     def _sliding_shape(self, sliding: SlidingBoundary, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
         """Untangle a mesh whose boundary slides, from points (n, 3) on, then go to the optimum of shape."""
-        energy = energy_of(sliding.mesh, self.settings.first_norm_on(sliding.mesh), sliding)
+        energy = self._energy(sliding.mesh, self.settings.first_norm_on(sliding.mesh), sliding)
         return (yield from self._shape(sliding.mesh.with_points(points), energy, True))
 
     def _maxmin_stage(
@@ -218,7 +223,8 @@ class Stages:
         mesh = sliding.mesh.with_points(points)
         quality = measure(points, mesh.hexes)
         locked = locked_corners(mesh, quality)
-        energy = energy_of(mesh, self.settings.first_norm_on(mesh), sliding).with_objective(self.settings.norm, locked)
+        energy = self._energy(mesh, self.settings.first_norm_on(mesh), sliding)
+        energy = energy.with_objective(self.settings.norm, locked)
         return (yield from self._untangle(mesh, energy, quality, locked)).points
 
 

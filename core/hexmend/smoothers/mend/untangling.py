@@ -80,9 +80,9 @@ class Untangled:
     quality: ElementQuality
     omitted: np.ndarray
 
-    def left(self, locked: np.ndarray) -> int:
+    def left(self, locked: np.ndarray, energy: MeshEnergy) -> int:
         """Return the number of hexes that are inverted still, without those that are locked (m,) uint8."""
-        return int(np.count_nonzero(self.omitted & ~locked))
+        return energy.count(self.omitted & ~locked)
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,10 +96,16 @@ class _Iterate:
     worst: float
 
     @classmethod
-    def at(cls, x: np.ndarray, energy: MeshEnergy, locked: np.ndarray) -> _Iterate:
+    def at(
+        cls, x: np.ndarray, energy: MeshEnergy, locked: np.ndarray, quality: ElementQuality | None = None
+    ) -> _Iterate:
         points, hexes = energy.to_mesh_units(x), energy.mesh.hexes
-        quality = measure(points, hexes)
-        return cls(x, points, quality, *count_inverted(points, hexes, locked, quality, energy.hex_sizes))
+        quality = quality or measure(points, hexes)
+        where = np.flatnonzero(quality.inverted)
+        if energy.ranks.count > 1:
+            where = where[energy.counted[where]]
+        count, worst = count_inverted(points, hexes, locked, where, energy.hex_sizes)
+        return cls(x, points, quality, energy.ranks.sum(count), energy.ranks.least(worst))
 
 
 def untangle(
@@ -125,18 +131,17 @@ def untangle(
         After each step of all nodes and after the sweeps at each delta.
     """
     points = recentre_far_nodes(mesh, quality)
-    if points is not mesh.points:
+    if energy.ranks.any(points is not mesh.points):
+        points = energy.ranks.complete(np.array(points))
         quality = measure(points, mesh.hexes)
         yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
-    x = energy.to_edge_units(points)
-    inverted = count_inverted(points, mesh.hexes, locked, quality, energy.hex_sizes)
-    now = _Iterate(x, points, quality, *inverted)
+    now = _Iterate.at(energy.to_edge_units(points), energy, locked, quality)
     epsilon, fewest, idle = config.initial_epsilon, now.inverted, 0
     patience = config.faceted_patience if energy.faceted else config.patience
     while now.inverted and idle < patience and epsilon > config.min_epsilon:
         worst = min(now.worst, 0.0)
         delta = min(config.max_delta, float(np.sqrt(epsilon * (epsilon - worst))))
-        few = now.inverted < config.few * mesh.n_hexes
+        few = now.inverted < config.few * energy.n_hexes
         if not few or idle % config.few_period == config.few_period - 1:
             now = yield from _newton_steps(now, energy, locked, delta, config)
         if now.inverted:

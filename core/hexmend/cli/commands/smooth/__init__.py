@@ -30,6 +30,8 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     text = "with --only: also K rings of hexes around (default 1)"
     parser.add_argument("--rings", metavar="K", type=int, help=text)
     add_force(parser)
+    text = "write the mesh at this interval to OUT's name with .checkpoint, removed once OUT is written"
+    parser.add_argument("--checkpoint", metavar="MINUTES", type=float, help=text)
     parser.add_argument("--save-recipe", metavar="FILE.toml", help="write the methods and all values as a recipe")
     parser.add_argument("--json", metavar="FILE", help="write a report")
     parser.add_argument("--history", metavar="FILE.csv", help="write a table with a row for each iteration")

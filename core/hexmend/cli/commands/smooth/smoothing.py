@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 
@@ -12,6 +14,7 @@ from hexmend.advice import advise
 from hexmend.cli.arguments.checks import check_memory, check_targets
 from hexmend.cli.arguments.options import DEFAULT_RINGS
 from hexmend.cli.arguments.run_arguments import method_and_limits, motion_rules, with_surface
+from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.commands.smooth.suggested_command import RunOptions, suggested_command
 from hexmend.cli.output.mesh_messages import print_notes, print_problems
 from hexmend.cli.output.mesh_output import MeshOutput
@@ -21,7 +24,7 @@ from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.errors import ParameterError
 from hexmend.io import read, writer_for
 from hexmend.io.surfaces.curve_file import with_curves_of_file
-from hexmend.iteration import Result
+from hexmend.iteration import Iteration, Result
 from hexmend.mesh.fixing import with_region_free
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
@@ -36,7 +39,10 @@ from hexmend.run.recipe_files import write_recipe
 
 def run(args: argparse.Namespace) -> int:
     """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still inverted."""
+    if _is_one_of_several_ranks():
+        return import_module("hexmend.cli.commands.smooth.on_ranks").run(args)
     method, limits = method_and_limits(args)
+    checkpoints = Checkpoints(args.output, args.checkpoint)
     writer_for(args.output, None if args.rewrite else args.mesh)  # raises before the run, and not after it
     check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
     rings = _rings(args)
@@ -64,14 +70,26 @@ def run(args: argparse.Namespace) -> int:
     if args.save_recipe:
         write_recipe(args.save_recipe, smoothing.recipe)
     with FinishWriting():
-        follow(smoothing)
+        follow(smoothing, lambda iteration: _keep(checkpoints, mesh.replace(pinned=pinned), iteration))
         result = smoothing.result()
         written = output.write(result.mesh.replace(pinned=pinned))
+        checkpoints.remove()
         _report(args, mesh, method.title, result, written)
         if result.after.inverted:
             kept = RunOptions(mesh.node_rules.rules, args.as_is, args.surface, args.only, rings)
             _print_advice(args, result, _outside(mesh, pinned), kept)
     return 4 if result.after.inverted else 0
+
+
+def _is_one_of_several_ranks() -> bool:
+    """Return True if an MPI launcher has started this process together with others."""
+    return any(os.environ.get(name, "1") not in ("", "0", "1") for name in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE"))
+
+
+def _keep(checkpoints: Checkpoints, mesh: Mesh, iteration: Iteration) -> None:
+    """Write a checkpoint with the points of an iteration if it is due."""
+    if checkpoints.due:
+        checkpoints.write(lambda: mesh.with_points(iteration.points))
 
 
 def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, written: str) -> None:

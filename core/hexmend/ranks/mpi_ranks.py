@@ -1,0 +1,83 @@
+"""Ranks of an MPI program: sums over all of them, and rows of nodes that they send to their neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hexmend.arrays import dot
+from hexmend.ranks.ranks import Ranks, T
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+#: Rows of an array by the number of the rank that gets, or sends, them.
+Rows = Mapping[int, np.ndarray]
+
+
+class MPIRanks(Ranks):
+    """The ranks of a communicator, with the nodes of which each of them knows the others' positions.
+
+    Parameters
+    ----------
+    comm : mpi4py.MPI.Comm
+    sent, received : mapping of int to (k,) int
+        Nodes of this rank that another has as ghosts, and ghosts of this rank that the other owns, by the number of the
+        other rank: both name the same nodes in the same order.
+    """
+
+    def __init__(self, comm: MPI.Comm, sent: Rows, received: Rows):
+        from mpi4py import MPI
+
+        self.number, self.count = comm.rank, comm.size
+        self._mpi, self.comm, self._sent, self._received = MPI, comm, sent, received
+
+    def _reduce(self, own: T, operation: MPI.Op) -> T:
+        number, result = np.array([own]), np.empty(1, dtype=np.array(own).dtype)
+        self.comm.Allreduce(number, result, operation)
+        return result[0].item()
+
+    def sum(self, own: T) -> T:
+        return self._reduce(own, self._mpi.SUM)
+
+    def least(self, own: T) -> T:
+        return self._reduce(own, self._mpi.MIN)
+
+    def greatest(self, own: T) -> T:
+        return self._reduce(own, self._mpi.MAX)
+
+    def any(self, own: bool | np.ndarray) -> bool:
+        return self._reduce(int(np.any(own)), self._mpi.MAX) > 0
+
+    def norm(self, own: np.ndarray) -> float:
+        return float(np.sqrt(self.sum(dot(own, own))))
+
+    def complete(self, rows: np.ndarray) -> np.ndarray:
+        self._exchange(rows, self._sent, self._received)
+        return rows
+
+    def exchange_of(self, positions: np.ndarray) -> Callable[[np.ndarray], object]:
+        sent, received = self._at(positions)
+        return lambda rows: self._exchange(rows, sent, received)
+
+    def part(self, positions: np.ndarray) -> MPIRanks:
+        """Return the ranks for a part of the mesh in which node i has the number positions[i], (n,) int; -1: none."""
+        return MPIRanks(self.comm, *self._at(positions))
+
+    def _at(self, positions: np.ndarray) -> tuple[Rows, Rows]:
+        def placed(rows: Rows) -> Rows:
+            found = {rank: positions[at] for rank, at in rows.items()}
+            return {rank: at[at >= 0] for rank, at in found.items() if (at >= 0).any()}
+
+        return placed(self._sent), placed(self._received)
+
+    def _exchange(self, rows: np.ndarray, sent: Rows, received: Rows) -> None:
+        arriving = {rank: np.empty((at.size, *rows.shape[1:]), rows.dtype) for rank, at in received.items()}
+        requests = [self.comm.Irecv(buffer, source=rank) for rank, buffer in arriving.items()]
+        leaving = {rank: rows[at] for rank, at in sent.items()}
+        requests += [self.comm.Isend(buffer, dest=rank) for rank, buffer in leaving.items()]
+        self._mpi.Request.Waitall(requests)
+        for rank, buffer in arriving.items():
+            rows[received[rank]] = buffer

