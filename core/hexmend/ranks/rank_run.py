@@ -143,10 +143,6 @@ class RankRun(Iterator[RankFigures]):
         self._take(step)
         return self.last
 
-    def close(self) -> None:
-        """End the run; it keeps its result."""
-        self.outcome = self.outcome or Outcome.STOPPED
-
     def _take(self, step: Step) -> None:
         energy, points = self._energy, np.asarray(step.points)
         moved = largest_norm(points - self.points) / energy.unit

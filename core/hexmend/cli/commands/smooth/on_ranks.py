@@ -9,7 +9,7 @@ import traceback
 from pathlib import Path
 from time import monotonic
 
-from hexmend.cli.arguments.checks import check_targets
+from hexmend.cli.arguments.checks import check_memory, check_targets
 from hexmend.cli.arguments.run_arguments import method_and_limits, motion_rules
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.output.mesh_messages import print_notes, print_problems
@@ -48,6 +48,7 @@ def run(args: argparse.Namespace) -> int:
         checkpoints = Checkpoints(args.output, args.checkpoint)
         if comm.rank == 0:
             mesh = _prepare(args, method)
+            check_memory(args, [method], mesh.n_hexes * _local_ranks() // comm.size, "use more machines")
     except HexmendError as error:
         problem = error
     if comm.allreduce(problem is not None, MPI.LOR):
@@ -74,10 +75,14 @@ def _share_processors() -> None:
     """Share the processors of a machine among its ranks, unless the threads of each are given."""
     if os.environ.get("HEXMEND_THREADS") or os.environ.get("OMP_NUM_THREADS"):
         return
-    local = next((int(os.environ[name]) for name in _LOCAL_SIZES if os.environ.get(name, "").isdecimal()), 1)
     free = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     whole = os.cpu_count() or 1
-    set_threads(free if free < whole else max(whole // local, 1))
+    set_threads(free if free < whole else max(whole // _local_ranks(), 1))
+
+
+def _local_ranks() -> int:
+    """Return the number of ranks on this machine."""
+    return next((int(os.environ[name]) for name in _LOCAL_SIZES if os.environ.get(name, "").isdecimal()), 1)
 
 
 def _prepare(args: argparse.Namespace, method: object) -> Mesh:

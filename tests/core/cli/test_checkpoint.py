@@ -1,0 +1,52 @@
+"""Checkpoints of a run: when they are due, what they hold, and that they go once the result is there."""
+
+import numpy as np
+import pytest
+
+from hexmend.cli.commands.smooth import checkpoint
+from hexmend.cli.commands.smooth.checkpoint import Checkpoints
+from hexmend.cli.main import main
+from hexmend.errors import ParameterError
+from hexmend.gallery import make
+from hexmend.io import read, write
+
+MESH = make("cube", size=8)
+
+
+def test_one_is_due_after_each_interval(tmp_path, monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(checkpoint, "monotonic", lambda: clock[0])
+    kept = Checkpoints(str(tmp_path / "out.vtu"), 2)
+    for seconds, due in ((0, False), (119, False), (120, True)):
+        clock[0] = seconds
+        assert kept.due == due
+    kept.write(lambda: MESH)
+    assert not kept.due
+    assert kept.path.name == "out.checkpoint.vtu"
+    np.testing.assert_array_equal(read(kept.path).points, MESH.points)
+    kept.remove()
+    assert not kept.path.exists()
+
+
+def test_none_is_due_without_minutes_and_a_file_of_another_run_stays(tmp_path):
+    kept = Checkpoints(str(tmp_path / "out.vtu"), None)
+    kept.path.write_text("of another run")
+    kept.remove()
+    assert not kept.due
+    assert kept.path.exists()
+
+
+@pytest.mark.parametrize("minutes", [0.0, -1.0, float("nan")])
+def test_minutes_are_positive(minutes):
+    with pytest.raises(ParameterError, match="is out of bounds: expected a number of minutes"):
+        Checkpoints("out.vtu", minutes)
+
+
+def test_a_run_of_one_process_writes_them_and_removes_the_last(tmp_path, monkeypatch, capsys):
+    given, out, written = tmp_path / "given.vtu", tmp_path / "out.vtu", []
+    write(given, make("five-side", size=200, scramble=0.2))
+    monkeypatch.setattr(checkpoint, "write", lambda path, mesh: written.append(mesh) or write(path, mesh))
+    assert main(["smooth", str(given), "-o", str(out), "--checkpoint", "1e-9"]) == 0
+    assert len(written) > 3
+    assert out.exists()
+    assert not (tmp_path / "out.checkpoint.vtu").exists()
