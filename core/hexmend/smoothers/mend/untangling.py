@@ -96,15 +96,18 @@ class _Iterate:
     worst: float
 
     @classmethod
-    def at(
-        cls, x: np.ndarray, energy: MeshEnergy, locked: np.ndarray, quality: ElementQuality | None = None
+    def at(cls, x: np.ndarray, energy: MeshEnergy, locked: np.ndarray) -> _Iterate:
+        points = energy.to_mesh_units(x)
+        return cls.of(x, points, measure(points, energy.mesh.hexes), energy, locked)
+
+    @classmethod
+    def of(
+        cls, x: np.ndarray, points: np.ndarray, quality: ElementQuality, energy: MeshEnergy, locked: np.ndarray
     ) -> _Iterate:
-        points, hexes = energy.to_mesh_units(x), energy.mesh.hexes
-        quality = quality or measure(points, hexes)
         where = np.flatnonzero(quality.inverted)
         if energy.ranks.count > 1:
             where = where[energy.counted[where]]
-        count, worst = count_inverted(points, hexes, locked, where, energy.hex_sizes)
+        count, worst = count_inverted(points, energy.mesh.hexes, locked, where, energy.hex_sizes)
         return cls(x, points, quality, energy.ranks.sum(count), energy.ranks.least(worst))
 
 
@@ -135,7 +138,7 @@ def untangle(
         points = energy.ranks.complete(np.array(points))
         quality = measure(points, mesh.hexes)
         yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
-    now = _Iterate.at(energy.to_edge_units(points), energy, locked, quality)
+    now = _Iterate.of(energy.to_edge_units(points), points, quality, energy, locked)
     epsilon, fewest, idle = config.initial_epsilon, now.inverted, 0
     patience = config.faceted_patience if energy.faceted else config.patience
     while now.inverted and idle < patience and epsilon > config.min_epsilon:
