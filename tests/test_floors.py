@@ -28,7 +28,7 @@ CORE = [
     {"iteration"},
     {"optimise"},
     {"smoothers"},
-    {"io"},
+    {"io", "ranks"},
     {"interop", "run"},
     {"node_step", "padding"},
     {"advice"},

@@ -16,6 +16,7 @@ from hexmend.energy.floor_barrier import FloorBarrier
 from hexmend.energy.hex_energy import as_omitted_corners, energies
 from hexmend.energy.linear_operator import SymmetricOperator
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
+from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.target import wanted_lengths
 from hexmend.energy.workspace import Workspace
@@ -25,7 +26,6 @@ from hexmend.kernels.local import NodeStepSettings
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
-from hexmend.ranks.ranks import ONE_RANK, Ranks
 
 #: Longest over shortest target length of a hex up to which single precision is enough for the Hessian: the terms of its
 #: directions differ by the square.

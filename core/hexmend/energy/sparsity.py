@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.arrays import index_of
+from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.workspace import Workspace
 from hexmend.kernels import ordering
 from hexmend.kernels import sparsity as kernels
@@ -16,7 +17,6 @@ from hexmend.kernels.assembly import HexShares
 from hexmend.kernels.conjugate_gradients import BlockPattern
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
-from hexmend.ranks.ranks import ONE_RANK, Ranks
 
 #: Numbers of slots from which on they are divided into 2, 4 and 8 parts that threads solve in parallel.
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))

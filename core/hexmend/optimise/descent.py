@@ -8,10 +8,10 @@ import numpy as np
 
 from hexmend.arrays import differing_rows
 from hexmend.energy import MeshEnergy
+from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten
 from hexmend.optimise.search_direction import DirectionMethod, SearchDirection, steepest_descent
-from hexmend.ranks.ranks import ONE_RANK, Ranks
 
 
 @dataclass(frozen=True)

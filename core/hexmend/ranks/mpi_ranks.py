@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hexmend.arrays import dot
-from hexmend.ranks.ranks import Ranks, T
+from hexmend.energy.ranks import Ranks, T
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -29,10 +30,9 @@ class MPIRanks(Ranks):
     """
 
     def __init__(self, comm: MPI.Comm, sent: Rows, received: Rows):
-        from mpi4py import MPI
-
+        mpi = import_module("mpi4py.MPI")  # which begins MPI
         self.number, self.count = comm.rank, comm.size
-        self._mpi, self.comm, self._sent, self._received = MPI, comm, sent, received
+        self._mpi, self.comm, self._sent, self._received = mpi, comm, sent, received
 
     def _reduce(self, own: T, operation: MPI.Op) -> T:
         number, result = np.array([own]), np.empty(1, dtype=np.array(own).dtype)

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pymetis
 
 from hexmend.arrays import any_of_rows, index_of, mask
 from hexmend.mesh.element_target import Target
@@ -57,8 +58,6 @@ def divide(mesh: Mesh, count: int) -> np.ndarray:
     """Divide hexes among ranks so that few faces lie between them; returns the rank of each, (m,) int32."""
     if count == 1:
         return np.zeros(mesh.n_hexes, np.int32)
-    import pymetis
-
     neighbours = mesh.topology.face_neighbours
     start = np.concatenate([[0], np.cumsum((neighbours >= 0).sum(axis=1))]).astype(np.int32)
     _, ranks = pymetis.part_graph(count, adjacency=pymetis.CSRAdjacency(start, neighbours[neighbours >= 0]))

@@ -8,9 +8,9 @@ import scipy.sparse.linalg
 from scipy.sparse.linalg import ArpackNoConvergence
 
 from hexmend.energy import MeshEnergy
+from hexmend.energy.ranks import ONE_RANK
 from hexmend.optimise import search_direction
 from hexmend.optimise.search_direction import ModifiedNewton, TruncatedNewton, TruncatedNewtonConfig
-from hexmend.ranks.ranks import ONE_RANK
 from tests.core.grids import grid, scrambled
 
 CONFIG = TruncatedNewtonConfig()

@@ -11,11 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hexmend.cli.main import main
+from hexmend.energy.ranks import ONE_RANK
 from hexmend.gallery import make
 from hexmend.io import read, write
 from hexmend.quality import measure
 from hexmend.ranks.rank_part import arrays_of_parts, divide, owners_of_nodes
-from hexmend.ranks.ranks import ONE_RANK
 
 BIN = Path(sys.executable).parent
 MPIEXEC = shutil.which("mpiexec", path=str(BIN))
@@ -108,6 +109,14 @@ def test_what_several_ranks_cannot_do_is_said_once_before_the_run(tangled, tmp_p
     assert not (tmp_path / "out.vtu").exists()
 
 
+def test_without_the_packages_the_command_names_them(tangled, tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "mpi4py", None)
+    monkeypatch.delitem(sys.modules, "hexmend.cli.commands.smooth.on_ranks", raising=False)
+    monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "2")
+    assert main(["smooth", str(tangled), "-o", str(tmp_path / "out.vtu")]) == 2
+    assert "pip install 'hexmend[mpi]'" in capsys.readouterr().err
+
+
 @needs_mpi
 @pytest.mark.slow
 def test_a_rank_that_is_killed_ends_all_and_a_run_goes_on_from_the_checkpoint(tmp_path):
@@ -149,7 +158,6 @@ def _words_of(process):
 
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_parts_cover_the_mesh_once(count):
-    pytest.importorskip("pymetis")
     mesh = make("five-side", size=500, scramble=0.1)
     owner = owners_of_nodes(mesh, divide(mesh, count))
     parts = list(arrays_of_parts(mesh, owner, count))

@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 import traceback
+from importlib import import_module
 from pathlib import Path
 from time import monotonic
 
@@ -36,11 +37,7 @@ _SINGLE = "recipe", "surface", "ridges", "only", "save_recipe", "json", "history
 
 def run(args: argparse.Namespace) -> int:
     """Smooth a mesh on all ranks of the program; rank 0 reads and writes. Returns 4 if hexes are still inverted."""
-    try:
-        from mpi4py import MPI
-    except ImportError:
-        raise ParameterError("mpiexec needs mpi4py and pymetis: pip install 'hexmend[mpi]'") from None
-    comm = MPI.COMM_WORLD
+    comm = import_module("mpi4py.MPI").COMM_WORLD  # which begins MPI
     _share_processors()
     mesh, problem = None, None
     try:
@@ -51,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
             check_memory(args, [method], mesh.n_hexes * _local_ranks() // comm.size, "use more machines")
     except HexmendError as error:
         problem = error
-    if comm.allreduce(problem is not None, MPI.LOR):
+    if comm.allreduce(problem is not None):
         if problem is not None and comm.rank == 0:
             raise problem
         return 3

@@ -40,7 +40,7 @@ from hexmend.run.recipe_files import write_recipe
 def run(args: argparse.Namespace) -> int:
     """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still inverted."""
     if _is_one_of_several_ranks():
-        return import_module("hexmend.cli.commands.smooth.on_ranks").run(args)
+        return _run_on_ranks(args)
     method, limits = method_and_limits(args)
     checkpoints = Checkpoints(args.output, args.checkpoint)
     writer_for(args.output, None if args.rewrite else args.mesh)  # raises before the run, and not after it
@@ -84,6 +84,15 @@ def run(args: argparse.Namespace) -> int:
 def _is_one_of_several_ranks() -> bool:
     """Return True if an MPI launcher has started this process together with others."""
     return any(os.environ.get(name, "1") not in ("", "0", "1") for name in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE"))
+
+
+def _run_on_ranks(args: argparse.Namespace) -> int:
+    try:
+        return import_module("hexmend.cli.commands.smooth.on_ranks").run(args)
+    except ModuleNotFoundError as error:
+        if error.name not in ("mpi4py", "pymetis"):
+            raise
+        raise ParameterError("several processes need mpi4py and pymetis: pip install 'hexmend[mpi]'") from None
 
 
 def _keep(checkpoints: Checkpoints, mesh: Mesh, iteration: Iteration) -> None:
