@@ -90,7 +90,7 @@ def _run_on_ranks(args: argparse.Namespace) -> int:
     try:
         return import_module("hexmend.cli.commands.smooth.on_ranks").run(args)
     except ModuleNotFoundError as error:
-        if error.name not in ("mpi4py", "pymetis"):
+        if (error.name or "").partition(".")[0] not in ("mpi4py", "pymetis"):
             raise
         raise ParameterError("several processes need mpi4py and pymetis: pip install 'hexmend[mpi]'") from None
 
