@@ -129,9 +129,7 @@ def test_a_rank_that_is_killed_ends_all_and_a_run_goes_on_from_the_checkpoint(tm
         while not checkpoint.exists():
             assert launcher.poll() is None
             time.sleep(0.02)
-        found = subprocess.run(["pgrep", "-P", str(launcher.pid)], capture_output=True, text=True, check=False)
-        children = [int(word) for word in found.stdout.split()] or [launcher.pid]
-        ranks = [rank for child in children for rank in _descendants(child) if b"smooth" in _words_of(rank)]
+        ranks = [process for process in _descendants(launcher.pid) if b"smooth" in _words_of(process)]
         os.kill(ranks[-1], signal.SIGKILL)
         launcher.communicate(timeout=60)
     assert launcher.returncode != 0

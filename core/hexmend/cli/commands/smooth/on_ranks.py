@@ -7,7 +7,6 @@ import os
 import sys
 import traceback
 from importlib import import_module
-from pathlib import Path
 from time import monotonic
 
 from hexmend.cli.arguments.checks import check_memory, check_targets
@@ -27,6 +26,7 @@ from hexmend.ranks.rank_part import distribute
 from hexmend.ranks.rank_run import RankRun, check_distributed, gather_points
 from hexmend.run.memory import format_bytes
 from hexmend.run.shape_watch import ShapeWatch
+from hexmend.study.bench.section import peak_mb
 from hexmend.terminal_text import count_phrase
 
 #: Variables in which launchers tell each process the number of processes on its machine.
@@ -114,15 +114,6 @@ def _iterate(args: argparse.Namespace, run: RankRun, checkpoints: Checkpoints) -
             due = monotonic() + LINE_INTERVAL
 
 
-def _peak_memory() -> float:
-    """Return the peak of memory of this rank so far, in bytes; 0 where it is not known."""
-    try:
-        lines = Path("/proc/self/status").read_text(encoding="utf-8").splitlines()
-    except OSError:
-        return 0.0
-    return next((1024.0 * int(line.split()[1]) for line in lines if line.startswith("VmHWM")), 0.0)
-
-
 class _Given:
     """The mesh as given, which rank 0 reads again when it is needed."""
 
@@ -143,7 +134,7 @@ def _finish(args: argparse.Namespace, run: RankRun, checkpoints: Checkpoints, ti
     """Gather the result on rank 0, which writes it and prints the change."""
     ranks, given = run.part.ranks, _Given(args)
     points = gather_points(run.part, run.best_points, given.points)
-    peak, inverted = ranks.greatest(_peak_memory()), None
+    peak, inverted = ranks.greatest(peak_mb()), None
     if ranks.number == 0:
         mesh = given.mesh
         result = mesh.with_points(points)
@@ -153,7 +144,7 @@ def _finish(args: argparse.Namespace, run: RankRun, checkpoints: Checkpoints, ti
         summaries = [summarise(with_rules(one, rules)) for one in (mesh, result)]
         print_summaries(f"{args.mesh}: {title}", ["before", "after"], summaries, None)
         kept = "" if run.kept == run.number else f"Iteration {run.kept:,} was kept."
-        where = f"on {ranks.count:,} ranks, each with at most {format_bytes(int(peak))} of memory"
+        where = f"on {ranks.count:,} ranks, each with at most {format_bytes(int(peak * 2**20))} of memory"
         spent = f"{count_phrase(run.number, 'iteration')} in {run.seconds:.3g} s {where}."
         words = run.outcome.value, spent, *run.decisions, kept, describe_regressions(*summaries, None)
         print(" ".join(filter(None, words)))
