@@ -1,9 +1,10 @@
 """Energy that the optimisers minimise, its derivatives, and policies for its regularisation parameter delta."""
 
 from hexmend.aliases import exports
+from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import energies, objective
 from hexmend.energy.linear_motion_energy import LinearMotionEnergy, energy_of
-from hexmend.energy.mesh_energy import Hessian, MeshEnergy
+from hexmend.energy.mesh_energy import MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.regularisation import POLICIES, AdaptiveDelta, DeltaPolicy, FixedDelta
 from hexmend.energy.sliding_energy import SlidingEnergy

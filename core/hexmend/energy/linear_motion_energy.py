@@ -8,7 +8,8 @@ from hexmend.arrays import dot, mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.floor_barrier import FloorBarrier
-from hexmend.energy.mesh_energy import Hessian, MeshEnergy
+from hexmend.energy.hessian import Hessian
+from hexmend.energy.mesh_energy import MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.reduction import Reduction
 from hexmend.energy.sliding_energy import SlidingEnergy

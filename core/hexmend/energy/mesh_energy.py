@@ -1,4 +1,4 @@
-"""Energy of a mesh as a function of its free nodes: value, gradient, Hessian."""
+"""Energy of a mesh as a function of its free nodes: value and gradient."""
 
 from __future__ import annotations
 
@@ -11,16 +11,15 @@ import numpy as np
 
 from hexmend.aliases import reads_old_names
 from hexmend.arrays import dot, index_of
-from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.floor_barrier import FloorBarrier
+from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import as_omitted_corners, energies
-from hexmend.energy.linear_operator import SymmetricOperator
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.target import wanted_lengths
 from hexmend.energy.workspace import Workspace
-from hexmend.kernels import assembly, local, step_limits, threads
+from hexmend.kernels import local, step_limits
 from hexmend.kernels import objective as kernels
 from hexmend.kernels.local import NodeStepSettings
 from hexmend.kernels.target import TargetMatrices
@@ -216,29 +215,29 @@ class MeshEnergy:
 
     def to_edge_units(self, points: np.ndarray) -> np.ndarray:
         """Points in mean edge lengths, (n, 3)."""
-        return self._as_points(points) / self.unit
+        return self.as_points(points) / self.unit
 
     def to_mesh_units(self, x: np.ndarray) -> np.ndarray:
         """Points in the mesh's own unit of length, (n, 3); fixed nodes to the last bit where they were."""
         points = self.mesh.points.copy()
-        np.multiply(self._as_points(x), self.unit, out=points, where=self.mesh.free[:, None])
+        np.multiply(self.as_points(x), self.unit, out=points, where=self.mesh.free[:, None])
         return points
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         """Return x (n, 3) with the free nodes displaced by alpha times step (k, 3)."""
-        x, moved = self._as_points(x), np.empty(x.shape)
+        x, moved = self.as_points(x), np.empty(x.shape)
         step_limits.displaced(x, self.nodes, points_like(step, (self.nodes.size, 3), "steps"), alpha, moved)
         return moved
 
     def hex_energies(self, x: np.ndarray, delta: float = 0.0, offset: float = 1.0) -> np.ndarray:
         """Compute eta(H) of every hex at points x (n, 3), (m,); +inf at delta = 0 for an inverted hex."""
-        return energies(self._as_points(x), self.mesh.hexes, delta, self.omitted, offset, self.target)
+        return energies(self.as_points(x), self.mesh.hexes, delta, self.omitted, offset, self.target)
 
     def barriers(self, x: np.ndarray) -> np.ndarray | float:
         """Compute the barrier of floors of every hex at points x (n, 3), (m,), or 0 where there is none."""
         if self.barrier is None:
             return 0.0
-        return self.barrier.hex_values(self._as_points(x), self.mesh.hexes, self.omitted, self.target)
+        return self.barrier.hex_values(self.as_points(x), self.mesh.hexes, self.omitted, self.target)
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Compute the sum of eta(H)^p at points x (n, 3); +inf at delta = 0 if any hex is inverted."""
@@ -252,11 +251,11 @@ class MeshEnergy:
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Compute the gradient with respect to the free nodes at points x (n, 3), (k, 3): (B.3), (B.21), (C.2)."""
-        x, shares = self._as_points(x), self._corner_buffer
+        x, shares = self.as_points(x), self.corner_buffer
         kernels.gradient(x, self.mesh.hexes, delta, self.norm, self.omitted, shares, self.target)
         if self.barrier is not None:
             self.barrier.add_gradient(x, self.mesh.hexes, self.omitted, shares, self.target)
-        return self._sum_at_nodes()
+        return self.sum_at_nodes()
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
         """Return the Hessian with respect to the free nodes at points x (n, 3)."""
@@ -289,87 +288,17 @@ class MeshEnergy:
         return lambda settings: local.sweep(x, topology.hex_mesh, colours.start, colours.items, settings)
 
     @property
-    def _corner_buffer(self) -> np.ndarray:
+    def corner_buffer(self) -> np.ndarray:
         """Storage for the contributions of hexes at their corners, (m, 8, 3), until the workspace is used again."""
         return self._workspace.array((self.mesh.n_hexes, 8, 3), np.float64)
 
-    def _as_points(self, x: np.ndarray) -> np.ndarray:
+    def as_points(self, x: np.ndarray) -> np.ndarray:
         """Check positions of all nodes, (n, 3) float64; raises `MeshError` for another shape or type."""
         return points_like(x, self.mesh.points.shape, "places of nodes")
 
-    def _sum_at_nodes(self) -> np.ndarray:
+    def sum_at_nodes(self) -> np.ndarray:
         """Sum the contributions of the hexes at each free node, (k, 3)."""
         corners = self.mesh.topology.node_corners
         rows = np.empty((self.nodes.size, 3))
-        kernels.gather(self._corner_buffer.reshape(-1, 3), corners.start, corners.items, self.nodes, rows)
+        kernels.gather(self.corner_buffer.reshape(-1, 3), corners.start, corners.items, self.nodes, rows)
         return rows
-
-
-class Hessian(SymmetricOperator):
-    """Hessian of a `MeshEnergy` at given node positions, (3 k, 3 k), plus `shift` times the identity.
-
-    Unknowns are x, y, z of the first free node, then of the second, and so on.
-    """
-
-    def __init__(self, energy: MeshEnergy, x: np.ndarray, delta: float, shift: float = 0.0):
-        super().__init__(3 * energy.nodes.size)
-        self.energy, self.x, self.delta, self.shift = energy, energy._as_points(x), float(delta), float(shift)
-
-    def shifted(self, shift: float) -> Hessian:
-        """Return H + shift I."""
-        return type(self)(self.energy, self.x, self.delta, self.shift + shift)
-
-    def _product(self, v: np.ndarray) -> np.ndarray:
-        energy, v = self.energy, v.reshape(-1, 3)
-        if energy.barrier is not None:
-            return self.assembled(np.float64) @ v.ravel()
-        kernels.hessian_product(
-            self.x,
-            energy.mesh.hexes,
-            energy.slots,
-            v,
-            self.delta,
-            energy.norm,
-            energy.omitted,
-            energy._corner_buffer,
-            energy.target,
-        )
-        product = energy._sum_at_nodes()
-        if self.shift:
-            product += self.shift * v
-        return product.ravel()
-
-    def assembled(self, dtype: type | None = None, reuse: AssembledHessian | None = None) -> AssembledHessian:
-        """Assemble the matrix, for many products or for a linear system.
-
-        Parameters
-        ----------
-        dtype : numpy.float32 or numpy.float64, optional
-            Precision of the blocks; `MeshEnergy.precision` by default. A matrix too small for single precision (near
-            the optimum of a high p) is assembled in double precision and scaled before it is rounded.
-        reuse : AssembledHessian, optional
-            Matrix that is no longer needed: its storage is used if pattern and precision agree, as memory that has
-            been touched before is faster.
-
-        Returns
-        -------
-        AssembledHessian
-        """
-        sparsity, dtype = self.energy.sparsity, dtype or self.energy.precision
-        fits = reuse is not None and reuse.sparsity is sparsity and reuse.off_diagonal.dtype == dtype
-        matrix = reuse.reset() if fits else AssembledHessian.zero(sparsity, dtype)
-        self._assemble(matrix)
-        if dtype == np.float32 and matrix.underflows():
-            wide = AssembledHessian.zero(sparsity, np.float64)
-            self._assemble(wide)
-            return wide.normalised(dtype)
-        return matrix
-
-    def _assemble(self, matrix: AssembledHessian) -> None:
-        """Add this Hessian to a matrix of zeros."""
-        energy, shares = self.energy, self.energy.sparsity.shares(threads())
-        blocks = matrix.off_diagonal, matrix.diagonal
-        assembly.assemble(self.x, self.delta, energy.norm, energy.omitted, shares, *blocks, energy.target)
-        if energy.barrier is not None:
-            energy.barrier.assemble(self.x, energy.omitted, shares, blocks, energy.target)
-        matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)

@@ -10,7 +10,8 @@ from hexmend.arrays import differing_rows, mask, row_norms
 from hexmend.boundary import SlidingBoundary
 from hexmend.boundary.flat_parts import SLIDING_TOLERANCE
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
-from hexmend.energy.mesh_energy import Hessian, MeshEnergy
+from hexmend.energy.hessian import Hessian
+from hexmend.energy.mesh_energy import MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.kernels import conjugate_gradients
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from hexmend.aliases import exports
+from hexmend.iteration.step import Outcome
 from hexmend.parameters import AUTO, Parametrised, parameter
 
 
@@ -54,6 +55,12 @@ class StoppingCriteria(Parametrised):
     def limit_of(self, method: Limited) -> int:
         """Return the iteration limit of a run of a method."""
         return method.iteration_limit if self.max_iterations == AUTO else self.max_iterations
+
+    def reached(self, method: Limited, iterations: int, seconds: float) -> Outcome | None:
+        """Return the limit that a run of a method is at after so many iterations and seconds; None if at neither."""
+        if iterations >= self.limit_of(method):
+            return Outcome.MAX_ITERATIONS
+        return Outcome.MAX_SECONDS if 0 < self.max_seconds <= seconds else None
 
 
 __getattr__ = exports(__name__)

@@ -63,8 +63,13 @@ def _default_threads() -> int:
     theirs = _positive(os.environ.get("OMP_NUM_THREADS", "").split(",")[0])  # of nested loops, the outer ones'
     limit = _positive(os.environ.get("OMP_THREAD_LIMIT", ""))
     if theirs is None:
-        theirs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        theirs = cores()
     return theirs if limit is None else min(theirs, limit)
+
+
+def cores() -> int:
+    """Return the number of processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _positive(word: str) -> int | None:

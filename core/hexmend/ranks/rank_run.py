@@ -160,10 +160,8 @@ class RankRun(Iterator[RankFigures]):
             self.best_points, self.kept, self._best_rank = points, self.number, rank
         if self.move < self.stop.tolerance and not step.intermediate:
             self.outcome = Outcome.CONVERGED
-        elif self.number >= self.stop.limit_of(self.smoother):
-            self.outcome = Outcome.MAX_ITERATIONS
-        elif energy.ranks.any(0 < self.stop.max_seconds <= self.seconds):
-            self.outcome = Outcome.MAX_SECONDS
+        else:  # the clocks of ranks differ
+            self.outcome = self.stop.reached(self.smoother, self.number, energy.ranks.greatest(self.seconds))
 
     def _figures(self, quality: ElementQuality, points: np.ndarray) -> RankFigures:
         return RankFigures.of(self._energy, quality, points, self.smoother.norm)

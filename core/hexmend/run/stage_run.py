@@ -224,7 +224,6 @@ class StageRun:
 
     def _end_at_a_limit(self) -> None:
         stop, last, since = self.stage.stop, self.last, self.stage_start
-        if last.number - since.number >= stop.limit_of(self.smoother):
-            self.end(Outcome.MAX_ITERATIONS)
-        elif 0 < stop.max_seconds <= last.seconds - since.seconds:
-            self.end(Outcome.MAX_SECONDS)
+        outcome = stop.reached(self.smoother, last.number - since.number, last.seconds - since.seconds)
+        if outcome is not None:
+            self.end(outcome)

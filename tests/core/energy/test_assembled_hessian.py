@@ -57,7 +57,7 @@ def test_the_matrix_is_the_same_to_the_last_bit_however_many_threads_share_it(mo
     mesh = scrambled(grid(9), 0.4)
     hessian = hessian_of(mesh, 0.05)
     one = hessian.assembled()
-    monkeypatch.setattr("hexmend.energy.mesh_energy.threads", lambda: shares)
+    monkeypatch.setattr("hexmend.energy.hessian.threads", lambda: shares)
     other = hessian.assembled()
     np.testing.assert_array_equal(one.off_diagonal, other.off_diagonal)
     np.testing.assert_array_equal(one.diagonal, other.diagonal)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import threading
 from collections.abc import Generator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any
 
+from hexmend.kernels import cores
 from hexmend.run.memory import available
 from hexmend.study.batch.process import run_task
 from hexmend.study.batch.task import Task
@@ -44,8 +44,3 @@ class Local:
             finally:
                 ending.set()
                 pool.shutdown(cancel_futures=True)
-
-
-def cores() -> int:
-    """Return the number of cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

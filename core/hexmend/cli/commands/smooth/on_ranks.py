@@ -18,7 +18,7 @@ from hexmend.cli.output.progress import LINE_INTERVAL
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.io import read, writer_for
-from hexmend.kernels import set_threads
+from hexmend.kernels import cores, set_threads
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import describe_regressions, measure, summarise
@@ -72,8 +72,7 @@ def _share_processors() -> None:
     """Share the processors of a machine among its ranks, unless the threads of each are given."""
     if os.environ.get("HEXMEND_THREADS") or os.environ.get("OMP_NUM_THREADS"):
         return
-    free = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    whole = os.cpu_count() or 1
+    free, whole = cores(), os.cpu_count() or 1
     set_threads(free if free < whole else max(whole // _local_ranks(), 1))
 
 

@@ -1,0 +1,110 @@
+"""Hessian of the energy of a mesh: products with vectors, and the matrix of blocks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from hexmend.energy.assembled_hessian import AssembledHessian
+from hexmend.energy.linear_operator import SymmetricOperator
+from hexmend.kernels import assembly, threads
+from hexmend.kernels import objective as kernels
+
+if TYPE_CHECKING:
+    from hexmend.energy.floor_barrier import FloorBarrier
+    from hexmend.energy.norm import ObjectiveNorm
+    from hexmend.energy.sparsity import BlockSparsity
+    from hexmend.kernels.target import TargetMatrices
+    from hexmend.mesh.mesh import Mesh
+
+
+class EnergyOfHexes(Protocol):
+    """Data and methods of a `MeshEnergy` that its Hessian uses."""
+
+    mesh: Mesh
+    norm: ObjectiveNorm
+    omitted: np.ndarray
+    nodes: np.ndarray
+    slots: np.ndarray
+    target: TargetMatrices | None
+    barrier: FloorBarrier | None
+    sparsity: BlockSparsity
+    precision: type
+    corner_buffer: np.ndarray
+
+    def as_points(self, x: np.ndarray) -> np.ndarray:
+        """Check positions of all nodes, (n, 3) float64."""
+
+    def sum_at_nodes(self) -> np.ndarray:
+        """Sum the contributions of the hexes at each free node, (k, 3)."""
+
+
+class Hessian(SymmetricOperator):
+    """Hessian of a `MeshEnergy` at given node positions, (3 k, 3 k), plus `shift` times the identity.
+
+    Unknowns are x, y, z of the first free node, then of the second, and so on.
+    """
+
+    def __init__(self, energy: EnergyOfHexes, x: np.ndarray, delta: float, shift: float = 0.0):
+        super().__init__(3 * energy.nodes.size)
+        self.energy, self.x, self.delta, self.shift = energy, energy.as_points(x), float(delta), float(shift)
+
+    def shifted(self, shift: float) -> Hessian:
+        """Return H + shift I."""
+        return type(self)(self.energy, self.x, self.delta, self.shift + shift)
+
+    def _product(self, v: np.ndarray) -> np.ndarray:
+        energy, v = self.energy, v.reshape(-1, 3)
+        if energy.barrier is not None:
+            return self.assembled(np.float64) @ v.ravel()
+        kernels.hessian_product(
+            self.x,
+            energy.mesh.hexes,
+            energy.slots,
+            v,
+            self.delta,
+            energy.norm,
+            energy.omitted,
+            energy.corner_buffer,
+            energy.target,
+        )
+        product = energy.sum_at_nodes()
+        if self.shift:
+            product += self.shift * v
+        return product.ravel()
+
+    def assembled(self, dtype: type | None = None, reuse: AssembledHessian | None = None) -> AssembledHessian:
+        """Assemble the matrix, for many products or for a linear system.
+
+        Parameters
+        ----------
+        dtype : numpy.float32 or numpy.float64, optional
+            Precision of the blocks; `MeshEnergy.precision` by default. A matrix too small for single precision (near
+            the optimum of a high p) is assembled in double precision and scaled before it is rounded.
+        reuse : AssembledHessian, optional
+            Matrix that is no longer needed: its storage is used if pattern and precision agree, as memory that has
+            been touched before is faster.
+
+        Returns
+        -------
+        AssembledHessian
+        """
+        sparsity, dtype = self.energy.sparsity, dtype or self.energy.precision
+        fits = reuse is not None and reuse.sparsity is sparsity and reuse.off_diagonal.dtype == dtype
+        matrix = reuse.reset() if fits else AssembledHessian.zero(sparsity, dtype)
+        self._assemble(matrix)
+        if dtype == np.float32 and matrix.underflows():
+            wide = AssembledHessian.zero(sparsity, np.float64)
+            self._assemble(wide)
+            return wide.normalised(dtype)
+        return matrix
+
+    def _assemble(self, matrix: AssembledHessian) -> None:
+        """Add this Hessian to a matrix of zeros."""
+        energy, shares = self.energy, self.energy.sparsity.shares(threads())
+        blocks = matrix.off_diagonal, matrix.diagonal
+        assembly.assemble(self.x, self.delta, energy.norm, energy.omitted, shares, *blocks, energy.target)
+        if energy.barrier is not None:
+            energy.barrier.assemble(self.x, energy.omitted, shares, blocks, energy.target)
+        matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)
