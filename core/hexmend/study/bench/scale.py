@@ -16,11 +16,15 @@ import numpy as np
 from hexmend import kernels
 from hexmend.gallery import make
 from hexmend.io import read, write
+from hexmend.ranks.launching import environment, launcher, on_ranks
 from hexmend.study.bench.section import BenchSection
 
 #: Variable that names other numbers of hexes of five-side, with commas between them.
 _VARIABLE = "HEXMEND_SCALE"
 _SIZES = "100000,1000000,4000000"
+#: Variable that names other numbers of MPI ranks; more than one where mpiexec is installed.
+_VARIABLE_OF_RANKS = "HEXMEND_RANKS"
+_RANKS = "1,2,4"
 #: Numbers of hexes of the Kershaw meshes, whose optimum with a sliding boundary is the perfect lattice.
 _KERSHAW = 24**3, 48**3
 
@@ -37,8 +41,8 @@ sys.exit(status)
 """
 
 
-def measure_process(path: Path, folder: Path, options: tuple[str, ...] = ()) -> dict[str, Any]:
-    """Measure `hexmend smooth` of a file to another one, in a new process.
+def measure_process(path: Path, folder: Path, options: tuple[str, ...] = (), ranks: int = 1) -> dict[str, Any]:
+    """Measure `hexmend smooth` of a file to another one, in a new process or in several.
 
     Parameters
     ----------
@@ -47,17 +51,20 @@ def measure_process(path: Path, folder: Path, options: tuple[str, ...] = ()) -> 
         Where the result is written, as `out.vtu`.
     options : tuple of str
         Of the command.
+    ranks : int
+        MPI ranks.
 
     Returns
     -------
     dict
         `hexes`; `left`, inverted ones that remain; `seconds` of the process, and `method_seconds` of the method in it;
-        `iterations`; `peak_mb`, MiB.
+        `iterations`; `ranks`, `threads` of each; `peak_mb`, MiB, the largest of a rank.
     """
     report, peak = folder / "report.json", folder / "peak.txt"
     words = ["smooth", str(path), "-o", str(folder / "out.vtu"), "--json", str(report), *options]
+    command = on_ranks(ranks, [sys.executable, "-c", _PROBE, str(peak), *words])
     began = perf_counter()
-    done = subprocess.run([sys.executable, "-c", _PROBE, str(peak), *words], capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, env=environment() if ranks > 1 else None)
     if done.returncode:
         raise RuntimeError(f"hexmend {' '.join(words)}: {done.stderr.strip()}")
     seconds, output = perf_counter() - began, json.loads(report.read_text(encoding="utf-8"))
@@ -67,22 +74,26 @@ def measure_process(path: Path, folder: Path, options: tuple[str, ...] = ()) -> 
         "seconds": seconds,
         "method_seconds": output["seconds"],
         "iterations": output["iterations"],
-        "peak_mb": float(peak.read_text(encoding="utf-8")),
+        "ranks": ranks,
+        "threads": kernels.threads() if ranks == 1 else max(output["ranks"]["threads"]),
+        "peak_mb": float(peak.read_text(encoding="utf-8")) if ranks == 1 else max(output["ranks"]["peak_mb"]),
     }
 
 
 def _scale() -> dict[str, Any]:
-    rows = []
+    rows, counts = [], [int(word) for word in os.environ.get(_VARIABLE_OF_RANKS, _RANKS).split(",")]
+    counts = counts if launcher() is not None else [1]
     with tempfile.TemporaryDirectory(prefix="hexmend-") as name:
         folder, path = Path(name), Path(name) / "mesh.vtu"
         for size in os.environ.get(_VARIABLE, _SIZES).split(","):
             write(path, make("five-side", size=int(size), scramble=0.3))
-            rows.append({"mesh": "five-side", **measure_process(path, folder)})
+            for ranks in counts:
+                rows.append({"mesh": "five-side", **measure_process(path, folder, ranks=ranks)})
         for size in _KERSHAW:
             write(path, make("kershaw", size=size))
             row = {"mesh": "kershaw", **measure_process(path, folder, _OF_KERSHAW)}
             rows.append(row | {"deviation": _deviation(folder / "out.vtu")})
-    return {"threads": kernels.threads(), "rows": rows}
+    return {"rows": rows}
 
 
 def _deviation(path: Path) -> float:
@@ -93,15 +104,16 @@ def _deviation(path: Path) -> float:
 
 
 def _lines(figures: dict[str, Any]) -> list[str]:
-    threads = figures["threads"]
     lines = [
-        "| mesh | hexes | processes | threads | seconds | of it the method | peak, MiB | kB a hex | iterations |",
+        "| mesh | hexes | ranks | threads of each | seconds | of it the method | peak of a rank, MiB | in kB a hex "
+        "| iterations |",
         "|:---|---:|---:|---:|---:|---:|---:|---:|---:|",
     ]
     for row in figures["rows"]:
         lines.append(
-            f"| {row['mesh']} | {row['hexes']:,} | 1 | {threads} | {row['seconds']:.1f} | {row['method_seconds']:.1f} "
-            f"| {row['peak_mb']:,.0f} | {row['peak_mb'] * 1.024**2 * 1000 / row['hexes']:.2f} | {row['iterations']} |"
+            f"| {row['mesh']} | {row['hexes']:,} | {row['ranks']} | {row['threads']} | {row['seconds']:.1f} "
+            f"| {row['method_seconds']:.1f} | {row['peak_mb']:,.0f} "
+            f"| {row['peak_mb'] * 1.024**2 * 1000 / row['hexes']:.2f} | {row['iterations']} |"
         )
     kershaw = [row for row in figures["rows"] if "deviation" in row]
     furthest = max((row["deviation"] for row in kershaw), default=0.0)
@@ -110,6 +122,7 @@ def _lines(figures: dict[str, Any]) -> list[str]:
 
 
 _TITLE = (
-    f"Whole processes against size: five-side scrambled by 0.3, and kershaw sliding ({_VARIABLE} names other sizes)"
+    f"Whole processes against size: five-side scrambled by 0.3, and kershaw sliding ({_VARIABLE} names other sizes, "
+    f"{_VARIABLE_OF_RANKS} other numbers of MPI ranks)"
 )
 SCALE = BenchSection("scale", _TITLE, _scale, _lines)

@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 import traceback
+from collections.abc import Sequence
 from importlib import import_module
 from time import monotonic
 
@@ -18,12 +19,13 @@ from hexmend.cli.output.progress import LINE_INTERVAL
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.io import read, writer_for
-from hexmend.kernels import cores, set_threads
+from hexmend.kernels import cores, set_threads, threads
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.quality import describe_regressions, measure, summarise
+from hexmend.quality import Summary, describe_regressions, measure, summarise
 from hexmend.ranks.rank_part import distribute
 from hexmend.ranks.rank_run import RankRun, check_distributed, gather_points
+from hexmend.report import write_json
 from hexmend.run.memory import format_bytes
 from hexmend.run.shape_watch import ShapeWatch
 from hexmend.study.bench.section import peak_mb
@@ -32,7 +34,7 @@ from hexmend.terminal_text import count_phrase
 #: Variables in which launchers tell each process the number of processes on its machine.
 _LOCAL_SIZES = "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"
 #: Options that need the whole run in one process.
-_SINGLE = "recipe", "surface", "ridges", "only", "save_recipe", "json", "history"
+_SINGLE = "recipe", "surface", "ridges", "only", "save_recipe", "history"
 
 
 def run(args: argparse.Namespace) -> int:
@@ -88,7 +90,7 @@ def _prepare(args: argparse.Namespace, method: object) -> Mesh:
             option = f"--{name.replace('_', '-')}"
             raise ParameterError(f"{option} does not work on several MPI ranks yet: run it in one process")
     writer_for(args.output, None if args.rewrite else args.mesh)
-    check_targets(args.mesh, args.output)
+    check_targets(args.mesh, args.output, args.json)
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
     print_problems(args.mesh, mesh)
@@ -113,6 +115,34 @@ def _iterate(args: argparse.Namespace, run: RankRun, checkpoints: Checkpoints) -
             due = monotonic() + LINE_INTERVAL
 
 
+def _message(run: RankRun, summaries: Sequence[Summary], peak: float) -> str:
+    """Say how the run ended, what it took and what is worse; `peak` is the largest memory of a rank, MiB."""
+    kept = "" if run.kept == run.number else f"Iteration {run.kept:,} was kept."
+    where = f"on {run.part.ranks.count:,} ranks, each with at most {format_bytes(int(peak * 2**20))} of memory"
+    spent = f"{count_phrase(run.number, 'iteration')} in {run.seconds:.3g} s {where}."
+    words = run.outcome.value, spent, *run.decisions, kept, describe_regressions(*summaries, None)
+    return " ".join(filter(None, words))
+
+
+def _record(
+    run: RankRun, summaries: Sequence[Summary], message: str, of_ranks: Sequence[tuple[float, int]]
+) -> dict[str, object]:
+    """Return the report of --json, with the peak of memory, MiB, and the threads of each rank."""
+    before, after = summaries
+    return {
+        "method": run.smoother.name,
+        "parameters": run.smoother.values(),
+        "outcome": run.outcome.key,
+        "message": message,
+        "iterations": run.number,
+        "kept": run.kept,
+        "seconds": run.seconds,
+        "before": before.to_dict(),
+        "after": after.to_dict(),
+        "ranks": {"peak_mb": [peak for peak, _ in of_ranks], "threads": [count for _, count in of_ranks]},
+    }
+
+
 class _Given:
     """The mesh as given, which rank 0 reads again when it is needed."""
 
@@ -133,7 +163,7 @@ def _finish(args: argparse.Namespace, run: RankRun, checkpoints: Checkpoints, ti
     """Gather the result on rank 0, which writes it and prints the change."""
     ranks, given = run.part.ranks, _Given(args)
     points = gather_points(run.part, run.best_points, given.points)
-    peak, inverted = ranks.greatest(peak_mb()), None
+    peaks, inverted = ranks.comm.gather((peak_mb(), threads())), None
     if ranks.number == 0:
         mesh = given.mesh
         result = mesh.with_points(points)
@@ -142,11 +172,10 @@ def _finish(args: argparse.Namespace, run: RankRun, checkpoints: Checkpoints, ti
         rules = motion_rules(args)
         summaries = [summarise(with_rules(one, rules)) for one in (mesh, result)]
         print_summaries(f"{args.mesh}: {title}", ["before", "after"], summaries, None)
-        kept = "" if run.kept == run.number else f"Iteration {run.kept:,} was kept."
-        where = f"on {ranks.count:,} ranks, each with at most {format_bytes(int(peak * 2**20))} of memory"
-        spent = f"{count_phrase(run.number, 'iteration')} in {run.seconds:.3g} s {where}."
-        words = run.outcome.value, spent, *run.decisions, kept, describe_regressions(*summaries, None)
-        print(" ".join(filter(None, words)))
+        message = _message(run, summaries, max(peak for peak, _ in peaks))
+        if args.json:
+            write_json(args.json, _record(run, summaries, message, peaks))
+        print(message)
         print(written)
         inverted = summaries[1].inverted
     return 4 if run.part.ranks.comm.bcast(inverted) else 0
