@@ -112,7 +112,9 @@ ATTRIBUTES: dict[str, dict[str, str]] = {
         "worse": "regressions",
     },
     "hexmend.boundary.classification.Boundary": {"part": "component"},
-    "hexmend.boundary.sliding.SlidingBoundary": {"degrees": "feature_angle", "tolerance": "max_deviation"},
+    "hexmend.boundary.sliding.sliding_boundary.SlidingBoundary": {
+        "degrees": "feature_angle", "tolerance": "max_deviation",
+    },
     "hexmend.energy.mesh_energy.MeshEnergy": {
         "but": "with_objective", "least": "cube_value", "left_out": "omitted", "placed": "to_mesh_units",
         "power": "norm", "scaled": "to_edge_units",

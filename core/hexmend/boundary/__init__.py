@@ -9,8 +9,8 @@ from hexmend.boundary.departures import Departures, Keeping, departures
 from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.skin_surface import SkinSurface
 from hexmend.boundary.sliding import SlidingBoundary
+from hexmend.boundary.sliding.unlocking import freed_by_sliding
 from hexmend.boundary.surface import PartitionedSurface
-from hexmend.boundary.unlocking import freed_by_sliding
 
 __all__ = [
     "Boundary",

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.arrays import differing_rows, mask, row_norms
 from hexmend.boundary import SlidingBoundary
-from hexmend.boundary.flat_parts import SLIDING_TOLERANCE
+from hexmend.boundary.sliding.flat_parts import SLIDING_TOLERANCE
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.mesh_energy import MeshEnergy

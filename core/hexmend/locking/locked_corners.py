@@ -8,8 +8,8 @@ from enum import Enum
 import numpy as np
 
 from hexmend.arrays import mask
-from hexmend.boundary.flat_parts import FlatPart, flat_parts
 from hexmend.boundary.sliding import SlidingBoundary
+from hexmend.boundary.sliding.flat_parts import FlatPart, flat_parts
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh

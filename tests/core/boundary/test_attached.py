@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.boundary import NodeClass, PartitionedSurface, boundary_of
 from hexmend.boundary.normals import triangle_normals, vertex_normals
-from hexmend.boundary.unlocking import freed_by_sliding
+from hexmend.boundary.sliding.unlocking import freed_by_sliding
 from tests.core.grids import grid
 
 

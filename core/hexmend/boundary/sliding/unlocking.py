@@ -6,8 +6,8 @@ import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle
-from hexmend.boundary.flat_parts import flat_parts
 from hexmend.boundary.sliding import SlidingBoundary
+from hexmend.boundary.sliding.flat_parts import flat_parts
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants

@@ -1,0 +1,201 @@
+"""A mesh whose boundary nodes slide on a surface, and what of them may leave it."""
+
+from __future__ import annotations
+
+import copy
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.aliases import reads_old_names
+from hexmend.arrays import index_of, mask
+from hexmend.boundary.classification import NodeClass, classify
+from hexmend.boundary.edges import SurfaceEdges
+from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges, ridges
+from hexmend.boundary.skin_surface import MAX_TARGET_DISTANCE, SkinSurface
+from hexmend.boundary.sliding.flat_parts import flat_motion
+from hexmend.boundary.sliding.restrictions import fixed_on_surface, freed_by_rules, interface_nodes, moving_with_surface
+from hexmend.boundary.sliding.sliding_nodes import SlidingNodes
+from hexmend.boundary.surface import PartitionedSurface
+from hexmend.mesh.linear_motion import LinearMotion
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import CSR
+
+#: Cached properties that depend on which nodes slide.
+_OF_SLIDING_NODES = ("sliding_surface", "curved_nodes", "linear_mesh", "_flat", "rings")
+
+
+@reads_old_names
+class SlidingBoundary(SlidingNodes):
+    """A mesh whose boundary nodes slide on a surface: nodes of curves along curves, nodes of patches on patches.
+
+    Interfaces between materials are patches of the surface too, and nodes on them slide as the rules of the mesh say.
+    Corners and pinned nodes stay. On a target surface interfaces stay. Nodes with a linear motion do not slide: they
+    move as that says.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Nodes slide on its `target`, or else on the boundary that its `surface_points` define.
+    feature_angle : float or "auto"
+        Dihedral angle beyond which an edge is a feature; see `boundary_of`.
+    max_deviation : float
+        Largest distance of the boundary's edge and face midpoints from the surface, in the mesh's unit.
+    outer : bool
+        Let the nodes of the boundary slide; else only those do for which the rules of the mesh say so.
+    sets_hold : bool
+        Nodes at edges between two sets never leave the surface, as those at marked edges.
+
+    Attributes
+    ----------
+    boundary : Boundary
+        With nodes that stay as corners, and without the faces of interfaces that freed nodes take off the surface.
+    surface : Surface
+    node_class : (n,) uint8
+        `NodeClass` of each node with respect to the surface.
+    releasable : (n,) bool
+        True for corners found by angle, which may be made to slide; false for those that are marked or pinned.
+    confined : (n,) bool
+        True for nodes that never leave the surface: those of interfaces and of edges that are marked or, with
+        `sets_hold`, lie between sets.
+    mesh : Mesh
+        The given mesh with only corners, pinned nodes and unused nodes fixed; its sliding nodes lie on the target.
+    nodes : (k,) int64
+        Sliding nodes, ascending.
+    """
+
+    def __init__(
+        self,
+        mesh: Mesh,
+        feature_angle: FeatureAngle = FEATURE_ANGLE,
+        max_deviation: float = np.inf,
+        outer: bool = True,
+        sets_hold: bool = True,
+    ):
+        whole = boundary_with_kept_corners(mesh, feature_angle)
+        stays = fixed_on_surface(mesh, outer)
+        boundary = whole.with_corners(np.flatnonzero(stays)).without_nodes(freed_by_rules(mesh))
+        target, start = mesh.target, mesh.surface_points
+        if target is None:
+            surface = PartitionedSurface(start, boundary)
+        else:
+            given = _partitioned(target, feature_angle)
+            surface = given.attached(start, boundary, MAX_TARGET_DISTANCE * mesh.mean_edge_length)
+        moves_with = moving_with_surface(mesh, whole.faces)
+        slides = surface.node_class >= NodeClass.CURVE
+        if mesh.linear_motion is not None:
+            slides &= ~mesh.linear_motion.marks(mesh.n_nodes)
+        nodes = np.flatnonzero(slides)
+        super().__init__(boundary.with_faces(moves_with), surface, nodes, start, target, max_deviation)
+        if target is not None:
+            mesh = mesh.with_points(self.projected(mesh.points))
+            self.points = mesh.surface_points
+        self.mesh = mesh.with_fixed(mesh.fixed & ~slides)
+        self._left_faces = whole.faces[~moves_with]
+        self.releasable = self.boundary.node_class == NodeClass.CORNER
+        self.releasable[marked_corners(mesh)] = False
+        self._of_interfaces = mask(whole.patch_of_face[len(mesh.topology.boundary_faces) :], whole.n_patches)
+        self.confined = interface_nodes(mesh).copy()
+        self.confined[marked_edges(mesh) if sets_hold else ridges(mesh)] = True
+        self.releasable &= ~(stays | self.confined)
+
+    @property
+    def leavable(self) -> np.ndarray:
+        """Nodes of the boundary that may leave the surface where it holds the hexes down, (n,) bool."""
+        leavable = self.releasable & self.mesh.fixed
+        leavable[self.nodes] = True
+        return leavable & ~self.confined
+
+    def without_nodes(self, nodes: np.ndarray, max_deviation: float) -> SlidingBoundary:
+        """Return the sliding boundary with some nodes (k,) free: they move in all directions, off the surface too.
+
+        The band is `max_deviation` wide, in the mesh's unit, and quads at these nodes may be turned over.
+        """
+        other, freed = copy.copy(self), mask(nodes, self.mesh.n_nodes)
+        for name in _OF_SLIDING_NODES:
+            vars(other).pop(name, None)
+        judged = ~freed[self.boundary.faces].any(axis=1)
+        other.boundary, other.node_class = self.boundary.without_nodes(nodes).with_faces(judged), self.node_class.copy()
+        vars(other)["outward"], other.max_deviation = self.outward[judged], max_deviation
+        other.node_class[nodes] = NodeClass.INSIDE
+        stays = ~freed[self.nodes]
+        other.nodes, other._group, other._known = self.nodes[stays], self._group[stays], self._known[stays]
+        other._number = index_of(other.nodes, self.mesh.n_nodes)
+        other.mesh = self.mesh.with_fixed(self.mesh.fixed & ~freed)
+        return other
+
+    def with_nodes_on_patches(self, nodes: np.ndarray) -> SlidingBoundary:
+        """Return the sliding boundary with nodes (k,) of curves on all its patches but those of interfaces."""
+        other = copy.copy(self)
+        for name in _OF_SLIDING_NODES:
+            vars(other).pop(name, None)
+        other.surface, at = self._surface_with_union, self._number[nodes]
+        other.node_class, other._group = self.node_class.copy(), self._group.copy()
+        other.node_class[nodes], other._group[at] = NodeClass.PATCH, self._union
+        other._known = np.full(self.nodes.size, -1, dtype=np.int32)
+        return other
+
+    @property
+    def _union(self) -> int:
+        """Number of the group of all patches in a surface that has it."""
+        return self.surface.n_patches + self.surface.n_curves
+
+    @cached_property
+    def _surface_with_union(self) -> PartitionedSurface:
+        surface = self.surface
+        if surface.trees.roots.size > self._union:
+            return surface
+        # a target has no interfaces
+        return surface.with_union(~self._of_interfaces if self._given is None else np.ones(surface.n_patches, bool))
+
+    def on_several_patches(self, nodes: np.ndarray) -> np.ndarray:
+        """Mark those of some sliding nodes (k,) that slide on all patches, (k,) bool."""
+        return self._group[self._number[nodes]] == self._union
+
+    @cached_property
+    def curved_nodes(self) -> np.ndarray:
+        """Sliding nodes that are neither on a flat patch nor on a straight curve, ascending, (k,) int64."""
+        if self._given is not None:  # a surface of its own
+            return self.nodes
+        return self.nodes[~self._flat.marks(self.mesh.n_nodes)[self.nodes]]
+
+    @cached_property
+    def linear_mesh(self) -> Mesh:
+        """`mesh`, in which nodes of flat patches and straight curves have a linear motion, in plane and along line."""
+        mesh = self.mesh
+        if self._given is not None or not self._flat:
+            return mesh
+        flat, start, given = self._flat, mesh.motion_start.copy(), mesh.linear_motion
+        start[flat.nodes] = self.points[flat.nodes]
+        motion = flat if given is None else given.merge(flat)
+        return mesh.with_points(start).with_linear_motion(motion).with_points(mesh.points).with_fixed(mesh.fixed)
+
+    @cached_property
+    def _flat(self) -> LinearMotion:
+        return flat_motion(self.points, self.boundary, self.nodes, self.mesh.mean_edge_length)
+
+    @cached_property
+    def rings(self) -> CSR:
+        """Edge neighbours of each node; of a sliding node only those on its own curve or patch and on its ends."""
+        node_class, whole = self.node_class, self.mesh.topology.rings
+        node = np.repeat(np.arange(self.mesh.n_nodes), np.diff(whole.start))
+        edges = [np.stack([node, whole.items], axis=1)[self._number[node] < 0]]
+        across = np.concatenate([self.skin.edges.nodes, SurfaceEdges(self._left_faces, self.mesh.n_nodes).nodes])
+        across = np.unique(across, axis=0) if len(self._left_faces) else across
+        for of, along in (NodeClass.CURVE, self.boundary.segments), (NodeClass.PATCH, across):
+            both = np.concatenate([along, along[:, ::-1]])
+            edges.append(both[node_class[both[:, 0]] == of])
+        edges = np.concatenate(edges)
+        edges = edges[np.lexsort((edges[:, 1], edges[:, 0]))]
+        start = np.searchsorted(edges[:, 0], np.arange(self.mesh.n_nodes + 1))
+        return CSR(start.astype(np.int32), np.ascontiguousarray(edges[:, 1], dtype=np.int32))
+
+
+def _partitioned(target: SkinSurface, feature_angle: FeatureAngle) -> PartitionedSurface:
+    """Curves and patches of a surface, which keeps them: a run and its report need those of a large one again."""
+    known = target.derived.get(feature_angle)
+    if known is None:
+        boundary = classify(target.points, target.faces, feature_angle, edges=target.edges)
+        known = target.derived[feature_angle] = PartitionedSurface(target.points, boundary)
+    return known
