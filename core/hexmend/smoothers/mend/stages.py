@@ -78,7 +78,10 @@ class Stages:
         if result is None:
             result = yield from self._maxmin_stage(mesh, candidates, sliding, fixed)
             if sliding is not None and self.settings.maximises_jacobian:
+                least = result.least
                 result = yield from self._raise_in_wider_bands(sliding, self._bands(mesh)[1:], result)
+                if result.gains(least):
+                    result = yield from self._raise_from_wide_shape(sliding, fixed_optimum, result)
         if leaving is not None and result is not None:
             result = yield from leaving.raise_least(fixed_optimum, result)
         if self.goal == "time-step":
@@ -211,6 +214,21 @@ class Stages:
             result = higher
             yield result.step()
         return result
+
+    def _raise_from_wide_shape(
+        self, sliding: SlidingBoundary, points: np.ndarray, result: MaxMinResult
+    ) -> Generator[Step, None, MaxMinResult]:
+        """Raise from the optimum of shape in the widest band, if that is higher; it is reached from points (n, 3) on.
+
+        Where the band matters, the goal `shape`, whose band is that one, may end higher otherwise.
+        """
+        wide = sliding.with_band(self._bands(sliding.mesh)[-1])
+        shape = yield from infeasible(self._sliding_shape(wide, points))
+        higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [result.optimiser.points, shape.points], wide))
+        if not higher.least > result.least:
+            return result
+        yield higher.step()
+        return higher
 
     def _untangle(
         self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, locked: np.ndarray

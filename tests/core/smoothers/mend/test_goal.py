@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
@@ -78,6 +78,7 @@ def test_it_does_no_harm_wherever_it_is_stopped(name, goal, boundary, amplitude,
 
 @settings(max_examples=8)
 @given(st.sampled_from(sorted(MESHES)), st.sampled_from(["fixed", "slide"]), st.integers(0, 2**32 - 1))
+@example("wavy", "slide", 9216)  # the band in which it began held the least down
 def test_the_least_ends_no_lower_than_at_the_optimum_of_shape(name, boundary, seed):
     mesh = MESHES[name]()
     mesh = scrambled(mesh, 0.3 * mesh.mean_edge_length, seed)
