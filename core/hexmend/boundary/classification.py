@@ -8,7 +8,7 @@ from enum import IntEnum
 import numpy as np
 
 from hexmend.aliases import old_keywords, reads_old_names
-from hexmend.arrays import mask
+from hexmend.arrays import index_of, mask
 from hexmend.boundary.edges import SurfaceEdges, chains
 from hexmend.boundary.feature_edges.features import (
     FEATURE_ANGLE,
@@ -90,6 +90,17 @@ class Boundary:
     def with_faces(self, which: np.ndarray) -> Boundary:
         """Return the boundary with some of its faces (k,) bool alone; nodes, curves and patches stay as they are."""
         return replace(self, faces=self.faces[which], patch_of_face=self.patch_of_face[which])
+
+    def on_nodes(self, nodes: np.ndarray) -> Boundary:
+        """Return the boundary with nodes numbered by their places among some (k,) int, which include all of its own."""
+        number = index_of(nodes, len(self.node_class))
+        return replace(
+            self,
+            node_class=self.node_class[nodes],
+            component=self.component[nodes],
+            faces=number[self.faces],
+            segments=number[self.segments],
+        )
 
     def count(self, node_class: NodeClass) -> int:
         """Return the number of nodes of a class."""

@@ -103,6 +103,13 @@ class PartitionedSurface:
             raise MeshError(f"node {node} (counted from 0) is of kind {name}: expected CURVE or PATCH, which slide")
         return self.component[nodes] + np.where(node_class == NodeClass.CURVE, np.int32(self.n_patches), np.int32(0))
 
+    def on_nodes(self, nodes: np.ndarray) -> PartitionedSurface:
+        """Return this surface for nodes that are numbered by their places among some (k,) int."""
+        other = copy.copy(self)
+        vars(other).pop("_patches_and_curves", None)
+        other.node_class, other.component = self.node_class[nodes], self.component[nodes]
+        return other
+
     def directions(self, found: ClosestPoints, smooth: bool = True) -> np.ndarray:
         """Compute normals of patches and tangents of curves at closest points.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -19,6 +20,19 @@ from hexmend.kernels import conjugate_gradients
 _PROBE_LENGTH = 1e-5
 #: Share of a rising slope along the tangent up to which the slope after projection may rise.
 _KEPT_RISE = 1.01
+
+
+class Slides(Protocol):
+    """Sliding nodes as an energy uses them; see `SlidingNodes`."""
+
+    def project(self, x: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+        """Project positions (k, 3) of some sliding nodes (k,)."""
+
+    def tangent_bases(self, x: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+        """Compute directions in which some sliding nodes (k,) at positions (k, 3) may move, (k, 3, 3)."""
+
+    def rejected_nodes(self, before: np.ndarray, after: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
+        """Find nodes whose moves harm the boundary, (k,) int."""
 
 
 class SlidingEnergy(MeshEnergy):
@@ -52,11 +66,14 @@ class SlidingEnergy(MeshEnergy):
         flat_is_linear: bool = False,
     ):
         super().__init__(sliding.linear_mesh if flat_is_linear else sliding.mesh, norm, omitted)
-        self.sliding = sliding
-        self.sliding_nodes = sliding.curved_nodes if flat_is_linear else sliding.nodes
-        self.faceted = self.sliding_nodes.size > 0
+        self._slide(sliding, sliding.curved_nodes if flat_is_linear else sliding.nodes)
         self._linear_nodes = np.setdiff1d(sliding.nodes, self.sliding_nodes, assume_unique=True)
-        self._rows = np.searchsorted(self.nodes, self.sliding_nodes)
+
+    def _slide(self, sliding: Slides, nodes: np.ndarray) -> None:
+        """Let nodes (k,) slide, ascending."""
+        self.sliding, self.sliding_nodes = sliding, nodes
+        self.faceted = self.ranks.any(nodes.size > 0)
+        self._rows = np.searchsorted(self.nodes, nodes)
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
         self._projected: tuple[np.ndarray, np.ndarray] | None = None
 
@@ -98,7 +115,7 @@ class SlidingEnergy(MeshEnergy):
             kept |= slopes <= _KEPT_RISE * np.einsum("ki,ki->k", step[rows], gradient[rows])
         step[rows[~kept]] = 0.0
         inside = ~mask(rows, len(step))
-        return float((step[inside] * gradient[inside]).sum() + slopes[kept].sum())
+        return self.ranks.sum(float((step[inside] * gradient[inside]).sum() + slopes[kept].sum()))
 
     def infeasible_nodes(
         self, x: np.ndarray, there: np.ndarray, changed: np.ndarray | None = None
@@ -127,25 +144,38 @@ class SlidingEnergy(MeshEnergy):
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         gradient = super().gradient(x, delta)
-        gradient[self._rows] = np.einsum("kij,kj->ki", self.projectors(x), gradient[self._rows])
+        along = self.projectors(x)[: self._rows.size]
+        gradient[self._rows] = np.einsum("kij,kj->ki", along, gradient[self._rows])
         return gradient
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> SlidingHessian:
         return SlidingHessian(self, x, delta)
 
     def projectors(self, x: np.ndarray) -> np.ndarray:
-        """Tangential projectors of the sliding nodes at positions x (n, 3) of all nodes, (k, 3, 3), symmetric."""
+        """Tangential projectors of the sliding nodes at positions x (n, 3) of all nodes, (k, 3, 3), symmetric.
+
+        Those of sliding nodes that other ranks move follow.
+        """
         seen = self._seen  # one read, as another thread may replace it
         if seen is None or seen[0] is not x:
             bases = self.sliding.tangent_bases(x[self.sliding_nodes] * self.unit, self.sliding_nodes)
-            seen = self._seen = x, bases @ bases.transpose(0, 2, 1)
+            seen = self._seen = x, self._with_ghosts(bases @ bases.transpose(0, 2, 1))
         return seen[1]
+
+    def _with_ghosts(self, projectors: np.ndarray) -> np.ndarray:
+        """Append the projectors of sliding nodes that other ranks move to (k, 3, 3); here there are none."""
+        return projectors
+
+    @cached_property
+    def sliding_slots(self) -> np.ndarray:
+        """Slots of the nodes that have `projectors`, (k,) int."""
+        return self.sparsity.order[self._rows]
 
     @cached_property
     def sliding_blocks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Blocks above the diagonal with a sliding node, and the slots of their rows and columns, (b,) each."""
         sparsity = self.sparsity
-        slides = mask(sparsity.order[self._rows], sparsity.nodes.size)
+        slides = mask(self.sliding_slots, sparsity.nodes.size)
         row = np.repeat(np.arange(slides.size), np.diff(sparsity.row_start))
         at = np.flatnonzero(slides[row] | slides[sparsity.columns])
         return at.astype(np.int32), row[at].astype(np.int32), sparsity.columns[at]
@@ -158,7 +188,8 @@ class SlidingHessian(Hessian):
 
     def _product(self, v: np.ndarray) -> np.ndarray:
         energy = self.energy
-        rows, along = energy._rows, energy.projectors(self.x)
+        rows = energy._rows
+        along = energy.projectors(self.x)[: rows.size]
         v = v.reshape(-1, 3).copy()
         normal = v[rows]
         v[rows] = np.einsum("kij,kj->ki", along, normal)
@@ -168,15 +199,14 @@ class SlidingHessian(Hessian):
         return product.ravel()
 
     def assembled(self, dtype: type | None = None, reuse: AssembledHessian | None = None) -> AssembledHessian:
-        energy = self.energy
-        dtype = dtype or energy.precision
+        energy, dtype = self.energy, dtype or self.energy.precision
         matrix = super().assembled(dtype, reuse)
-        slots = matrix.order[energy._rows]
         along = energy.projectors(self.x).astype(dtype)
-        of_slot = np.broadcast_to(np.eye(3, dtype=dtype), (matrix.order.size, 3, 3)).copy()
-        of_slot[slots] = along
+        of_slot = np.broadcast_to(np.eye(3, dtype=dtype), (matrix.sparsity.nodes.size, 3, 3)).copy()
+        of_slot[energy.sliding_slots] = along
         at, row, column = energy.sliding_blocks
         conjugate_gradients.turn_blocks(of_slot.reshape(-1, 9), at, row, column, matrix.off_diagonal)
+        slots, along = matrix.order[energy._rows], along[: energy._rows.size]
         own = along @ unpack_symmetric(matrix.diagonal[slots]) @ along
         size = np.abs(np.trace(own, axis1=1, axis2=2) / np.maximum(np.trace(along, axis1=1, axis2=2), 1))
         size = np.where(size > 0, size, 1)[:, None, None]  # a scale between the extreme eigenvalues

@@ -54,6 +54,15 @@ class MPIRanks(Ranks):
     def norm(self, own: np.ndarray) -> float:
         return float(np.sqrt(self.sum(dot(own, own))))
 
+    def gather(self, own: np.ndarray) -> np.ndarray:
+        """Return the rows (k, ...) of all ranks, one rank's after another's, on every rank."""
+        counts = np.array(self.comm.allgather(len(own)))
+        rows = np.empty((counts.sum(), *own.shape[1:]), own.dtype)
+        bytes_per_row = int(np.prod(own.shape[1:], dtype=int)) * own.itemsize
+        sending = np.ascontiguousarray(own).reshape(-1).view(np.uint8)
+        self.comm.Allgatherv(sending, [rows.reshape(-1).view(np.uint8), counts * bytes_per_row])
+        return rows
+
     def complete(self, rows: np.ndarray) -> np.ndarray:
         self._exchange(rows, self._sent, self._received)
         return rows

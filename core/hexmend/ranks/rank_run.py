@@ -9,35 +9,16 @@ from time import perf_counter
 import numpy as np
 
 from hexmend.arrays import largest_norm
-from hexmend.boundary import SlidingBoundary
 from hexmend.energy import ObjectiveNorm
-from hexmend.errors import ParameterError
 from hexmend.iteration import Outcome, Step, StoppingCriteria
-from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.quality import ElementQuality, measure, measure_against_target
 from hexmend.ranks.rank_energy import RankEnergy
 from hexmend.ranks.rank_part import RankPart
-from hexmend.smoothers import Smoother
-from hexmend.smoothers.base import Steps, objective_of_sound
-from hexmend.smoothers.mend.balance import BALANCE, balance
-from hexmend.smoothers.mend.maxmin import MAXMIN
+from hexmend.ranks.rank_sliding import RankSliding
+from hexmend.ranks.rank_stages import RankStages
+from hexmend.smoothers.base import objective_of_sound
+from hexmend.smoothers.mend.balance import BALANCE
 from hexmend.smoothers.mend.mend import Mend
-from hexmend.smoothers.mend.stages import Stages
-
-_UNSOUND = "A least scaled Jacobian that is not sound is not raised on several ranks yet: do so in one process."
-
-
-def check_distributed(smoother: Smoother, mesh: Mesh) -> None:
-    """Raise `ParameterError` for what several ranks cannot do."""
-    remedy = "run it in one process, without mpiexec"
-    if not isinstance(smoother, Mend):
-        raise ParameterError(f"{smoother.title} does not run on several MPI ranks yet, mend does: {remedy}")
-    if smoother.goal not in ("shape", "balanced") or smoother.guard:
-        which = "guard = true" if smoother.guard else f"goal = {smoother.goal}"
-        raise ParameterError(f"{which} does not run on several MPI ranks yet, goals shape and balanced do: {remedy}")
-    if smoother.slides_on(mesh) or mesh.linear_motion is not None:
-        raise ParameterError(f"nodes that slide do not run on several MPI ranks yet, a fixed boundary does: {remedy}")
 
 
 @dataclass(frozen=True)
@@ -67,36 +48,18 @@ class RankFigures:
         )
 
 
-class RankStages(Stages):
-    """Stages of mend on a part: untangling, the optimum of shape, and what the goal balanced asks for."""
-
-    def __init__(self, settings: Mend, part: RankPart):
-        super().__init__(settings)
-        self._part = part
-
-    def steps(self, mesh: Mesh) -> Steps:
-        yield Step(mesh.points)
-        energy = self._energy(mesh, self.settings.first_norm_on(mesh))
-        balances = self.settings.balances
-        shape = yield from self._shape(mesh, energy, balances)
-        if not balances:
-            return shape.outcome
-        energy = self._sound_energy(mesh, shape.points, None)
-        hexes, x = MovableHexes(energy), energy.to_edge_units(shape.points)
-        if energy.ranks.least(float(hexes.jacobians(x).min(initial=np.inf))) < MAXMIN.barrier_safe:
-            yield Step(shape.points, decision=_UNSOUND)
-            return Outcome.NO_IMPROVEMENT
-        balanced = yield from balance(energy, shape.points, mesh.points)
-        yield Step(balanced.points, decision=balanced.message, intermediate=True)
-        return Outcome.NO_IMPROVEMENT
-
-    def _energy(self, mesh: Mesh, norm: ObjectiveNorm, sliding: SlidingBoundary | None = None) -> RankEnergy:
-        return RankEnergy(self._part, norm)
-
-
 @dataclass
 class RankRun(Iterator[RankFigures]):
     """Iterator over the figures of the iterations; all ranks iterate together.
+
+    Parameters
+    ----------
+    part : RankPart
+        With the boundary fixed.
+    smoother : Mend
+    stop : StoppingCriteria
+    sliding : RankSliding, optional
+        The boundary if it slides.
 
     Attributes
     ----------
@@ -111,6 +74,7 @@ class RankRun(Iterator[RankFigures]):
     part: RankPart
     smoother: Mend
     stop: StoppingCriteria
+    sliding: RankSliding | None = None
     decisions: list[str] = field(default_factory=list)
     outcome: Outcome | None = None
     number: int = 0
@@ -121,13 +85,20 @@ class RankRun(Iterator[RankFigures]):
     def __post_init__(self) -> None:
         mesh = self.part.mesh
         self._energy = RankEnergy(self.part, self.smoother.norm)
-        self._steps = RankStages(self.smoother, self.part).steps(mesh)
+        self._stages = RankStages(self.smoother, self.part, self.sliding)
+        self._steps = self._stages.steps(mesh)
         next(self._steps)
         self.points = self.best_points = mesh.points
         self.start = self.last = self._figures(measure(mesh.points, mesh.hexes), mesh.points)
         self._best_rank = self._rank(self.start)
-        if not self._energy.ranks.any(self._energy.nodes.size > 0):
+        moving = self._energy.nodes if self.sliding is None else self.sliding.nodes
+        if not self._energy.ranks.any(moving.size + self._energy.nodes.size > 0):
             self.outcome = Outcome.NOTHING_FREE
+
+    @property
+    def unsound(self) -> bool:
+        """The stages ended because the least scaled Jacobian was not sound after untangling."""
+        return self._stages.unsound
 
     def __next__(self) -> RankFigures:
         if self.outcome is not None:
@@ -156,7 +127,7 @@ class RankRun(Iterator[RankFigures]):
         if step.decision:
             self.decisions.append(step.decision)
         rank = self._rank(self.last)
-        if self.stop.keep_last or rank <= self._best_rank:
+        if self.stop.keep_last or (rank <= self._best_rank and not step.infeasible):
             self.best_points, self.kept, self._best_rank = points, self.number, rank
         if self.move < self.stop.tolerance and not step.intermediate:
             self.outcome = Outcome.CONVERGED

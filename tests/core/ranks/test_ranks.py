@@ -82,6 +82,42 @@ def test_floors_rise_on_several_ranks(tangled, tmp_path, ranks):
 
 @needs_mpi
 @pytest.mark.slow
+@pytest.mark.parametrize("ranks", [2, 5])
+def test_a_boundary_that_slides_on_planes_reaches_the_lattice(tmp_path, ranks):
+    given, out = tmp_path / "given.vtu", tmp_path / "out.vtu"
+    write(given, make("kershaw", size=1728))
+    run = on_ranks(ranks, given, "-o", out, "--boundary", "slide", "--goal", "shape", "--tolerance", "1e-10")
+    assert run.returncode == 0, run.stderr
+    x = 12 * read(out).points
+    np.testing.assert_allclose(x, np.round(x), atol=1e-6)
+    assert "The boundary slid" in run.stdout
+
+
+@needs_mpi
+@pytest.mark.slow
+def test_a_curved_boundary_slides_as_in_one_process(tangled, tmp_path):
+    reaches_the_optimum_of_one_process(tangled, tmp_path, 3, "balanced", 5e-3, "--boundary", "slide")
+
+
+@needs_mpi
+@pytest.mark.slow
+def test_rank_0_goes_on_alone_where_untangling_leaves_hexes_unsound(tmp_path):
+    given, out, report = (tmp_path / name for name in ("given.vtu", "out.vtu", "report.json"))
+    mesh = make("cube", size=125)
+    points, middle = mesh.points.copy(), np.array([0.4, 0.4, 1]) * mesh.points.max()
+    node = np.linalg.norm(points - middle, axis=1).argmin()
+    points[node, :2] += 1.7 * mesh.mean_edge_length
+    write(given, mesh.with_points(points))
+    run = on_ranks(2, given, "-o", out, "--boundary", "slide", "--json", report)
+    assert run.returncode == 0, run.stderr
+    assert "rank 0 raises it alone" in run.stderr
+    assert "Rank 0 went on alone for" in run.stdout
+    assert json.loads(report.read_text())["ranks"]["iterations_alone"] > 0
+    assert figures(out)[0] == 0
+
+
+@needs_mpi
+@pytest.mark.slow
 def test_targets_are_divided_too(tangled, tmp_path):
     reaches_the_optimum_of_one_process(tangled, tmp_path, 3, "shape", 1e-7, "--target", "given-shape")
 
@@ -91,7 +127,7 @@ def test_targets_are_divided_too(tangled, tmp_path):
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        (["--boundary", "slide"], "nodes that slide do not run on several MPI ranks yet"),
+        (["--set", "guard=true"], "guard = true does not run on several MPI ranks yet"),
         (["--method", "laplacian"], "Laplacian does not run on several MPI ranks yet"),
         (["--goal", "scaled-jacobian"], "goal = scaled-jacobian does not run on several MPI ranks yet"),
         (["--history", "h.csv"], "--history does not work on several MPI ranks yet"),

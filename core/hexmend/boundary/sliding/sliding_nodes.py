@@ -9,7 +9,7 @@ from typing import Self
 
 import numpy as np
 
-from hexmend.arrays import differing_rows, index_of
+from hexmend.arrays import differing_rows, index_of, mask
 from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints, triangulate
@@ -63,6 +63,26 @@ class SlidingNodes(Band):
         self._known = np.full(nodes.size, -1, dtype=np.int32)  # piece on which each of them was last
         start = points if target is None else self.projected(points)
         super().__init__(points, boundary.faces, start, target, max_deviation)
+
+    def on_boundary(self) -> tuple[SlidingNodes, np.ndarray]:
+        """Return the sliding nodes among those of the boundary alone, and the numbers of these, (b,) int64, ascending.
+
+        Raises
+        ------
+        ValueError
+            For a target surface.
+        """
+        if self._given is not None:
+            raise ValueError("a boundary on a target surface has no form of its own yet")
+        has = mask(self.boundary.faces, len(self.points))
+        has[self.boundary.segments] = True
+        has[self.nodes] = True
+        at = np.flatnonzero(has)
+        number = index_of(at, has.size)
+        boundary, surface = self.boundary.on_nodes(at), self.surface.on_nodes(at)
+        return SlidingNodes(
+            boundary, surface, number[self.nodes].astype(np.int64), self.points[at], None, self.max_deviation
+        ), at
 
     def with_band(self, max_deviation: float) -> Self:
         """Return the sliding boundary with another width of the band, in the mesh's unit."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
 from itertools import islice
 
@@ -64,12 +64,12 @@ class Stages:
         candidates = [mesh.points, fixed_optimum]
         if slides:
             fixed, given, kept = yield from self._raise_fixed(mesh, candidates, given)
-            sliding = self._sliding_boundary(mesh)
+            sliding = self.sliding_boundary(mesh)
             mesh = sliding.mesh
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
             steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
-            yield from _keeping(kept, mesh.hexes, islice(steps, MAXMIN.untangling_iterations))
-            shape = yield from _keeping(kept, mesh.hexes, self._sliding_shape(sliding, optimiser.points))
+            yield from keeping(kept, mesh.hexes, islice(steps, MAXMIN.untangling_iterations))
+            shape = yield from keeping(kept, mesh.hexes, self._sliding_shape(sliding, optimiser.points))
             candidates += [optimiser.points, shape.points]
         result, leaving = None, None
         if sliding is not None:
@@ -91,7 +91,7 @@ class Stages:
         active, sentences, quality = None, [], None
         if self.settings.balances and (result is None or not result.optimiser.envelope.released.any()):
             energy = self._sound_energy(mesh, points, sliding)
-            balanced = yield from _keeping(kept, mesh.hexes, balance(energy, points, given))
+            balanced = yield from keeping(kept, mesh.hexes, balance(energy, points, given))
             points = balanced.points
             sentences.append(balanced.message)
         if self.settings.maximises_minimum:
@@ -126,7 +126,7 @@ class Stages:
         balanced = yield from balance(self._sound_energy(mesh, optimum, None), optimum, given)
         return fixed, balanced.points, measure(balanced.points, mesh.hexes)
 
-    def _sliding_boundary(self, mesh: Mesh) -> SlidingBoundary:
+    def sliding_boundary(self, mesh: Mesh) -> SlidingBoundary:
         """The boundary in the narrowest band; a tolerance in numbers says how far its sets too may move."""
         settings = self.settings
         sets_hold = settings.surface_tolerance == AUTO
@@ -246,8 +246,17 @@ class Stages:
         return (yield from self._untangle(mesh, energy, quality, locked)).points
 
 
-def _keeping(
-    kept: ElementQuality | None, hexes: np.ndarray, steps: Generator[Step, None, T]
+def _is_lower(now: ElementQuality, kept: ElementQuality) -> bool:
+    """Return True if a hex is inverted, or one of the least values is lower."""
+    pairs = (now.q, kept.q), (now.scaled_jacobian, kept.scaled_jacobian)
+    return now.n_inverted > 0 or any(new.min() < old.min() - WORSE_BY for new, old in pairs)
+
+
+def keeping(
+    kept: ElementQuality | None,
+    hexes: np.ndarray,
+    steps: Generator[Step, None, T],
+    is_lower: Callable[[ElementQuality, ElementQuality], bool] = _is_lower,
 ) -> Generator[Step, None, T]:
     """Yield steps of a mesh with hexes (m, 8), as infeasible ones while a figure is lower than one that is kept."""
     if kept is None:
@@ -258,10 +267,4 @@ def _keeping(
         except StopIteration as end:
             return end.value
         quality = step.quality if step.quality is not None else measure(step.points, hexes)
-        yield replace(step, quality=quality, infeasible=step.infeasible or _is_lower(quality, kept))
-
-
-def _is_lower(now: ElementQuality, kept: ElementQuality) -> bool:
-    """Return True if a hex is inverted, or one of the least values is lower."""
-    pairs = (now.q, kept.q), (now.scaled_jacobian, kept.scaled_jacobian)
-    return now.n_inverted > 0 or any(new.min() < old.min() - WORSE_BY for new, old in pairs)
+        yield replace(step, quality=quality, infeasible=step.infeasible or is_lower(quality, kept))

@@ -10,26 +10,35 @@ from collections.abc import Sequence
 from importlib import import_module
 from time import monotonic
 
+import numpy as np
+
+from hexmend.arrays import as_immutable
 from hexmend.cli.arguments.checks import check_memory, check_targets
 from hexmend.cli.arguments.run_arguments import method_and_limits, motion_rules
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
+from hexmend.cli.commands.smooth.rank_result import RankResult
 from hexmend.cli.output.mesh_messages import print_notes, print_problems
 from hexmend.cli.output.mesh_output import MeshOutput
 from hexmend.cli.output.progress import LINE_INTERVAL
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.io import read, writer_for
+from hexmend.iteration import Iteration
 from hexmend.kernels import cores, set_threads, threads
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.quality import Summary, describe_regressions, measure, summarise
+from hexmend.quality import measure, measure_against_target
 from hexmend.ranks.rank_part import distribute
-from hexmend.ranks.rank_run import RankRun, check_distributed, gather_points
+from hexmend.ranks.rank_run import RankRun, gather_points
+from hexmend.ranks.rank_sliding import distribute_sliding
+from hexmend.ranks.rank_stages import check_distributed
 from hexmend.report import write_json
-from hexmend.run.memory import format_bytes
+from hexmend.run.recipe import Stage
 from hexmend.run.shape_watch import ShapeWatch
+from hexmend.run.stage_run import StageRun
+from hexmend.smoothers import Smoother
+from hexmend.smoothers.mend.stages import Stages
 from hexmend.study.bench.section import peak_mb
-from hexmend.terminal_text import count_phrase
 
 #: Variables in which launchers tell each process the number of processes on its machine.
 _LOCAL_SIZES = "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"
@@ -39,14 +48,17 @@ _SINGLE = "recipe", "surface", "ridges", "only", "save_recipe", "history"
 
 def run(args: argparse.Namespace) -> int:
     """Smooth a mesh on all ranks of the program; rank 0 reads and writes. Returns 4 if hexes are still inverted."""
+    if _local_ranks() >= (os.cpu_count() or 1):  # ranks that wait leave the processor to others
+        os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
     comm = import_module("mpi4py.MPI").COMM_WORLD  # which begins MPI
     _share_processors()
-    mesh, problem = None, None
+    mesh, sliding, problem = None, None, None
     try:
         method, limits = method_and_limits(args)
         checkpoints = Checkpoints(args.output, args.checkpoint)
         if comm.rank == 0:
             mesh = _prepare(args, method)
+            sliding = Stages(method).sliding_boundary(mesh) if method.slides_on(mesh) else None
             check_memory(args, [method], mesh.n_hexes * _local_ranks() // comm.size, "use more machines")
     except HexmendError as error:
         problem = error
@@ -55,8 +67,9 @@ def run(args: argparse.Namespace) -> int:
             raise problem
         return 3
     try:
-        part, mesh = distribute(comm, mesh), None  # rank 0 does not keep the whole mesh
-        run = RankRun(part, method, limits)
+        slides, part = comm.bcast(sliding is not None), distribute(comm, mesh)
+        sliding, mesh = distribute_sliding(part, sliding) if slides else None, None  # rank 0 keeps no whole mesh
+        run = RankRun(part, method, limits, sliding)
         _iterate(args, run, checkpoints)
         return _finish(args, run, checkpoints, method.title)
     except KeyboardInterrupt:  # the launcher ends all ranks
@@ -97,6 +110,11 @@ def _prepare(args: argparse.Namespace, method: object) -> Mesh:
     MeshOutput(args.output, args.mesh, mesh, args.rewrite).warn_of_losses(mesh)
     mesh = with_rules(mesh, motion_rules(args))
     check_distributed(method, mesh)
+    return _with_target(mesh, method)
+
+
+def _with_target(mesh: Mesh, method: Smoother) -> Mesh:
+    """Return a mesh with the target that a method has for its hexes, such as those of boundary layers."""
     return ShapeWatch(mesh, measure(mesh.points, mesh.hexes)).with_target(method)
 
 
@@ -115,32 +133,23 @@ def _iterate(args: argparse.Namespace, run: RankRun, checkpoints: Checkpoints) -
             due = monotonic() + LINE_INTERVAL
 
 
-def _message(run: RankRun, summaries: Sequence[Summary], peak: float) -> str:
-    """Say how the run ended, what it took and what is worse; `peak` is the largest memory of a rank, MiB."""
-    kept = "" if run.kept == run.number else f"Iteration {run.kept:,} was kept."
-    where = f"on {run.part.ranks.count:,} ranks, each with at most {format_bytes(int(peak * 2**20))} of memory"
-    spent = f"{count_phrase(run.number, 'iteration')} in {run.seconds:.3g} s {where}."
-    words = run.outcome.value, spent, *run.decisions, kept, describe_regressions(*summaries, None)
-    return " ".join(filter(None, words))
+def _result(mesh: Mesh, points: np.ndarray, run: RankRun, figures: Sequence[tuple[float, int]]) -> RankResult:
+    """The result with points (n, 3), from which rank 0 goes on alone where ranks cannot; figures: memory, threads."""
+    alone = _finish_alone(mesh, points, run) if run.unsound else None
+    result = mesh.with_points(points if alone is None else alone.best.points)
+    return RankResult(run, alone, mesh, result, *zip(*figures, strict=True))
 
 
-def _record(
-    run: RankRun, summaries: Sequence[Summary], message: str, of_ranks: Sequence[tuple[float, int]]
-) -> dict[str, object]:
-    """Return the report of --json, with the peak of memory, MiB, and the threads of each rank."""
-    before, after = summaries
-    return {
-        "method": run.smoother.name,
-        "parameters": run.smoother.values(),
-        "outcome": run.outcome.key,
-        "message": message,
-        "iterations": run.number,
-        "kept": run.kept,
-        "seconds": run.seconds,
-        "before": before.to_dict(),
-        "after": after.to_dict(),
-        "ranks": {"peak_mb": [peak for peak, _ in of_ranks], "threads": [count for _, count in of_ranks]},
-    }
+def _finish_alone(mesh: Mesh, points: np.ndarray, run: RankRun) -> StageRun:
+    """Go on in one process from points (n, 3), where the ranks have left the least scaled Jacobian unsound."""
+    print("hexmend: the least scaled Jacobian is not sound: rank 0 raises it alone", file=sys.stderr, flush=True)
+    mesh, quality = _with_target(mesh, run.smoother), measure(points, mesh.hexes)
+    judged = measure_against_target(mesh, points, quality)
+    start = Iteration(run.number, as_immutable(points), quality, run.seconds, 0.0, {}, run.smoother.norm, judged)
+    alone = StageRun(mesh, Stage(run.smoother, run.stop), 1, start, start)
+    while alone.outcome is None:
+        alone.advance()
+    return alone
 
 
 class _Given:
@@ -163,19 +172,16 @@ def _finish(args: argparse.Namespace, run: RankRun, checkpoints: Checkpoints, ti
     """Gather the result on rank 0, which writes it and prints the change."""
     ranks, given = run.part.ranks, _Given(args)
     points = gather_points(run.part, run.best_points, given.points)
-    peaks, inverted = ranks.comm.gather((peak_mb(), threads())), None
+    figures, inverted = ranks.comm.gather((peak_mb(), threads())), None
     if ranks.number == 0:
-        mesh = given.mesh
-        result = mesh.with_points(points)
-        written = MeshOutput(args.output, args.mesh, mesh, args.rewrite).write(result)
+        result = _result(with_rules(given.mesh, motion_rules(args)), points, run, figures)
+        output = given.mesh.with_points(result.mesh.points)
+        written = MeshOutput(args.output, args.mesh, given.mesh, args.rewrite).write(output)
         checkpoints.remove()
-        rules = motion_rules(args)
-        summaries = [summarise(with_rules(one, rules)) for one in (mesh, result)]
-        print_summaries(f"{args.mesh}: {title}", ["before", "after"], summaries, None)
-        message = _message(run, summaries, max(peak for peak, _ in peaks))
         if args.json:
-            write_json(args.json, _record(run, summaries, message, peaks))
-        print(message)
-        print(written)
-        inverted = summaries[1].inverted
-    return 4 if run.part.ranks.comm.bcast(inverted) else 0
+            write_json(args.json, result.record())
+        print_summaries(f"{args.mesh}: {title}", ["before", "after"], result.summaries, None)
+        for line in filter(None, (result.message, result.surface_sentence, written)):
+            print(line)
+        inverted = result.summaries[1].inverted
+    return 4 if inverted else 0  # of rank 0 alone: launchers complain of each

@@ -1,0 +1,100 @@
+"""Result of a run on several ranks, as rank 0 reports it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from hexmend.boundary import Departures, SurfaceChange, departures, surface_change
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import Summary, describe_regressions, summarise
+from hexmend.ranks.rank_run import RankRun
+from hexmend.run.memory import format_bytes
+from hexmend.run.stage_run import StageRun
+from hexmend.terminal_text import count_phrase
+
+
+@dataclass(frozen=True, eq=False)
+class RankResult:
+    """Result of a run on several ranks.
+
+    Parameters
+    ----------
+    run : RankRun
+    alone : StageRun or None
+        With which rank 0 went on alone, if it did.
+    given, mesh : Mesh
+        Before and after the run.
+    peaks_mb : sequence of float
+        Largest memory of each rank, MiB.
+    threads : sequence of int
+        Of each rank.
+    """
+
+    run: RankRun
+    alone: StageRun | None
+    given: Mesh
+    mesh: Mesh
+    peaks_mb: Sequence[float]
+    threads: Sequence[int]
+
+    @cached_property
+    def summaries(self) -> tuple[Summary, Summary]:
+        """Figures of the mesh before and after."""
+        return summarise(self.given), summarise(self.mesh)
+
+    @cached_property
+    def _of_boundary(self) -> tuple[SurfaceChange, Departures] | None:
+        """Change of the boundary, and the nodes that have left it; None where it was fixed."""
+        method = self.run.smoother
+        if not method.slides_on(self.given):
+            return None
+        change = surface_change(self.given, self.mesh, method.feature_angle)
+        return change, departures(self.given, self.mesh, method.feature_angle, method.slides)
+
+    @property
+    def message(self) -> str:
+        """Outcome of the run, its cost, and the figures that are worse, in sentences."""
+        run, alone = self.run, self.alone
+        outcome, decisions, kept, last = run.outcome, run.decisions, run.kept, run.number
+        peak = format_bytes(int(max(self.peaks_mb) * 2**20))
+        where = f"on {len(self.peaks_mb):,} ranks, each with at most {peak} of memory"
+        spent = f"{count_phrase(run.number, 'iteration')} in {run.seconds:.3g} s {where}."
+        if alone is not None:
+            outcome, decisions = alone.outcome, [*run.decisions, alone.decision]
+            kept, last = alone.best.number, alone.last.number
+            went_on = count_phrase(alone.n_iterations, "iteration")
+            spent += f" Rank 0 went on alone for {went_on} and {alone.last.seconds - run.seconds:.3g} s."
+        words = outcome.value, spent, *decisions, "" if kept == last else f"Iteration {kept:,} was kept."
+        return " ".join(filter(None, [*words, describe_regressions(*self.summaries, None)]))
+
+    @property
+    def surface_sentence(self) -> str:
+        """Change of the boundary, in sentences; "" where it was fixed."""
+        return " ".join(filter(None, (one.sentence for one in self._of_boundary or ())))
+
+    def record(self) -> dict[str, object]:
+        """Return the report of --json, with the peak of memory, MiB, and the threads of each rank."""
+        run, alone, (before, after) = self.run, self.alone, self.summaries
+        newest = run if alone is None else alone.last
+        report = {
+            "method": run.smoother.name,
+            "parameters": run.smoother.values(),
+            "outcome": (run if alone is None else alone).outcome.key,
+            "message": self.message,
+            "iterations": newest.number,
+            "kept": run.kept if alone is None else alone.best.number,
+            "seconds": newest.seconds,
+            "before": before.to_dict(),
+            "after": after.to_dict(),
+            "ranks": {
+                "peak_mb": list(self.peaks_mb),
+                "threads": list(self.threads),
+                "iterations_alone": 0 if alone is None else alone.n_iterations,
+            },
+        }
+        if self._of_boundary is not None:
+            change, left = self._of_boundary
+            report["surface"] = change.to_dict() | {"left": left.to_dict()}
+        return report

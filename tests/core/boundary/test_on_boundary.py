@@ -1,0 +1,42 @@
+"""Sliding nodes among those of the boundary alone do as those of the whole mesh do."""
+
+import numpy as np
+import pytest
+
+from hexmend.boundary import SkinSurface, SlidingBoundary
+from hexmend.gallery import make
+
+
+@pytest.fixture(scope="module")
+def sliding():
+    mesh = make("five-side", size=400, scramble=0.1)
+    return SlidingBoundary(mesh, max_deviation=0.01 * mesh.mean_edge_length)
+
+
+def test_places_directions_and_rejected_nodes_are_the_same(sliding):
+    alone, numbers = sliding.on_boundary()
+    points = sliding.mesh.points
+    np.testing.assert_array_equal(alone.points, points[numbers])
+    np.testing.assert_array_equal(numbers[alone.nodes], sliding.nodes)
+    rng = np.random.default_rng(1)
+    moved = points + 0.4 * sliding.mesh.mean_edge_length * rng.standard_normal(points.shape)
+    moved[sliding.nodes] = places = sliding.project(moved[sliding.nodes])
+    np.testing.assert_allclose(alone.project(moved[numbers][alone.nodes]), places, atol=1e-14)
+    np.testing.assert_allclose(alone.tangent_bases(places), sliding.tangent_bases(places), atol=1e-9)
+    rejected = sliding.rejected_nodes(points, moved)
+    assert rejected.size
+    np.testing.assert_array_equal(numbers[alone.rejected_nodes(points[numbers], moved[numbers])], rejected)
+
+
+def test_only_nodes_of_the_boundary_are_kept(sliding):
+    alone, numbers = sliding.on_boundary()
+    assert numbers.size < sliding.mesh.n_nodes
+    assert set(numbers) == set(sliding.boundary.faces.ravel()) | set(sliding.boundary.segments.ravel())
+    assert alone.max_deviation == sliding.max_deviation
+
+
+def test_a_target_surface_has_no_such_form():
+    mesh = make("cube", size=27)
+    skin = SkinSurface(mesh.points, mesh.topology.boundary_faces)
+    with pytest.raises(ValueError, match="target surface"):
+        SlidingBoundary(mesh.sliding_on(skin)).on_boundary()
