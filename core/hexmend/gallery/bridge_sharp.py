@@ -19,9 +19,9 @@ SHARE = 0.15
 #: nodes.
 OVERHANG, CROWN, EVEN = 1.3038, 0.7984, 0.31
 
-#: Height of the block's sides: with edges of 1.25 for 32,000 hexes, delta in the mesh's units has the effect on global
+#: Height of the block's sides: with edges of 2.5 for 32,000 hexes, delta in the mesh's units has the effect on global
 #: methods that Tables 4.3 and 4.4 report.
-HEIGHT = 13.5
+HEIGHT = 27.0
 
 
 @gallery_mesh

@@ -40,6 +40,10 @@ class StoppingCriteria(Parametrised):
         choices=("length", "coordinate"),
         help="Measure of a node's move: its length, or the largest change of a coordinate as in A.1.",
     )
+    moves_only: bool = parameter(
+        False,
+        help="Judge convergence by the moves of nodes alone, as A.1 does, even while the objective still falls.",
+    )
     max_seconds: float = parameter(
         0.0,
         low=0,

@@ -140,8 +140,8 @@ class StageRun:
             self._best_rank = self._rank(now)
         elif not step.infeasible:
             self._update_best(now)
-        small = self._size(moves) < self.stage.stop.tolerance
-        if small and not step.intermediate and not self._still_falls(before, now):  # Algorithm A.1
+        small = self._size(moves) < self.stage.stop.tolerance  # Algorithm A.1
+        if small and not step.intermediate and (self.stage.stop.moves_only or not self._still_falls(before, now)):
             self.end(Outcome.CONVERGED)
         else:
             self._end_at_a_limit()

@@ -1,10 +1,11 @@
 """When a run has converged: by the way of a node or by its greatest coordinate, and never while a stage is to come."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
+from hexmend.gallery import make
 from hexmend.iteration import Outcome, Step
 from hexmend.quality import measure
 from hexmend.run import StoppingCriteria, iterate, smooth
@@ -51,6 +52,15 @@ def test_moves_are_told_in_mean_edge_lengths():
     large = mesh.with_points(10 * mesh.points)
     rows = smooth(large, Shifts(), StoppingCriteria(max_iterations=1, tolerance=1e-9)).history
     assert [row["largest_move"] for row in rows] == [0.0, pytest.approx(0.025)]
+
+
+def test_moves_alone_end_an_optimiser_whose_objective_still_falls():
+    mesh = make("five-side", size=1000)
+    stop = StoppingCriteria(tolerance=0.05, max_iterations=100)
+    by_both, by_moves = (smooth(mesh, "global-sd", replace(stop, moves_only=alone)) for alone in (False, True))
+    assert by_moves.outcome is Outcome.CONVERGED
+    assert by_moves.iterations < by_both.iterations
+    assert by_moves.history[-1]["largest_move"] < stop.tolerance
 
 
 def test_a_run_has_not_converged_while_another_stage_is_to_come():

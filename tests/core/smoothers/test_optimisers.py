@@ -1,5 +1,7 @@
 """What every optimiser of (3.3) has: the objective's offset, the unit of delta; and what A.1 measures."""
 
+from itertools import islice
+
 import numpy as np
 import pytest
 
@@ -129,3 +131,19 @@ def test_nodes_that_have_converged_cost_few_evaluations(name):
     run = iterate(make("five-side", size=150), METHODS[name](), StoppingCriteria(max_iterations=400, tolerance=0))
     sweeps = [step.diagnostics["energy_evaluations"] / step.diagnostics["derivative_evaluations"] for step in run]
     assert max(sweeps[-50:]) < 3  # where rounding hides what a shorter step would gain, none is tried
+
+
+def test_a_step_in_the_units_of_the_mesh_is_longer_by_the_square_of_its_edges():
+    mesh, descent = make("five-side", size=500), METHODS["global-sd"]
+    unit = mesh.mean_edge_length
+
+    def third(method, of):
+        return [step.points for step in islice(method.steps(of), 3)][2]
+
+    in_mesh = third(descent(step_unit="mesh"), mesh)
+    np.testing.assert_allclose(third(descent(initial_step=unit**-2), mesh), in_mesh, rtol=1e-12)
+    assert np.abs(third(descent(), mesh) - in_mesh).max() > 1e-3 * unit
+    with_edges_of_1 = mesh.with_points(mesh.points / unit)
+    np.testing.assert_allclose(
+        third(descent(step_unit="mesh"), with_edges_of_1), third(descent(), with_edges_of_1), rtol=1e-12
+    )

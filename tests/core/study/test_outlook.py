@@ -139,10 +139,10 @@ def test_patches_must_beat_both_extremes_in_seconds(seconds, expected):
 
 
 @pytest.mark.parametrize(("inward", "expected"), [((8, 1.0), True), ((10, 1.0), False), (None, None)])
-def test_inward_must_take_fewer_sweeps_than_colour(inward, expected):
+def test_inward_must_take_fewer_sweeps_than_the_natural_order(inward, expected):
     one = made(
-        "5.2.6", {"order": ("colour", "inward")},
-        ("local-nr", {"order": "colour"}, (10, 1.0)), ("local-nr", {"order": "inward"}, inward),
+        "5.2.6", {"order": ("natural", "inward")},
+        ("local-nr", {"order": "natural"}, (10, 1.0)), ("local-nr", {"order": "inward"}, inward),
     )  # fmt: skip
     assert from_the_boundary([one]).reproduced is expected
 

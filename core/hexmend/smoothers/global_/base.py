@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy, energy_of
 from hexmend.iteration import Outcome, Step
+from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import descend
 from hexmend.optimise.linear_solvers import ConjugateGradients, LinearSolver, Minres
@@ -30,12 +31,16 @@ class GlobalDescent(Optimiser):
         """Policy of delta, in the energy's unit of length."""
         return POLICIES[self.delta_policy](self.delta / (1.0 if self.delta_unit == "edge" else energy.unit**3))
 
+    def search(self, energy: MeshEnergy) -> LineSearch:
+        """Line search along directions in the energy's unit of length."""
+        return self.line_search
+
     def steps(self, mesh: Mesh) -> Steps:
         if mesh.linear_motion is not None:
             mesh = mesh.with_points(mesh.constrained(mesh.points))
         sliding = self.sliding(mesh)
         energy = energy_of(mesh, self.norm, sliding)
-        find, policy, search = self.direction(), self.policy(energy), self.line_search
+        find, policy, search = self.direction(), self.policy(energy), self.search(energy)
         points = energy.mesh.points
         x = energy.to_edge_units(points)
         yield Step(points)

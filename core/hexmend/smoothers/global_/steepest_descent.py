@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+from hexmend.energy import MeshEnergy
+from hexmend.kernels.line_search import LineSearch
 from hexmend.optimise.search_direction import DirectionMethod, steepest_descent
+from hexmend.parameters import parameter
 from hexmend.smoothers.base import method
 from hexmend.smoothers.global_.base import GlobalDescent
 
 
 @method
+@dataclass(frozen=True)
 class GlobalSteepestDescent(GlobalDescent):
     """All free nodes at once down the gradient of the mesh's energy."""
 
@@ -16,6 +22,18 @@ class GlobalSteepestDescent(GlobalDescent):
     help = "Moves all nodes at once down the gradient. Slow or stuck: one bad region limits the step of the whole mesh."
     source = "Wilson 3.2, Algorithms 3.3, A.2 and A.5"
     bytes_per_hex = 700
+
+    step_unit: str = parameter(
+        "edge",
+        choices=("edge", "mesh"),
+        help="Unit of length in which the first trial step is taken: the mean edge length, so that it means the same "
+        "on every mesh, or that of the mesh's points as in A.2 and A.5.",
+    )
+
+    def search(self, energy: MeshEnergy) -> LineSearch:
+        """In the mesh's unit a gradient is shorter by its mean edge length, and a step longer in edge lengths."""
+        step = self.initial_step if self.step_unit == "edge" else self.initial_step / energy.unit**2
+        return self.line_search.with_initial_step(step)
 
     def direction(self) -> DirectionMethod:
         return steepest_descent

@@ -38,6 +38,7 @@ class Experiment:
     columns: tuple[str, ...]
     published: Mapping[str, Mapping[str, float | int]]
     delta: float | None = None
+    scramble: float = 0.0
     settings_of: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     additional: tuple[str, ...] = ()
 
@@ -52,7 +53,7 @@ class Experiment:
 
     def build(self, quick: bool) -> Mesh:
         """Build the mesh as generated."""
-        return make(self.mesh, size=self.requested_hexes(quick))
+        return make(self.mesh, size=self.requested_hexes(quick), scramble=self.scramble)
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,10 @@ class Experiments:
         Criteria of convergence, see `StoppingCriteria`.
     tolerance_of : mapping
         Tolerances by method, where they differ.
+    moves_only : bool
+        See `StoppingCriteria`.
+    repeats : mapping
+        Number of "times" that runs are measured which take less than "below" seconds: the least time counts.
     """
 
     experiments: tuple[Experiment, ...]
@@ -87,6 +92,8 @@ class Experiments:
     move: str = StoppingCriteria().move
     tolerance: float = StoppingCriteria().tolerance
     tolerance_of: Mapping[str, float] = field(default_factory=dict)
+    moves_only: bool = StoppingCriteria().moves_only
+    repeats: Mapping[str, float] = field(default_factory=lambda: {"times": 1, "below": 0.0})
 
     def smoother(self, experiment: Experiment, name: str) -> Smoother:
         """Make a method with the settings of the study and the delta of the experiment, as far as it declares them."""
@@ -102,7 +109,8 @@ class Experiments:
     def stop(self, method: str, quick: bool) -> StoppingCriteria:
         """Return the limits of a run; the result is the last iterate, as in the thesis."""
         tolerance = self.tolerance_of.get(method, self.tolerance)
-        return replace(self.outlook_stop(method, quick), move=self.move, tolerance=tolerance)
+        limits = self.outlook_stop(method, quick)
+        return replace(limits, move=self.move, tolerance=tolerance, moves_only=self.moves_only)
 
     def outlook_stop(self, method: str, quick: bool) -> StoppingCriteria:
         """Return the limits of a run of an outlook, with the default criteria of convergence."""

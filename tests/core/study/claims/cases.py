@@ -101,8 +101,12 @@ JUDGED = {
         [table("4.1", {"local-sd": run()}), table("4.4", {"laplacian": run(), "local-sd": run()})],
     ),
     preconditioning.preconditioning_compensates: (
+        [
+            table("4.1", {"local-sd": run(10)}),
+            table("4.2", {"getme": run(3), "local-sd": run(8)}),
+            table("4.3", {"laplacian": run(1), "local-sd": run(8)}),
+        ],
         [table("4.1", {"local-sd": run(10)}), table("4.2", {"getme": run(3), "local-sd": run(6)})],
-        [table("4.1", {"local-sd": run(10)}), table("4.2", {"getme": run(3), "local-sd": run(8)})],
         [table("4.1", {"local-sd": stuck()}), table("4.2", {"getme": run(3), "local-sd": run(8)})],
     ),
     preconditioning.preconditioning_in_vain: (
