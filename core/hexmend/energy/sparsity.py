@@ -11,15 +11,17 @@ import numpy as np
 from hexmend.arrays import index_of
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.workspace import Workspace
-from hexmend.kernels import ordering
+from hexmend.kernels import conjugate_gradients, ordering
 from hexmend.kernels import sparsity as kernels
 from hexmend.kernels.assembly import HexShares
-from hexmend.kernels.conjugate_gradients import BlockPattern
+from hexmend.kernels.conjugate_gradients import BlockPattern, CoarsePattern
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
 
 #: Numbers of slots from which on they are divided into 2, 4 and 8 parts that threads solve in parallel.
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))
+#: Number of slots from which on a coarse space saves more than it costs.
+_DEFLATED = 400_000
 
 
 class BlockSparsity:
@@ -83,7 +85,7 @@ class BlockSparsity:
             self.row_start, self.columns, target = kernels.pattern(
                 slots, self.nodes, corners.start, corners.items, MAX_ITEMS
             )
-        self._hexes = mesh.hexes
+        self._hexes, self._topology = mesh.hexes, mesh.topology
         self._rows = np.arange(mesh.n_hexes), target
         self._shares: tuple[int, HexShares | None] = 0, None
 
@@ -126,6 +128,37 @@ class BlockSparsity:
         """`bounds`, `row_start` and `columns` of the rows of this rank; a view, cheap to make."""
         row_start = self.row_start[: self.order.size + 1]
         return BlockPattern(self.bounds, row_start, self.columns[: row_start[-1]])
+
+    @cached_property
+    def coarse_space(self) -> CoarsePattern | None:
+        """Aggregates by which a solution is deflated; None where the matrix is small or shared by ranks.
+
+        Larger aggregates need more iterations, and more of them a longer factorisation of the coarse matrix: their
+        number grows as the square root of that of the slots, and is about 900 for a million.
+        """
+        count = self.nodes.size
+        if count < _DEFLATED or self.ranks.count > 1:
+            return None
+        return CoarsePattern(*self.aggregates(round(1.5 * count ** (1 / 6))))
+
+    def aggregates(self, distance: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Divide the slots into aggregates, whose translations are the columns of R.
+
+        Parameters
+        ----------
+        distance : int
+            Edges from a slot of an aggregate to its centre, at most; two centres are further from each other.
+
+        Returns
+        -------
+        aggregate : (k,) int32
+            Of each slot.
+        row_start, columns : (k + 1,) int32, (blocks,) int32
+            Aggregates that each row of A R meets, as compressed rows, A being a matrix of this pattern.
+        """
+        rings, corners = self._topology.rings, self._topology.node_corners
+        graph = rings.start, rings.items, corners.start, corners.items
+        return conjugate_gradients.coarse_pattern(self.slots, self._slot_of_node, self.nodes, *graph, distance)
 
     @cached_property
     def exchange(self) -> Callable[[np.ndarray], object]:

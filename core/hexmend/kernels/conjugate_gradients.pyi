@@ -30,16 +30,40 @@ class BlockPattern:
         above the diagonal, `sparsity.pattern`. Arrays are not copied.
         """
 
+class CoarsePattern:
+    """Pattern of A R, R being translations of aggregates of slots."""
+
+    def __init__(self, aggregate: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], row_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], columns: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        aggregate (k,) int32: the aggregate of each slot; row_start (k + 1,) and columns (blocks,) int32: the
+        aggregates that each row of A R meets, as `coarse_pattern` returns them. Arrays are not copied.
+        """
+
+def coarse_pattern(slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], slot_of_node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ring_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ring: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+    """
+    Divide slots into aggregates: the arrays of a `CoarsePattern`.
+
+    A slot is a centre if no centre before it is within `distance` edges; each slot belongs to the nearest
+    centre, of several to the first. slots (m, 8): the slot of each corner, -1 if it is fixed; slot_of_node
+    (n,), -1 likewise; nodes (k,): the node of each slot; ring_start, ring: `Topology.rings`; start, corners:
+    `Topology.node_corners`. All are int32.
+    """
+
+def coarse_workspace_size(coarse: CoarsePattern) -> int:
+    """
+    Numbers that `solve` needs in its workspace for a coarse space, besides `workspace_size`.
+    """
+
 def workspace_size(slots: int, ghosts: int = 0, coupled: bool = False) -> int:
     """
     Numbers of the workspace of `solve`; `coupled`: with `sum` and `exchange`.
     """
 
 @overload
-def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')], ghosts: int = 0, sum: object | None = None, exchange: object | None = None) -> tuple[int, SolveStatus]: ...
+def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')], ghosts: int = 0, sum: object | None = None, exchange: object | None = None, coarse: CoarsePattern | None = None) -> tuple[int, SolveStatus]: ...
 
 @overload
-def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], ghosts: int = 0, sum: object | None = None, exchange: object | None = None) -> tuple[int, SolveStatus]:
+def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], ghosts: int = 0, sum: object | None = None, exchange: object | None = None, coarse: CoarsePattern | None = None) -> tuple[int, SolveStatus]:
     """
     Solve A x = rhs, stopping at a direction of negative curvature (Steihaug 1983).
 
@@ -49,7 +73,8 @@ def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64],
     off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:
     this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand
     side, both in the norm of M^-1. work: see `workspace_size`. Writes x; returns the iterations and the
-    status.
+    status. With `coarse` the iteration is deflated by the translations of aggregates, unless the matrix is not
+    positive definite for these already; where processes share a matrix, it is not.
 
     Where several processes share a matrix, its columns from k on belong to ghosts, slots of other
     processes. `sum` adds a number over all processes; `exchange` is called with an array (k + ghosts, 4)

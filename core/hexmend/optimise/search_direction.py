@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from hexmend.energy import Hessian
-from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
+from hexmend.energy.assembled_hessian import AssembledHessian, CGResult, unpack_symmetric
 from hexmend.optimise.blas_threads import one_blas_thread
 from hexmend.optimise.linear_solvers import LinearSolver
 
@@ -78,6 +78,9 @@ class TruncatedNewtonConfig:
         Factor of an increase, and divisor after a step for which the damping was enough.
     min_damping : float
         Smallest damping that is not 0, as a share of the diagonal.
+    deflated : bool
+        Deflate solutions by translations of aggregates of nodes: best where many iterations are needed. More than the
+        smallest damping shortens long waves, so that a few iterations are enough: such solutions are not deflated.
     """
 
     iterations: int = 200
@@ -88,6 +91,7 @@ class TruncatedNewtonConfig:
     damping_growth: float = 4.0
     damping_decay: float = 4.0
     min_damping: float = 0.002
+    deflated: bool = False
 
 
 class TruncatedNewton:
@@ -115,18 +119,23 @@ class TruncatedNewton:
         config, matrix = self.config, hessian.assembled(reuse=self._matrix)
         self._matrix = matrix
         right, tolerance = -gradient.ravel(), self._tolerance(hessian.energy.ranks.norm(gradient))
-        solved = matrix.solve(right, tolerance, config.iterations, self._damping)
+        solved = self._solve(matrix, right, tolerance, self._damping)
         count, damping = solved.iterations, self._damping
         for _ in range(config.max_damping_increases):
             if not solved.negative_curvature:
                 break
             damping = max(config.damping_growth * damping, config.min_damping)
-            solved = matrix.solve(right, tolerance, config.iterations, damping)
+            solved = self._solve(matrix, right, tolerance, damping)
             count += solved.iterations
         self._damping = damping if damping > self._damping else damping / config.damping_decay
         if self._damping < config.min_damping:
             self._damping = 0.0
         return SearchDirection(solved.x.reshape(-1, 3), count, damping)
+
+    def _solve(self, matrix: AssembledHessian, right: np.ndarray, tolerance: float, damping: float) -> CGResult:
+        config = self.config
+        deflated = config.deflated and damping <= config.min_damping
+        return matrix.solve(right, tolerance, config.iterations, damping, deflated)
 
     def _tolerance(self, length: float) -> float:
         """Return the tolerance at a gradient of this length."""

@@ -1,4 +1,6 @@
 #include "bindings/arrays.hpp"
+#include "linear/aggregates.hpp"
+#include "linear/coarse_space.hpp"
 #include "linear/conjugate_gradients.hpp"
 #include "linear/sparsity.hpp"
 #include "linear/turned_blocks.hpp"
@@ -30,20 +32,23 @@ template <class Real> void bind_for(nb::module_ m) {
         "solve",
         [](const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, DiagonalBlocks<Real> diagonal, double damping,
            Vectors<Real> right, double tolerance, int max_iterations, std::span<std::array<Real, 4>> x,
-           std::span<Real> work, std::int64_t ghosts, nb::handle sum, nb::handle exchange) {
+           std::span<Real> work, std::int64_t ghosts, nb::handle sum, nb::handle exchange,
+           const CoarsePattern *coarse) {
             auto coupling = coupling_of<Real>(pattern.bounds.back(), ghosts, sum, exchange);
             return solve<Real>(pattern, off_diagonal, diagonal, damping, right, tolerance, max_iterations, x, work,
-                               coupling);
+                               coupling, coarse);
         },
         "pattern"_a, "off_diagonal"_a, "diagonal"_a, "damping"_a, "rhs"_a, "tolerance"_a, "max_iterations"_a, "x"_a,
-        "work"_a, "ghosts"_a = 0, "sum"_a.none() = nb::none(), "exchange"_a.none() = nb::none(), ReleaseGil(),
+        "work"_a, "ghosts"_a = 0, "sum"_a.none() = nb::none(), "exchange"_a.none() = nb::none(),
+        "coarse"_a.none() = nb::none(), ReleaseGil(),
         "Solve A x = rhs, stopping at a direction of negative curvature (Steihaug 1983).\n\n"
         "At such a direction x is the iterate so far or, if it is the first, that direction. Vectors, (k, 4)\n"
         "with a fourth number 0, are in the precision of the matrix; sums over them are in double precision.\n\n"
         "off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:\n"
         "this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand\n"
         "side, both in the norm of M^-1. work: see `workspace_size`. Writes x; returns the iterations and the\n"
-        "status.\n\n"
+        "status. With `coarse` the iteration is deflated by the translations of aggregates, unless the matrix is not\n"
+        "positive definite for these already; where processes share a matrix, it is not.\n\n"
         "Where several processes share a matrix, its columns from k on belong to ghosts, slots of other\n"
         "processes. `sum` adds a number over all processes; `exchange` is called with an array (k + ghosts, 4)\n"
         "of which it sends rows, and receives those of the ghosts. All processes call it together.");
@@ -82,6 +87,28 @@ void bind_conjugate_gradients(nb::module_ m) {
             nb::keep_alive<1, 4>(),
             "bounds (2 parts,) int32: `ordering.slots`; row_start (k + 1,) and columns (blocks,) int32: blocks\n"
             "above the diagonal, `sparsity.pattern`. Arrays are not copied.");
+    nb::class_<CoarsePattern>(m, "CoarsePattern", "Pattern of A R, R being translations of aggregates of slots.")
+        .def(
+            "__init__",
+            [](CoarsePattern *self, Indices aggregate, Indices row_start, Indices columns) {
+                expect(aggregate.size() + 1 == row_start.size(), "row_start: one more than aggregates is expected");
+                expect(row_start.back() == static_cast<std::int64_t>(columns.size()),
+                       "columns: as many as the last of row_start are expected");
+                new (self) CoarsePattern{aggregate, row_start, columns};
+            },
+            "aggregate"_a, "row_start"_a, "columns"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+            nb::keep_alive<1, 4>(),
+            "aggregate (k,) int32: the aggregate of each slot; row_start (k + 1,) and columns (blocks,) int32: the\n"
+            "aggregates that each row of A R meets, as `coarse_pattern` returns them. Arrays are not copied.");
+    m.def("coarse_pattern", &coarse_pattern, "slots"_a, "slot_of_node"_a, "nodes"_a, "ring_start"_a, "ring"_a,
+          "start"_a, "corners"_a, "distance"_a, ReleaseGil(),
+          "Divide slots into aggregates: the arrays of a `CoarsePattern`.\n\n"
+          "A slot is a centre if no centre before it is within `distance` edges; each slot belongs to the nearest\n"
+          "centre, of several to the first. slots (m, 8): the slot of each corner, -1 if it is fixed; slot_of_node\n"
+          "(n,), -1 likewise; nodes (k,): the node of each slot; ring_start, ring: `Topology.rings`; start, corners:\n"
+          "`Topology.node_corners`. All are int32.");
+    m.def("coarse_workspace_size", &coarse_workspace_size, "coarse"_a,
+          "Numbers that `solve` needs in its workspace for a coarse space, besides `workspace_size`.");
     m.def("workspace_size", &workspace_size, "slots"_a, "ghosts"_a = 0, "coupled"_a = false,
           "Numbers of the workspace of `solve`; `coupled`: with `sum` and `exchange`.");
     bind_for<float>(m);

@@ -25,6 +25,13 @@ template <class Real> inline Vec4<Real> load(const Real *from) {
     return x;
 }
 
+// Sums of the four numbers of x, y and z, and a fourth number 0.
+template <class V> inline V horizontal_sums(const V &x, const V &y, const V &z) {
+    V xy = __builtin_shufflevector(x, y, 0, 4, 1, 5) + __builtin_shufflevector(x, y, 2, 6, 3, 7);
+    V z0 = __builtin_shufflevector(z, V{}, 0, 4, 1, 5) + __builtin_shufflevector(z, V{}, 2, 6, 3, 7);
+    return __builtin_shufflevector(xy, z0, 0, 1, 4, 5) + __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
+}
+
 // A symmetric block by its columns: its product with a vector needs no horizontal sum.
 template <class Real> struct Block {
     Vec4<Real> x, y, z;
@@ -101,10 +108,7 @@ template <class Real, class Number = Real> class BlockMatrix {
             const V &of = t[columns_[s]];
             x += row(s, 0) * of, y += row(s, 1) * of, z += row(s, 2) * of;
         }
-        // Horizontal sums of x, y and z.
-        V xy = __builtin_shufflevector(x, y, 0, 4, 1, 5) + __builtin_shufflevector(x, y, 2, 6, 3, 7);
-        V z0 = __builtin_shufflevector(z, V{}, 0, 4, 1, 5) + __builtin_shufflevector(z, V{}, 2, 6, 3, 7);
-        return __builtin_shufflevector(xy, z0, 0, 1, 4, 5) + __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
+        return horizontal_sums(x, y, z);
     }
 
     // Add the transposed blocks of row i times p to w at their columns.

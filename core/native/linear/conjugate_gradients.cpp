@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 
 #include "linear/block_matrix.hpp"
+#include "linear/coarse_space.hpp"
 
 namespace hexmend {
 namespace {
@@ -82,25 +84,63 @@ template <class Real> class PreconditionedCG {
         });
     }
 
+    // The damped diagonal block of slot i.
+    std::array<Real, 9> damped_diagonal(std::int32_t i) const {
+        const auto &a = own_[i];
+        const Real share = 2 - share_;  // of the damped D in the damped diagonal, d / (1 + d)
+        V x = V{a[0], a[1], a[2], 0} + share * positive_[i].first,
+          y = V{a[3], a[4], a[5], 0} + share * positive_[i].second;
+        return {x[0], x[1], x[2], x[1], y[0], y[1], x[2], y[1], y[2]};
+    }
+
+    // Deflate by a coarse space from here on.
+    void deflate(CoarseSpace<Real> &coarse) { coarse_ = &coarse; }
+
+    // Project the first residual by the coarse space: (D + L)^-1 (right - A R E^-1 R' right); returns its square.
+    double project(Vectors<Real> right) {
+        over_slots([&](std::int32_t i, int range) { coarse_->restrict_to(range, i, load(right[i].data())); });
+        coarse_->solve();
+        return system_.forward(w_, [&](std::int32_t i, const V &below) {
+            residual_[i] = inverse_[i] * (load(right[i].data()) - coarse_->row(i) - below);
+            return std::pair{residual_[i], square_of_residual(i)};
+        });
+    }
+
+    // Complete x, R E^-1 R' right + (I - R E^-1 (A R)') x; without `right`, its first summand is left out.
+    void complete(const Vectors<Real> *right, std::span<std::array<Real, 4>> x) {
+        over_slots([&](std::int32_t i, int range) {
+            coarse_->add(range, i, -load(x[i].data()));
+            if (right) coarse_->restrict_to(range, i, load((*right)[i].data()));
+        });
+        coarse_->solve();
+        over_slots([&](std::int32_t i, int) {
+            V there = load(x[i].data()) + coarse_->prolonged(i);
+            std::memcpy(x[i].data(), &there, sizeof there);
+        });
+    }
+
     // Compute the next direction, v = D residual + beta v, and solve (D + U) t = v.
     void next_direction(Real beta) {
-        auto back = [&](std::int32_t begin, std::int32_t end, int) {
+        auto back = [&](std::int32_t begin, std::int32_t end, int range) {
             for (auto i = end - 1; i >= begin; --i) {
                 V v = positive_[i] * residual_[i] + beta * v_[i];
                 v_[i] = v;
                 t_[i] = inverse_[i] * (v - system_.row_times(i, t_));
+                if (coarse_) coarse_->add(range, i, t_[i]);
             }
             return 0.0;
         };
         system_.over_separators(back);
         system_.over_parts(back);
+        if (coarse_) coarse_->solve();
         if (coupling_.exchange) add_ghosts();
     }
 
-    // Compute product = (D + L)^-1 A t = t + (D + L)^-1 (v + R t + rest t); returns its product with v.
+    // Compute product = (D + L)^-1 A t = t + (D + L)^-1 (v + R t + rest t), or that of P A; returns its product with v.
     double curvature() {
         return system_.forward(w_, [&](std::int32_t i, const V &below) {
             V right = from_ghosts_ ? v_[i] + from_ghosts_[i] : v_[i];
+            if (coarse_) right -= coarse_->row(i);
             V p = inverse_[i] * (right + rest(i) * t_[i] - below);
             product_[i] = p + t_[i];
             return std::pair{p, dot(v_[i], product_[i])};
@@ -133,6 +173,7 @@ template <class Real> class PreconditionedCG {
     HalfBlock<Real> *positive_, *inverse_;  // D and D^-1, damped
     V *residual_, *v_, *t_, *product_;
     const Coupling<Real> &coupling_;
+    CoarseSpace<Real> *coarse_ = nullptr;
     V *from_ghosts_ = nullptr;  // R t, if processes are coupled
     // Contributions of rows to later rows; two vectors, because two parts add to one separator.
     V *w_[2];
@@ -156,6 +197,15 @@ template <class Real> class PreconditionedCG {
 
     double square_of_residual(std::int32_t i) { return dot(residual_[i], positive_[i] * residual_[i]); }
 
+    // Call body(i, range) for each slot i.
+    template <class Body> void over_slots(const Body &body) {
+        auto over = [&](std::int32_t begin, std::int32_t end, int range) {
+            for (auto i = begin; i < end; ++i) body(i, range);
+            return 0.0;
+        };
+        system_.over_parts(over), system_.over_separators(over);
+    }
+
     template <class Body> double sum_over_slots(const Body &body) {
         auto over = [&](std::int32_t begin, std::int32_t end, int) {
             double total = 0;
@@ -173,30 +223,45 @@ template <class Real>
 std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal,
                                   DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
                                   int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work,
-                                  const Coupling<Real> &coupling) {
+                                  const Coupling<Real> &coupling, const CoarsePattern *coarse_pattern) {
     BlockMatrix<Real> system(pattern, off_diagonal);
-    if (static_cast<std::int64_t>(work.size()) <
-        workspace_size(system.size(), coupling.ghosts, static_cast<bool>(coupling.exchange)))
+    auto size = workspace_size(system.size(), coupling.ghosts, static_cast<bool>(coupling.exchange));
+    if (static_cast<std::int64_t>(work.size()) < size + (coarse_pattern ? coarse_workspace_size(*coarse_pattern) : 0))
         throw std::invalid_argument("work is too small: see `workspace_size`");
     PreconditionedCG<Real> solver(system, diagonal, damping, work, coupling);
+    std::optional<CoarseSpace<Real>> coarse;
+    if (coarse_pattern)
+        coarse.emplace(
+            *coarse_pattern, pattern, system, off_diagonal, [&](std::int32_t i) { return solver.damped_diagonal(i); },
+            work.data() + size);
+    if (coarse && !coarse->positive()) coarse.reset();
+    if (coarse) solver.deflate(*coarse);
     auto total = [&](double own) { return coupling.sum ? coupling.sum(own) : own; };
     std::fill(x.begin(), x.end(), std::array<Real, 4>{});
     double square = total(solver.start(right));
     if (square == 0) return {0, DONE};
     double goal = tolerance * tolerance * square, beta = 0;
+    auto end = [&](int count, SolveStatus status) {
+        if (coarse) solver.complete(&right, x);
+        return std::pair{count, status};
+    };
+    if (coarse && (square = solver.project(right)) <= goal) return end(0, DONE);
     for (int count = 1; count <= max_iterations; ++count) {
         solver.next_direction(static_cast<Real>(beta));
         double curvature = total(solver.curvature());
         if (!(curvature > 0)) {
-            if (count == 1) solver.fall_back(std::isfinite(curvature), right, x);
+            if (count > 1) return end(count, NEGATIVE_CURVATURE);
+            const bool finite = std::isfinite(curvature);
+            solver.fall_back(finite, right, x);
+            if (coarse && finite) solver.complete(nullptr, x);
             return {count, NEGATIVE_CURVATURE};
         }
         double before = square;
         square = total(solver.advance(static_cast<Real>(square / curvature), x));
-        if (square <= goal) return {count, DONE};
+        if (square <= goal) return end(count, DONE);
         beta = square / before;
     }
-    return {max_iterations, TOO_MANY};
+    return end(max_iterations, TOO_MANY);
 }
 
 template <class Real>
@@ -238,7 +303,7 @@ void product(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, Diagon
 #define FOR_REAL(Real)                                                                                                \
     template std::pair<int, SolveStatus> solve(const BlockPattern &, UpperBlocks<Real>, DiagonalBlocks<Real>, double, \
                                                Vectors<Real>, double, int, std::span<std::array<Real, 4>>,            \
-                                               std::span<Real>, const Coupling<Real> &);                              \
+                                               std::span<Real>, const Coupling<Real> &, const CoarsePattern *);       \
     template void product(const BlockPattern &, UpperBlocks<Real>, DiagonalBlocks<Real>,                              \
                           std::span<const std::int64_t>, Points, std::span<Point>);                                   \
     template void to_slots(Points, std::span<const std::int64_t>, double, std::span<std::array<Real, 4>>);            \

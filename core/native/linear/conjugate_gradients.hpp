@@ -9,6 +9,10 @@
 // Where several processes share a matrix, each has the rows of its own slots, with columns of ghosts, and D, L and U
 // are those of its own slots: with the blocks R of the ghosts, R t joins v, t of the ghosts being received beforehand.
 //
+// Long waves, which Gauss-Seidel leaves, are solved for exactly in a coarse space R, if there is one: with P of
+// coarse_space.hpp, P A t = P b is solved in place of A t = b, and x = R E^-1 R' b + P' t. In the trick, A t becomes
+// P A t by a term on the right-hand side of its forward substitution, v - A R E^-1 (A R)' t.
+//
 // Slots are ordered in parts that share no block, followed by separators (`slots`): forward substitution solves
 // the parts in parallel and then the separators, backward substitution the reverse.
 #pragma once
@@ -16,6 +20,7 @@
 #include <functional>
 #include <tuple>
 
+#include "linear/aggregates.hpp"
 #include "linear/block_matrix.hpp"
 
 namespace hexmend {
@@ -41,12 +46,13 @@ constexpr std::int64_t workspace_size(std::int64_t slots, std::int64_t ghosts, b
 //
 // damping adds that multiple of D to the diagonal. The tolerance is relative to the right-hand side, both in the norm
 // of M^-1; max_iterations limits the iterations. At a direction of negative curvature (Steihaug 1983) x is the iterate
-// so far or, if it is the first, that direction. Vectors are (k, 4), see block_matrix.hpp; work: `workspace_size`.
+// so far or, if it is the first, that direction. Vectors are (k, 4), see block_matrix.hpp; work: `workspace_size`, and
+// with a coarse space `coarse_workspace_size` besides. Coupled processes have none.
 template <class Real>
 std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal,
                                   DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
                                   int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work,
-                                  const Coupling<Real> &coupling);
+                                  const Coupling<Real> &coupling, const CoarsePattern *coarse = nullptr);
 
 // Write right-hand sides or solutions of nodes, scaled, to their slots and back: row k of `of_nodes` belongs to slot
 // order[k]. The fourth number of a slot becomes 0.

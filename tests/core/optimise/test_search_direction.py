@@ -27,7 +27,8 @@ class Matrix:
     def assembled(self, reuse=None):
         return self
 
-    def solve(self, right, tolerance, iterations, damping):
+    def solve(self, right, tolerance, iterations, damping, deflated):
+        self.deflated = deflated
         self.asked.append((right.copy(), tolerance, iterations, damping))
         return SimpleNamespace(x=right / 2, iterations=3, negative_curvature=damping < self.needed)
 

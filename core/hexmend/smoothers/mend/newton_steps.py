@@ -24,14 +24,17 @@ class NewtonConfig:
         Most iterations of conjugate gradients for a direction.
     max_step : float
         How far a step may take a node, in mean lengths of the node's edges.
+    deflated : bool
+        Solve for translations of aggregates of nodes exactly: near an optimum a step moves large regions of a mesh.
     """
 
     solver_iterations: int = 200
     max_step: float = 1.5
+    deflated: bool = False
 
     def direction(self) -> TruncatedNewton:
         """Make the direction for one sequence of steps; it adapts from step to step."""
-        return TruncatedNewton(TruncatedNewtonConfig(self.solver_iterations))
+        return TruncatedNewton(TruncatedNewtonConfig(self.solver_iterations, deflated=self.deflated))
 
     def step(self, energy: MeshEnergy, x: np.ndarray, delta: float, direction: TruncatedNewton) -> Descent | None:
         """Take a step from x (n, 3), in mean edge lengths; None where the energy is infinite there."""
@@ -39,3 +42,4 @@ class NewtonConfig:
 
 
 NEWTON = NewtonConfig()
+DEFLATED_NEWTON = NewtonConfig(deflated=True)

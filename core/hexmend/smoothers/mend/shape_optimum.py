@@ -11,7 +11,7 @@ from hexmend.arrays import largest_norm
 from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
-from hexmend.smoothers.mend.newton_steps import NEWTON, NewtonConfig
+from hexmend.smoothers.mend.newton_steps import DEFLATED_NEWTON, NewtonConfig
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class ShapeOptimumConfig:
     negligible_move: float = 1e-4
     negligible_fall: float = 1e-3
     rounding: float = 1e-10
-    newton: NewtonConfig = NEWTON
+    newton: NewtonConfig = DEFLATED_NEWTON
 
 
 @dataclass(frozen=True, eq=False)

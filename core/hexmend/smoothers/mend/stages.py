@@ -135,7 +135,7 @@ class Stages:
     def _shape(self, mesh: Mesh, energy: MeshEnergy, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
         """Untangle a mesh, then go to the optimum of shape."""
         quality = measure(mesh.points, mesh.hexes)
-        newton, locked = NewtonConfig(self.settings.solver_iterations), locked_corners(mesh, quality)
+        locked = locked_corners(mesh, quality)
         energy = energy.with_objective(energy.norm, locked)
         untangled = yield from self._untangle(mesh, energy, quality, locked)
         left = untangled.left(locked, energy)
@@ -149,7 +149,7 @@ class Stages:
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)
         del untangled, quality  # large meshes have no memory for what is no longer needed
-        config = ShapeOptimumConfig(newton=newton)
+        config = ShapeOptimumConfig(newton=NewtonConfig(self.settings.solver_iterations, deflated=True))
         return (yield from optimise_shape(energy, points, self.settings.p_limit, intermediate, config))
 
     def _sound_energy(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None) -> MeshEnergy:
