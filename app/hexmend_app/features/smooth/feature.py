@@ -96,6 +96,16 @@ class FeatureSmooth(Feature):
                 enabled=lambda: self._ready() and self._state().reset,
             ),
             Action(
+                id="show_every",
+                text=tr("Show e&very iteration"),
+                menu="Smooth",
+                part=3,
+                help=tr("Wait with the next iteration until the last one is shown: slower, but none is skipped."),
+                handle=self._smoothing.show_every,
+                checked=lambda: self._smoothing.shows_every,
+                needs_mesh=False,
+            ),
+            Action(
                 id="copy_command",
                 text=tr("&Copy as command"),
                 menu="Smooth",
@@ -107,7 +117,7 @@ class FeatureSmooth(Feature):
         )
 
     def states(self) -> Sequence[StatePart]:
-        """Return the number of iterations of a step."""
+        """Return the number of iterations of a step, and whether every iteration is shown."""
         steps = StatePart(
             name="steps",
             data=int,
@@ -115,7 +125,13 @@ class FeatureSmooth(Feature):
             restore=self.panel.set_steps,
             check=partial(check_count, "steps"),
         )
-        return (steps,)
+        every = StatePart(
+            name="every_iteration",
+            data=bool,
+            to_data=lambda: self._smoothing.shows_every,
+            restore=self._smoothing.show_every,
+        )
+        return steps, every
 
     def actions_ready(self) -> None:
         """Show actions on the buttons of the panel."""

@@ -50,6 +50,9 @@ class RunController(QObject):
         Why the last run ended, and what to do.
     following : bool
         True if iterations are shown as they come; False while the user looks at earlier ones.
+    shows_every : bool
+        True if the run waits until an iteration is shown before it makes the next one; else some are skipped where
+        they come faster than they can be drawn.
     iterating : bool
         True while `iterated` is emitted and nothing else has changed.
 
@@ -57,7 +60,8 @@ class RunController(QObject):
     -------
     phase_changed
     iterated(IterationFrame)
-        The newest iteration. Iterations between two checks of the mailbox are not emitted, but recorded.
+        The newest iteration. Iterations between two checks of the mailbox are not emitted, but recorded, unless every
+        one is shown.
     hit(IterationFrame)
         The run has reached a breakpoint and pauses.
     ended(Result)
@@ -87,6 +91,7 @@ class RunController(QObject):
         self.record: RunRecord | None = None
         self.advice: Advice | None = None
         self.following = True
+        self.shows_every = False
         self.phase = Phase.IDLE
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
@@ -132,6 +137,7 @@ class RunController(QObject):
         self.record.rules = rules
         self.record.settings = "; ".join(filter(None, (settings_text(smoother, stop), rules_text(rules))))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
+        self._worker.shows_every = self.shows_every
         self._worker.grant(iterations)
         self._set_phase(Phase.PREPARING)
         self._worker.task.start()
@@ -142,6 +148,12 @@ class RunController(QObject):
         self._metrics = frozenset(metrics)
         if self._worker is not None:
             self._worker.metrics = self._metrics
+
+    def show_every(self, on: bool) -> None:
+        """Let runs wait until each iteration is shown, or not."""
+        self.shows_every = on
+        if self._worker is not None:
+            self._worker.shows_every = on
 
     def break_at(self, breakpoints: Breakpoints) -> None:
         """Set the breakpoints at which runs pause."""

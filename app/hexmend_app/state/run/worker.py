@@ -30,23 +30,34 @@ class IterationFrame:
     hit: Hit | None = None
 
 
+#: Seconds after which a worker that waits for its frame to be shown looks whether it still has to.
+_WAIT = 0.05
+
+
 class Mailbox:
     """Slot for one frame, which a newer frame replaces: the window is never behind, and no meshes queue up."""
 
     def __init__(self) -> None:
-        self._lock = threading.Lock()
+        self._changed = threading.Condition()
         self._frame: IterationFrame | None = None
 
     def put(self, frame: IterationFrame) -> None:
         """Replace the frame by a newer one."""
-        with self._lock:
+        with self._changed:
             self._frame = frame
 
     def take(self) -> IterationFrame | None:
         """Remove and return the newest frame; None if there is no new one."""
-        with self._lock:
+        with self._changed:
             frame, self._frame = self._frame, None
+            self._changed.notify_all()
             return frame
+
+    def wait_until_taken(self, still: Callable[[], bool]) -> None:
+        """Wait until there is no frame, as long as a function returns True."""
+        with self._changed:
+            while self._frame is not None and still():
+                self._changed.wait(_WAIT)
 
 
 class Worker:
@@ -79,6 +90,8 @@ class Worker:
     metrics : frozenset of str
         Metrics to compute for every iteration.
     breakpoints : Breakpoints
+    shows_every : bool
+        Wait with the next iteration until the window has taken the last one.
     """
 
     def __init__(
@@ -97,6 +110,7 @@ class Worker:
         self.advice: Advice | None = None
         self.metrics: frozenset[str] = frozenset()
         self.breakpoints = Breakpoints()
+        self.shows_every = False
         self._inputs = (mesh, smoother, stop)
         self._rules = rules
         self._record = record
@@ -168,6 +182,7 @@ class Worker:
         moved = self._inputs[0].with_points(iteration.points)
         for metric in self.metrics:
             metric_values(metric, moved, iteration.quality)
+        self.mailbox.wait_until_taken(lambda: self.shows_every and not self.task.cancelled.is_set())
         self.last = IterationFrame(iteration, State(moved, iteration.quality, summarise(moved, iteration.quality)), hit)
         self.mailbox.put(self.last)
 

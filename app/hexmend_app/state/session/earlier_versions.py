@@ -130,6 +130,7 @@ def _cut(clip: dict[str, Any] | None) -> dict[str, Any]:
 
 def _add_missing_fields(window: Any, version: int) -> None:
     """Give runs, their suggestions and the document the fields that they may lack; the codec reports damaged data."""
+    _add_limits(window)
     try:
         if version > _WITHOUT_TABLES:
             window["document"].setdefault("files", None)
@@ -141,3 +142,16 @@ def _add_missing_fields(window: Any, version: int) -> None:
                 suggestion.setdefault("widen", False)
     except (LookupError, TypeError, AttributeError):
         pass
+
+
+def _add_limits(data: Any) -> None:
+    """Give the limits of runs, wherever they are, those that they may lack."""
+    if isinstance(data, dict):
+        if data.keys() >= {"tolerance", "move", "keep_last"}:
+            data.setdefault("moves_only", False)
+        for value in data.values():
+            _add_limits(value)
+    elif isinstance(data, list):
+        for value in data:
+            if isinstance(value, dict | list):
+                _add_limits(value)

@@ -65,6 +65,32 @@ def test_a_run_has_the_result_of_the_command_line(document, smoothing, qtbot):
     assert document.now is document.start
 
 
+@pytest.mark.parametrize("every", [True, False])
+def test_every_iteration_is_shown_where_that_is_asked_for(document, smoothing, qtbot, every):
+    seen = []
+    smoothing.iterated.connect(lambda frame: seen.append(frame.iteration.number))
+    smoothing.show_every(every)
+    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
+        smoothing.start(LocalSteepestDescent(), StoppingCriteria(max_iterations=12, tolerance=0))
+    numbers = sorted(set(seen))
+    if every:
+        assert numbers == list(range(1, 13))
+    assert ended.args[0].iterations == 12
+
+
+def test_a_run_that_waits_to_be_shown_can_be_closed_and_let_go_on(document, smoothing, qtbot):
+    smoothing.show_every(True)
+    smoothing.start(LocalSteepestDescent(), SLOW)
+    qtbot.waitUntil(lambda: smoothing.record.newest > 2, timeout=PATIENCE)
+    smoothing.show_every(False)
+    before = smoothing.record.newest
+    qtbot.waitUntil(lambda: smoothing.record.newest > before + 5, timeout=PATIENCE)
+    smoothing.show_every(True)
+    smoothing.close()
+    wait_for_dropped()
+    assert not running()
+
+
 def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtbot):
     seen = []
     smoothing.iterated.connect(lambda frame: seen.append(frame.iteration.number))
