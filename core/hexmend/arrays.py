@@ -75,12 +75,12 @@ def euclidean_norm(a: np.ndarray) -> float:
 
 
 def largest_norm(vectors: np.ndarray) -> float:
-    """Compute the norm of the longest of some vectors (n, 3).
+    """Compute the norm of the longest of some vectors (n, 3); 0 of none.
 
     >>> largest_norm(np.array([[3.0, 4.0, 0.0], [0.0, 0.0, 1.0]]))
     5.0
     """
-    return float(np.sqrt(np.square(vectors).sum(axis=1).max()))
+    return float(np.sqrt(np.square(vectors).sum(axis=1).max(initial=0.0)))
 
 
 def row_norms(vectors: np.ndarray) -> np.ndarray:

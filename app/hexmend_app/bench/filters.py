@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hexmend.gallery import make
-from hexmend.study.bench.section import BenchSection, peak_mb
+from hexmend.run.memory import peak_mb
+from hexmend.study.bench.section import BenchSection
 from hexmend_app.bench.windows import draw, measure_meshes, report, rotation_frame_ms
 from hexmend_app.picture import Box, Cut, CutStyle, Isolate
 

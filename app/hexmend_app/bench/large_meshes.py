@@ -16,7 +16,7 @@ import numpy as np
 
 from hexmend.gallery import make
 from hexmend.io import read, write
-from hexmend.study.bench.section import peak_mb
+from hexmend.run.memory import peak_mb
 from hexmend_app.bench.start import measure_start
 from hexmend_app.bench.windows import draw, measure_meshes, rotation_frame_ms
 from hexmend_app.picture import Cut, CutStyle

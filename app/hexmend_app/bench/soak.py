@@ -15,9 +15,9 @@ import numpy as np
 from scipy.stats import theilslopes
 
 from hexmend.run import StoppingCriteria
+from hexmend.run.memory import resident_mb
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend.study.bench.section import resident_mb
 from hexmend_app.bench.windows import draw, end_run, run_event_loop, save_and_wait, wait_until
 from hexmend_app.picture import Cut, CutStyle
 from hexmend_app.shell.start.program import application

@@ -91,6 +91,8 @@ class AssembledHessian(SymmetricOperator):
         return AssembledHessian(self.sparsity, off_diagonal, diagonal, self.exponent + exponent)
 
     def _product(self, v: np.ndarray) -> np.ndarray:
+        if self.sparsity.ghosts:
+            raise ValueError("the product of a matrix that ranks share with a vector is not implemented")
         x = v.reshape(-1, 3)
         y = np.empty_like(x)
         kernels.product(self.sparsity.pattern, self.off_diagonal, self.diagonal, self.order, x, y)

@@ -43,10 +43,14 @@ class MPIRanks(Ranks):
         return self._reduce(own, self._mpi.SUM)
 
     def least(self, own: T) -> T:
-        return self._reduce(own, self._mpi.MIN)
+        return -self.greatest(-own)
 
     def greatest(self, own: T) -> T:
-        return self._reduce(own, self._mpi.MAX)
+        """Return the greatest of a number over all ranks; NaN if it is NaN on one, which MPI leaves open."""
+        unknown = own != own
+        pair, found = np.array([-np.inf if unknown else own, unknown], dtype=np.float64), np.empty(2)
+        self.comm.Allreduce(pair, found, self._mpi.MAX)
+        return type(own)(np.nan if found[1] else found[0])
 
     def any(self, own: bool | np.ndarray) -> bool:
         return self._reduce(int(np.any(own)), self._mpi.MAX) > 0

@@ -11,6 +11,7 @@ import numpy as np
 import pymetis
 
 from hexmend.arrays import any_of_rows, index_of, mask
+from hexmend.errors import ParameterError
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
 from hexmend.ranks.mpi_ranks import MPIRanks
@@ -125,6 +126,11 @@ def distribute(comm: MPI.Comm, mesh: Mesh | None) -> RankPart:
     if mesh is None:
         return make_part(comm, _receive(comm))
     owner, own = owners_of_nodes(mesh, divide(mesh, comm.size)), None
+    idle = comm.size - np.unique(owner[mesh.hexes]).size
+    if idle:
+        raise ParameterError(
+            f"{comm.size} ranks are too many for {mesh.n_hexes:,} hexes: {idle} of them would own no node. Use fewer."
+        )
     for rank, rows in enumerate(arrays_of_parts(mesh, owner, comm.size)):
         if rank == 0:
             own = rows

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from time import perf_counter
 
@@ -147,15 +147,15 @@ class RankRun(Iterator[RankFigures]):
         return now.inverted, all(lower), now.objective > start.objective
 
 
-def gather_points(part: RankPart, points: np.ndarray, whole: Callable[[], np.ndarray]) -> np.ndarray | None:
-    """Gather the points (n, 3) that each rank owns on rank 0, which has all others from `whole`; None elsewhere."""
+def gather_points(part: RankPart, points: np.ndarray, whole: np.ndarray | None) -> np.ndarray | None:
+    """Gather the points (n, 3) that each rank owns on rank 0, where `whole` has those of nodes without hexes."""
     comm, own = part.ranks.comm, part.owned
     if comm.rank:
         comm.send(int(own.sum()), dest=0)
         comm.Send(part.nodes[own], dest=0)
         comm.Send(points[own], dest=0)
         return None
-    gathered = np.array(whole())
+    gathered = np.array(whole)
     gathered[part.nodes[own]] = points[own]
     for rank in range(1, comm.size):
         count = comm.recv(source=rank)

@@ -216,3 +216,32 @@ def _listed(names: Sequence[str]) -> str:
     ('', 'a', 'a, b or c')
     """
     return " or ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))
+
+
+def peak_mb() -> float:
+    """Return the peak of the resident memory of this process, MiB.
+
+    `ru_maxrss` is the fallback only: a process inherits it from its parent.
+    """
+    try:
+        return _status_mb("VmHWM")
+    except OSError:
+        import resource
+
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def resident_mb() -> float:
+    """Return the resident memory of this process, MiB.
+
+    Raises
+    ------
+    OSError
+        If the system has no /proc.
+    """
+    return _status_mb("VmRSS")
+
+
+def _status_mb(field: str) -> float:
+    with open("/proc/self/status", encoding="ascii") as file:
+        return next(int(line.split()[1]) / 1024 for line in file if line.startswith(field))

@@ -111,10 +111,10 @@ template <class Real, class Number = Real> class BlockMatrix {
         return horizontal_sums(x, y, z);
     }
 
-    // Add the transposed blocks of row i times p to w at their columns.
+    // Add the transposed blocks of row i times p to w at their columns, but for those of ghosts.
     void add_transposed(std::int32_t i, const V &p, V *w) const {
         V x = p[0] - V{}, y = p[1] - V{}, z = p[2] - V{};
-        for (auto s = row_start_[i]; s < row_start_[i + 1]; ++s)
+        for (auto s = row_start_[i]; s < row_start_[i + 1] && columns_[s] < size_; ++s)
             w[columns_[s]] += row(s, 0) * x + row(s, 1) * y + row(s, 2) * z;
     }
 

@@ -50,3 +50,32 @@ def test_a_run_of_one_process_writes_them_and_removes_the_last(tmp_path, monkeyp
     assert len(written) > 3
     assert out.exists()
     assert not (tmp_path / "out.checkpoint.vtu").exists()
+
+
+def test_a_file_that_is_there_already_is_never_overwritten_nor_removed(tmp_path):
+    given, earlier = tmp_path / "out.checkpoint.vtu", tmp_path / "out.checkpoint-2.vtu"
+    write(given, make("five-side", size=200, scramble=0.2))
+    before = given.read_bytes()
+    earlier.write_text("of another run")
+    assert main(["smooth", str(given), "-o", str(tmp_path / "out.vtu"), "--checkpoint", "1e-9"]) == 0
+    assert given.read_bytes() == before
+    assert earlier.read_text() == "of another run"
+    assert not (tmp_path / "out.checkpoint-3.vtu").exists()
+
+
+def test_a_folder_has_a_checkpoint_in_vtu(tmp_path):
+    (tmp_path / "case" / "constant" / "polyMesh").mkdir(parents=True)
+    assert Checkpoints(str(tmp_path / "case"), 1.0).path == tmp_path / "case.checkpoint.vtu"
+
+
+def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(tmp_path, monkeypatch, capsys):
+    given, out = tmp_path / "given.vtu", tmp_path / "out.vtu"
+    write(given, make("five-side", size=200, scramble=0.2))
+
+    def full(path, mesh):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(checkpoint, "write", full)
+    assert main(["smooth", str(given), "-o", str(out), "--checkpoint", "1e-9"]) == 0
+    assert "no checkpoint was written, and the run goes on" in capsys.readouterr().err
+    assert out.exists()

@@ -15,6 +15,7 @@ from hexmend.cli.main import main
 from hexmend.energy.ranks import ONE_RANK
 from hexmend.gallery import make
 from hexmend.io import read, write
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
 from hexmend.ranks import launching
 from hexmend.ranks.rank_part import arrays_of_parts, divide, owners_of_nodes
@@ -184,6 +185,61 @@ def _words_of(process):
     except OSError:
         return []
     return [] if any(b"mpiexec" in word or b"prterun" in word for word in words) else words
+
+
+@needs_mpi
+@pytest.mark.slow
+def test_a_rank_without_free_nodes_takes_part(tmp_path):
+    given, out = tmp_path / "plate.vtu", tmp_path / "out.vtu"
+    write(given, plate_with_a_block())
+    run = on_ranks(2, given, "-o", out, "--goal", "shape", "--target", "given-shape")
+    assert run.returncode == 0, run.stderr
+    assert figures(out)[0] == 0
+
+
+def plate_with_a_block():
+    """A plate one hex thick, all of whose nodes are fixed, and a block at its end."""
+    x, y, z = (np.arange(count + 1) for count in (64, 4, 4))
+    grid = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1).reshape(-1, 3)
+    number = np.arange(len(grid)).reshape(65, 5, 5)
+    corners = [number[i : i + 64, j : j + 4, k : k + 4] for k in (0, 1) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    hexes = np.stack(corners, axis=-1)
+    hexes = np.concatenate([hexes[:60, :, :1].reshape(-1, 8), hexes[60:].reshape(-1, 8)])
+    used, index = np.unique(hexes, return_inverse=True)
+    return Mesh(grid[used].astype(float), index.reshape(-1, 8))
+
+
+@needs_mpi
+@pytest.mark.slow
+def test_more_ranks_than_hexes_are_too_many(tmp_path):
+    given = tmp_path / "one.vtu"
+    write(given, make("cube", size=1))
+    run = on_ranks(2, given, "-o", tmp_path / "out.vtu")
+    assert run.returncode != 0
+    assert "2 ranks are too many for 1 hexes" in run.stderr
+
+
+@needs_mpi
+@pytest.mark.slow
+def test_an_error_of_rank_0_alone_ends_all(tangled, tmp_path):
+    command = launching.on_ranks(2, [sys.executable, "-c", FAILS, str(tangled), str(tmp_path / "out.vtu")])
+    run = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT, timeout=60, check=False)
+    assert run.returncode != 0
+    assert "rank 0 failed: no memory" in run.stderr
+
+
+#: Reads no mesh, for lack of memory.
+FAILS = """
+import sys
+from hexmend.cli.commands.smooth import on_ranks
+from hexmend.cli.main import main
+
+def read(*args, **options):
+    raise MemoryError("no memory")
+
+on_ranks.read = read
+sys.exit(main(["smooth", sys.argv[1], "-o", sys.argv[2]]))
+"""
 
 
 @pytest.mark.parametrize("count", [1, 2, 5])

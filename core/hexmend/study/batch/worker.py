@@ -17,11 +17,11 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import summarise
 from hexmend.run import smooth
+from hexmend.run.memory import peak_mb
 from hexmend.study.batch.case import read_case
 from hexmend.study.batch.process_group import end_group
 from hexmend.study.batch.table_columns import CHANGED_FIGURES, Status, answer
 from hexmend.study.batch.task import Task, content_hash
-from hexmend.study.bench.section import peak_mb
 
 
 def main(version: str) -> None:

@@ -87,7 +87,7 @@ from hexmend.gallery import make
 from hexmend.run import StoppingCriteria, iterate
 from hexmend.smoothers import METHODS
 from hexmend.study.bench.collection import collection
-from hexmend.study.bench.section import peak_mb
+from hexmend.run.memory import peak_mb
 mesh = make("five-side", size=int(sys.argv[1]), scramble=0.3)
 run = iterate(mesh, METHODS["mend"](goal="shape"), StoppingCriteria(max_iterations=1000))
 inner = sum(it.diagnostics.get("solver_iterations", 0) for it in run)

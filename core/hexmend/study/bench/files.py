@@ -35,7 +35,7 @@ from pathlib import Path
 from time import perf_counter
 from hexmend.gallery import make
 from hexmend.io import read, write
-from hexmend.study.bench.section import peak_mb, resident_mb
+from hexmend.run.memory import peak_mb, resident_mb
 small = Path(sys.argv[1]).with_stem("small")
 write(small, make("cube", size=8))
 read(small)  # whatever has to be imported

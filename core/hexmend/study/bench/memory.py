@@ -37,7 +37,7 @@ from hexmend.quality import measure
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.run.memory import needed
 from hexmend.smoothers import METHODS
-from hexmend.study.bench.section import peak_mb, resident_mb
+from hexmend.run.memory import peak_mb, resident_mb
 path, name, values, iterations = sys.argv[1:]
 with np.load(path) as arrays:
     mesh = Mesh(arrays["points"], arrays["hexes"])

@@ -34,7 +34,7 @@ _PROBE = """
 import sys
 from pathlib import Path
 from hexmend.cli.main import main
-from hexmend.study.bench.section import peak_mb
+from hexmend.run.memory import peak_mb
 status = main(sys.argv[2:])
 Path(sys.argv[1]).write_text(str(peak_mb()))
 sys.exit(status)

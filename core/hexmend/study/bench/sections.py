@@ -109,7 +109,7 @@ from time import perf_counter
 from hexmend.gallery import make
 from hexmend.quality import measure
 from hexmend.mesh.mesh import Mesh
-from hexmend.study.bench.section import peak_mb
+from hexmend.run.memory import peak_mb
 mesh = make("cube", size=27)
 mesh.topology.face_neighbours, mesh.topology.edges, mesh.topology.colouring(mesh.free)
 measure(mesh.points, mesh.hexes)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Callable
+from itertools import chain, count
 from pathlib import Path
 from time import monotonic
 
-from hexmend.errors import ParameterError
+from hexmend.errors import FileError, ParameterError
 from hexmend.io import write
+from hexmend.io.format_lookup import format_by_place
 from hexmend.mesh.mesh import Mesh
 
 
@@ -25,13 +29,18 @@ class Checkpoints:
     ------
     ParameterError
         For minutes that are not positive.
+
+    Attributes
+    ----------
+    path : Path
+        OUTPUT.checkpoint.SUFFIX, with a number where there is such a file already: it may be the mesh of this run. A
+        folder, as of OpenFOAM, has a checkpoint in VTU.
     """
 
     def __init__(self, output: str, minutes: float | None):
         if minutes is not None and not minutes > 0:
             raise ParameterError(f"--checkpoint {minutes:g} is out of bounds: expected a number of minutes above 0")
-        path = Path(output)
-        self.path = path.with_name(f"{path.stem}.checkpoint{path.suffix}")
+        self.path = _free_path(Path(output))
         self._seconds = None if minutes is None else 60 * minutes
         self._last, self._written = monotonic(), False
 
@@ -41,11 +50,22 @@ class Checkpoints:
         return self._seconds is not None and monotonic() - self._last >= self._seconds
 
     def write(self, make: Callable[[], Mesh]) -> None:
-        """Write the mesh that a function makes."""
-        write(self.path, make())
-        self._last, self._written = monotonic(), True
+        """Write the mesh that a function makes; where that fails, a warning says so and the run goes on."""
+        try:
+            write(self.path, make())
+            self._written = True
+        except (FileError, OSError) as error:
+            print(f"hexmend: no checkpoint was written, and the run goes on: {error}", file=sys.stderr, flush=True)
+        self._last = monotonic()
 
     def remove(self) -> None:
         """Remove the file of this run once its result is written."""
         if self._written:
             self.path.unlink(missing_ok=True)
+
+
+def _free_path(output: Path) -> Path:
+    """Return a name beside the output that no file has."""
+    suffix = output.suffix if format_by_place(output) is None and output.suffix else ".vtu"
+    names = (f"{output.stem}.checkpoint{end}{suffix}" for end in chain([""], (f"-{number}" for number in count(2))))
+    return next(path for path in map(output.with_name, names) if not os.path.lexists(path))

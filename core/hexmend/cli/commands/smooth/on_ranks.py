@@ -9,6 +9,7 @@ import traceback
 from collections.abc import Sequence
 from importlib import import_module
 from time import monotonic
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -33,17 +34,20 @@ from hexmend.ranks.rank_run import RankRun, gather_points
 from hexmend.ranks.rank_sliding import distribute_sliding
 from hexmend.ranks.rank_stages import check_distributed
 from hexmend.report import write_json
+from hexmend.run.memory import peak_mb
 from hexmend.run.recipe import Stage
 from hexmend.run.shape_watch import ShapeWatch
 from hexmend.run.stage_run import StageRun
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.mend.stages import Stages
-from hexmend.study.bench.section import peak_mb
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
 
 #: Variables in which launchers tell each process the number of processes on its machine.
 _LOCAL_SIZES = "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"
 #: Options that need the whole run in one process.
-_SINGLE = "recipe", "surface", "ridges", "only", "save_recipe", "history"
+_SINGLE = "recipe", "surface", "ridges", "only", "rings", "save_recipe", "history"
 
 
 def run(args: argparse.Namespace) -> int:
@@ -52,35 +56,42 @@ def run(args: argparse.Namespace) -> int:
         os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
     comm = import_module("mpi4py.MPI").COMM_WORLD  # which begins MPI
     _share_processors()
-    mesh, sliding, problem = None, None, None
+    source, problem = None, None
     try:
-        method, limits = method_and_limits(args)
-        checkpoints = Checkpoints(args.output, args.checkpoint)
-        if comm.rank == 0:
-            mesh = _prepare(args, method)
-            sliding = Stages(method).sliding_boundary(mesh) if method.slides_on(mesh) else None
-            check_memory(args, [method], mesh.n_hexes * _local_ranks() // comm.size, "use more machines")
-    except HexmendError as error:
-        problem = error
-    if comm.allreduce(problem is not None):
-        if problem is not None and comm.rank == 0:
-            raise problem
-        return 3
-    try:
-        slides, part = comm.bcast(sliding is not None), distribute(comm, mesh)
-        sliding, mesh = distribute_sliding(part, sliding) if slides else None, None  # rank 0 keeps no whole mesh
+        try:
+            method, limits = method_and_limits(args)
+            source = _Source(args, method, comm.size) if comm.rank == 0 else None
+        except HexmendError as error:
+            problem = error
+        problems = comm.allgather(None if problem is None else str(problem))
+        if any(problems):
+            if comm.rank == 0:
+                raise problem or HexmendError(next(filter(None, problems)))
+            return 3
+        part = distribute(comm, None if source is None else source.mesh)
+        slides = comm.bcast(source is not None and source.sliding is not None)
+        sliding = distribute_sliding(part, None if source is None else source.sliding) if slides else None
+        if source is not None:
+            source.forget()
         run = RankRun(part, method, limits, sliding)
-        _iterate(args, run, checkpoints)
-        return _finish(args, run, checkpoints, method.title)
-    except KeyboardInterrupt:  # the launcher ends all ranks
-        raise
-    except BaseException as error:  # the other ranks would wait for this one
-        print(f"hexmend: rank {comm.rank} failed: {error or type(error).__name__}", file=sys.stderr)
-        if not isinstance(error, HexmendError):
-            traceback.print_exc()
-        sys.stderr.flush()
-        comm.Abort(3)
-        raise
+        _iterate(run, source)
+        return _finish(args, run, source, method.title)
+    except (KeyboardInterrupt, HexmendError) as error:  # the launcher ends all ranks, or all have ended
+        if isinstance(error, KeyboardInterrupt) or any(problems):
+            raise
+        _abort(comm, error)
+    except BaseException as error:
+        _abort(comm, error)
+    return 3
+
+
+def _abort(comm: MPI.Comm, error: BaseException) -> None:
+    """End all ranks, which would wait for this one."""
+    print(f"hexmend: rank {comm.rank} failed: {error or type(error).__name__}", file=sys.stderr)
+    if not isinstance(error, HexmendError | MemoryError):
+        traceback.print_exception(error)
+    sys.stderr.flush()
+    comm.Abort(3)
 
 
 def _share_processors() -> None:
@@ -96,21 +107,44 @@ def _local_ranks() -> int:
     return next((int(os.environ[name]) for name in _LOCAL_SIZES if os.environ.get(name, "").isdecimal()), 1)
 
 
-def _prepare(args: argparse.Namespace, method: object) -> Mesh:
-    """Read the mesh, and check what can be checked before the run."""
-    for name in _SINGLE:
-        if getattr(args, name):
-            option = f"--{name.replace('_', '-')}"
-            raise ParameterError(f"{option} does not work on several MPI ranks yet: run it in one process")
-    writer_for(args.output, None if args.rewrite else args.mesh)
-    check_targets(args.mesh, args.output, args.json)
-    mesh = read(args.mesh, as_is=args.as_is)
-    print_notes(mesh)
-    print_problems(args.mesh, mesh)
-    MeshOutput(args.output, args.mesh, mesh, args.rewrite).warn_of_losses(mesh)
-    mesh = with_rules(mesh, motion_rules(args))
-    check_distributed(method, mesh)
-    return _with_target(mesh, method)
+class _Source:
+    """The mesh of rank 0, which is divided and then kept as it was read; checks everything before the run.
+
+    Attributes
+    ----------
+    given : Mesh
+        As read, without what has been derived from it.
+    mesh : Mesh or None
+        With the rules of motion and the target of the run, until it is divided.
+    sliding : SlidingBoundary or None
+        The boundary if it slides, until it is divided.
+    output : MeshOutput
+    checkpoints : Checkpoints
+    """
+
+    def __init__(self, args: argparse.Namespace, method: Smoother, ranks: int):
+        for name in _SINGLE:
+            if getattr(args, name) not in (None, False, ""):
+                option = f"--{name.replace('_', '-')}"
+                raise ParameterError(f"{option} does not work on several MPI ranks yet: run it in one process")
+        self.checkpoints = Checkpoints(args.output, args.checkpoint)
+        writer_for(args.output, None if args.rewrite else args.mesh)
+        check_targets(args.mesh, args.output, args.json)
+        mesh = read(args.mesh, as_is=args.as_is)
+        print_notes(mesh)
+        print_problems(args.mesh, mesh)
+        self.given = mesh.rebuilt()
+        self.output = MeshOutput(args.output, args.mesh, self.given, args.rewrite)
+        self.output.warn_of_losses(mesh)
+        mesh = with_rules(mesh, motion_rules(args))
+        check_distributed(method, mesh)
+        check_memory(args, [method], mesh.n_hexes * _local_ranks() // ranks, "use more machines")
+        self.mesh = _with_target(mesh, method)
+        self.sliding = Stages(method).sliding_boundary(mesh) if method.slides_on(mesh) else None
+
+    def forget(self) -> None:
+        """Free what has been divided."""
+        self.mesh = self.sliding = None
 
 
 def _with_target(mesh: Mesh, method: Smoother) -> Mesh:
@@ -118,16 +152,15 @@ def _with_target(mesh: Mesh, method: Smoother) -> Mesh:
     return ShapeWatch(mesh, measure(mesh.points, mesh.hexes)).with_target(method)
 
 
-def _iterate(args: argparse.Namespace, run: RankRun, checkpoints: Checkpoints) -> None:
+def _iterate(run: RankRun, source: _Source | None) -> None:
     """Iterate to the end; rank 0 prints a line every few seconds, and writes checkpoints."""
     ranks, due = run.part.ranks, monotonic() + LINE_INTERVAL
     for now in run:
-        if ranks.any(ranks.number == 0 and checkpoints.due):
-            given = _Given(args)
-            points = gather_points(run.part, run.points, given.points)
-            if ranks.number == 0:
-                checkpoints.write(lambda given=given, points=points: given.mesh.with_points(points))
-        if ranks.number == 0 and monotonic() >= due:
+        if ranks.any(source is not None and source.checkpoints.due):
+            points = gather_points(run.part, run.points, None if source is None else source.given.points)
+            if source is not None:
+                source.checkpoints.write(lambda points=points: source.given.with_points(points))
+        if source is not None and monotonic() >= due:
             text = f"{now.inverted:,} inverted, q min {now.q_min:.4f}, q mean {now.q_mean:.4f}, move {run.move:.2g}"
             print(f"iteration {run.number:,}, {run.seconds:.0f} s: {text}", file=sys.stderr, flush=True)
             due = monotonic() + LINE_INTERVAL
@@ -152,36 +185,18 @@ def _finish_alone(mesh: Mesh, points: np.ndarray, run: RankRun) -> StageRun:
     return alone
 
 
-class _Given:
-    """The mesh as given, which rank 0 reads again when it is needed."""
-
-    def __init__(self, args: argparse.Namespace):
-        self._args, self._mesh = args, None
-
-    @property
-    def mesh(self) -> Mesh:
-        if self._mesh is None:
-            self._mesh = read(self._args.mesh, as_is=self._args.as_is)
-        return self._mesh
-
-    def points(self) -> object:
-        return self.mesh.points
-
-
-def _finish(args: argparse.Namespace, run: RankRun, checkpoints: Checkpoints, title: str) -> int:
+def _finish(args: argparse.Namespace, run: RankRun, source: _Source | None, title: str) -> int:
     """Gather the result on rank 0, which writes it and prints the change."""
-    ranks, given = run.part.ranks, _Given(args)
-    points = gather_points(run.part, run.best_points, given.points)
-    figures, inverted = ranks.comm.gather((peak_mb(), threads())), None
-    if ranks.number == 0:
-        result = _result(with_rules(given.mesh, motion_rules(args)), points, run, figures)
-        output = given.mesh.with_points(result.mesh.points)
-        written = MeshOutput(args.output, args.mesh, given.mesh, args.rewrite).write(output)
-        checkpoints.remove()
-        if args.json:
-            write_json(args.json, result.record())
-        print_summaries(f"{args.mesh}: {title}", ["before", "after"], result.summaries, None)
-        for line in filter(None, (result.message, result.surface_sentence, written)):
-            print(line)
-        inverted = result.summaries[1].inverted
-    return 4 if inverted else 0  # of rank 0 alone: launchers complain of each
+    points = gather_points(run.part, run.best_points, None if source is None else source.given.points)
+    figures = run.part.ranks.comm.gather((peak_mb(), threads()))
+    if source is None:
+        return 0  # launchers complain of each process that returns another status
+    result = _result(with_rules(source.given, motion_rules(args)), points, run, figures)
+    written = source.output.write(source.given.with_points(result.mesh.points))
+    source.checkpoints.remove()
+    if args.json:
+        write_json(args.json, result.record())
+    print_summaries(f"{args.mesh}: {title}", ["before", "after"], result.summaries, None)
+    for line in filter(None, (result.message, result.surface_sentence, written)):
+        print(line)
+    return 4 if result.summaries[1].inverted else 0

@@ -66,7 +66,13 @@ class RankResult:
             kept, last = alone.best.number, alone.last.number
             went_on = count_phrase(alone.n_iterations, "iteration")
             spent += f" Rank 0 went on alone for {went_on} and {alone.last.seconds - run.seconds:.3g} s."
-        words = outcome.value, spent, *decisions, "" if kept == last else f"Iteration {kept:,} was kept."
+        if kept == 0 < last:
+            decisions, kept_words = [], "The mesh as given was kept: every iteration was worse."
+        elif kept < last and alone is None:  # decisions are of the end
+            decisions, kept_words = [], f"Iteration {kept:,} was kept."
+        else:
+            kept_words = "" if kept == last else f"Iteration {kept:,} was kept."
+        words = outcome.value, spent, *decisions, kept_words
         return " ".join(filter(None, [*words, describe_regressions(*self.summaries, None)]))
 
     @property

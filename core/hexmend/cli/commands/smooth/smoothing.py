@@ -83,7 +83,9 @@ def run(args: argparse.Namespace) -> int:
 
 def _is_one_of_several_ranks() -> bool:
     """Return True if an MPI launcher has started this process together with others."""
-    return any(os.environ.get(name, "1") not in ("", "0", "1") for name in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE"))
+    sizes = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"]
+    sizes += ["SLURM_NTASKS"] if "PMIX_RANK" in os.environ else []  # of srun, whose batch jobs have it too
+    return any(os.environ.get(name, "1") not in ("", "0", "1") for name in sizes)
 
 
 def _run_on_ranks(args: argparse.Namespace) -> int:
