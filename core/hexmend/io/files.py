@@ -25,9 +25,13 @@ from hexmend.io.coordinates.replacement import (
 from hexmend.io.coordinates.unread import unread_content
 from hexmend.io.format_lookup import every_format, format_by_place, format_of, suffixes_of, writable_format
 from hexmend.io.storage.atomic import atomic_write, check_writable
+from hexmend.io.storage.file_progress import FileAction, file_operation, stage
 from hexmend.io.storage.readable import check_readable, reading
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
+
+#: Share of the time to read a mesh that its format takes; then its orientation is checked.
+_FORMATS_SHARE = 0.8
 
 
 @old_keywords("read")
@@ -61,8 +65,9 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
     format = format_of(path)
     token = INTERPOLATE_MISSING.set(interpolate_missing)
     try:
-        with reading(path, "Close other programs or use a larger machine."):
-            mesh = format.read(path)
+        with reading(path, "Close other programs or use a larger machine."), file_operation(path, FileAction.READING):
+            with stage(0.0, _FORMATS_SHARE):
+                mesh = format.read(path)
             mesh = mesh if format.place else mesh.replace(name=path.stem)
             return mesh if as_is else with_consistent_orientation(mesh)
     except MeshError as error:

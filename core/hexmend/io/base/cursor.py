@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,9 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.decimals import count_words, exceeds_dtype, parse_numbers
 from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.storage.binary_rows import gather_integers, read_blocks, read_rows
+from hexmend.io.storage.file_bytes import FileBytes
+from hexmend.io.storage.file_progress import report
 
 _NUMERIC = re.compile(rb"[\s0-9.eE+\-]*")
 _NOT_FINITE = re.compile(rb"(?:nan|inf(?:inity)?)(?=\s|$)", re.IGNORECASE)
@@ -22,6 +26,10 @@ _NEWLINE = b"\n"
 _LONGEST_LINE = 1 << 16
 #: Bytes that are parsed at a time in the search for a word that is not a number.
 _CHUNK = 1 << 20
+#: Bytes of numbers that are parsed at a time.
+_TEXT = 1 << 24
+#: Bytes in which words and white space are looked for.
+_NEAR = 1 << 13
 
 
 class ByteCursor:
@@ -31,7 +39,7 @@ class ByteCursor:
     ----------
     path : Path
         Named in errors.
-    data : bytes
+    data : bytes or FileBytes
         Content of the file.
     is_text : bool
         Numbers are decimals, and errors report the line; else errors report the offset in bytes.
@@ -42,7 +50,7 @@ class ByteCursor:
         Offset of the next byte to read.
     """
 
-    def __init__(self, path: Path, data: bytes, is_text: bool = True):
+    def __init__(self, path: Path, data: bytes | FileBytes, is_text: bool = True):
         self.path, self.data, self.is_text, self.pos = path, data, is_text, 0
 
     def error(self, problem: str, remedy: str = DAMAGED) -> FileError:
@@ -65,7 +73,7 @@ class ByteCursor:
     @property
     def at_end(self) -> bool:
         """True if only white space is left."""
-        return _SPACE.match(self.data, self.pos).end() == len(self.data)
+        return self._after_space() == len(self.data)
 
     def rest_of_line(self) -> str:
         """Read the rest of the line, without white space at its ends; empty for a blank line."""
@@ -76,14 +84,25 @@ class ByteCursor:
 
     def next_line(self) -> str:
         """Read the next line that is not blank; empty at the end of the file."""
-        self.pos = _SPACE.match(self.data, self.pos).end()
+        self.pos = self._after_space()
         return self.rest_of_line()
 
     def next_word(self) -> str:
         """Read the next word; empty at the end of the file."""
-        found = _WORD.search(self.data, self.pos)
-        self.pos = found.end() if found else len(self.data)
+        begin = self._after_space()
+        found = _WORD.match(self.data[begin : begin + _NEAR])
+        self.pos = begin + found.end() if found else len(self.data)
         return found.group().decode("utf-8", errors="replace") if found else ""
+
+    def _after_space(self) -> int:
+        """Offset of the next byte that is no white space; that of the end of the file if there is none."""
+        pos = self.pos
+        while near := self.data[pos : pos + _NEAR]:
+            skipped = _SPACE.match(near).end()
+            pos += skipped
+            if skipped < len(near):
+                break
+        return pos
 
     def parse_count(self, word: str, label: str) -> int:
         """Convert a word that has been read to a count.
@@ -125,20 +144,51 @@ class ByteCursor:
         count = rows * width
         if count == 0:
             return np.empty((rows, width), dtype)
-        start, end = self.pos, self._numeric_end()
+        values = self._plain_numbers(count, dtype)
+        if values is None:
+            self.data = self.data[:]  # the rest is for errors, and for files of unusual layout
+            values = self._checked_numbers(section, rows, width, dtype)
+        return values.reshape(rows, width)
+
+    def _plain_numbers(self, count: int, dtype: np.dtype | type) -> np.ndarray | None:
+        """Read numbers, (count,), block by block; None, and nothing is read, where anything else is between them."""
+        if count > (len(self.data) - self.pos) // 2 + 1:
+            return None
+        values, at, k = np.empty(count, dtype), self.pos, 0
+        while k < count:
+            text = self.data[at : at + _TEXT]
+            text = text[: _numeric_end(text, 0, at + len(text) == len(self.data))]
+            numbers, found = parse_numbers(text, dtype), count_words(text)
+            if not text or numbers is None or numbers.size != found:
+                return None
+            if values.dtype.kind in "iu" and exceeds_dtype(numbers, text):
+                return None
+            surplus = found - (count - k)
+            if surplus > 0:  # the name of the next array begins with digits
+                text, numbers = text.rsplit(None, surplus)[0], numbers[: count - k]
+            values[k : k + len(numbers)] = numbers
+            at, k = at + len(text), k + len(numbers)
+            report(at, len(self.data))
+        self.pos = at
+        return values
+
+    def _checked_numbers(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> np.ndarray:
+        """Read numbers, (rows * width,), of a text in which there may be other words; see `read_numbers`."""
+        count, start = rows * width, self.pos
+        end = _numeric_end(self.data, start)
         text = self.data[start:end]
         values, found = parse_numbers(text, dtype), count_words(text)
         if values is None or values.size != found or found < count:
             end = self._checked_end(section, rows, width, dtype)
             text = self.data[start:end]
             values = parse_numbers(text, dtype)
-        elif found > count:  # the name of the next array begins with digits
+        elif found > count:
             end = start + len(text.rsplit(None, found - count)[0])
         values = values[:count]
         if np.dtype(dtype).kind in "iu" and exceeds_dtype(values, text):
             raise self.error(f"{section} holds a whole number of more than 64 bits before {self.location_of(end)}")
         self.pos = end
-        return values.reshape(rows, width)
+        return values
 
     def read_numbers_until(self, section: str, mark: bytes, dtype: np.dtype | type) -> np.ndarray:
         """Read all decimal numbers before a word, and the word.
@@ -164,19 +214,33 @@ class ByteCursor:
 
     def read_numbers_to(self, section: str, end: int, dtype: np.dtype | type) -> np.ndarray:
         """Read all decimal numbers before the offset `end`, (k,) array; see `read_numbers_until`."""
-        return self.read_numbers(section, count_words(self.data[self.pos : end]), 1, dtype)[:, 0]
+        return self.read_numbers(section, count_words(self.data, self.pos, end), 1, dtype)[:, 0]
 
     def read_binary(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> np.ndarray:
-        """Read rows * width binary numbers; returns a (rows, width) view in the byte order of the file."""
-        dtype = np.dtype(dtype)
-        size = rows * width * dtype.itemsize
-        left = len(self.data) - self.pos
+        """Read rows * width binary numbers, (rows, width), in the byte order of the file; a view of data in memory."""
+        begin, dtype = self._skip_rows(section, rows, width, dtype)
+        return read_rows(self.data, begin, rows, width, dtype)
+
+    def binary_blocks(
+        self, section: str, rows: int, width: int, dtype: np.dtype | str
+    ) -> Iterator[tuple[slice, np.ndarray]]:
+        """Read rows * width binary numbers block by block; see `hexmend.io.storage.binary_rows.read_blocks`."""
+        begin, dtype = self._skip_rows(section, rows, width, dtype)
+        return read_blocks(self.data, begin, rows, width, dtype)
+
+    def read_integers(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> np.ndarray:
+        """Read rows * width binary whole numbers, (rows, width) int32, or int64 where one needs it."""
+        return gather_integers((rows, width), self.binary_blocks(section, rows, width, dtype))
+
+    def _skip_rows(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> tuple[int, np.dtype]:
+        """Go behind binary numbers, which must be there; returns the offset of the first, and the type."""
+        dtype, begin = np.dtype(dtype), self.pos
+        size, left = rows * width * dtype.itemsize, len(self.data) - begin
         if size > left:
             have = left // max(1, width * dtype.itemsize)
             raise self.error(f"{section} ends after {have} of {rows} rows: the file ends at byte {len(self.data)}")
-        values = np.frombuffer(self.data, dtype, rows * width, self.pos)
         self.pos += size
-        return values.reshape(rows, width)
+        return begin, dtype
 
     def read_bytes(self, size: int, label: str) -> bytes:
         """Read `size` bytes; `label` names them in errors."""
@@ -184,16 +248,6 @@ class ByteCursor:
             raise self.error(f"{label} needs {size} bytes at byte {self.pos}: the file ends at byte {len(self.data)}")
         self.pos += size
         return self.data[self.pos - size : self.pos]
-
-    def _numeric_end(self) -> int:
-        """Offset at which the numbers end: before the next word with a letter."""
-        end = _NUMERIC.match(self.data, self.pos).end()
-        while special := _NOT_FINITE.match(self.data, end):
-            end = _NUMERIC.match(self.data, special.end()).end()
-        if end < len(self.data):
-            while end > self.pos and not self.data[end - 1 : end].isspace():
-                end -= 1  # a word such as 2nd begins like a number
-        return end
 
     def _checked_end(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> int:
         """Parse number by number; returns the offset behind the last one, and raises at the first other word."""
@@ -230,6 +284,17 @@ class ByteCursor:
                 break
             at, k = at + end, k + found
         return at, k
+
+
+def _numeric_end(data: bytes, begin: int, is_all: bool = True) -> int:
+    """Offset at which numbers end: before the next word with a letter, or which the data do not hold to its end."""
+    end = _NUMERIC.match(data, begin).end()
+    while special := _NOT_FINITE.match(data, end):
+        end = _NUMERIC.match(data, special.end()).end()
+    if end < len(data) or not is_all:
+        while end > begin and not data[end - 1 : end].isspace():
+            end -= 1  # a word such as 2nd begins like a number
+    return end
 
 
 def read_text_bytes(path: Path) -> bytes:

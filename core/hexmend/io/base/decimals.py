@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from hexmend.kernels import decimals
+
+if TYPE_CHECKING:
+    from hexmend.io.storage.file_bytes import FileBytes
 
 #: Rows that are formatted at a time, which limits the memory for the text of a large mesh.
 CHUNK_ROWS = 65536
@@ -62,11 +67,12 @@ def exceeds_dtype(values: np.ndarray, text: bytes) -> bool:
     return not all(limits.min <= int(word) <= limits.max for word in text.split()[: values.size])
 
 
-def count_words(text: bytes) -> int:
-    """Count the words of a text, 16 MB at a time to limit the memory."""
-    total, before = 0, True
-    for start in range(0, len(text), 1 << 24):
-        space = np.frombuffer(text, np.uint8, min(1 << 24, len(text) - start), start) <= 32
+def count_words(text: bytes | FileBytes, begin: int = 0, end: int | None = None) -> int:
+    """Count the words of a text between two offsets, 16 MB at a time to limit the memory."""
+    total, before, end = 0, True, len(text) if end is None else end
+    for start in range(begin, end, 1 << 24):
+        part = text[start : min(start + (1 << 24), end)]
+        space = np.frombuffer(part, np.uint8) <= 32
         total += int(before and not space[0]) + int(np.count_nonzero(space[:-1] & ~space[1:]))
         before = bool(space[-1])
     return total

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,6 +13,8 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import Content
 from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.storage.binary_rows import row_blocks
+from hexmend.io.storage.file_progress import advance
 from hexmend.terminal_text import printable
 
 MAGIC = b"\x89HDF\r\n\x1a\n"
@@ -157,9 +160,40 @@ def read_dataset(path: Path, dataset: object) -> np.ndarray:
     with library_errors(path):
         size, width = dataset.size, dataset.dtype.itemsize
         if size is not None and size * width <= bound:
-            return dataset[()]
+            values = dataset[()]
+            advance(size * width, os.path.getsize(path))
+            return values
     problem = f"{dataset.name} would have {size} values: more than a file of its size holds"
     raise FileError(path, problem, "Write the file again without compression, if it is true.")
+
+
+def dataset_blocks(dataset: object, rows: slice) -> Iterator[tuple[slice, np.ndarray]]:
+    """Read rows of a dataset block by block, whole chunks of the file at a time, and report the progress.
+
+    Parameters
+    ----------
+    dataset : h5py.Dataset
+        Of one axis at least.
+    rows : slice
+        Within the dataset.
+
+    Yields
+    ------
+    part : slice
+        Of the rows, counted from the first that is read.
+    values : (k, ...) array
+        In the byte order of the file.
+    """
+    step = row_blocks(len(dataset), dataset.dtype.itemsize * math.prod(dataset.shape[1:]))[:1]
+    step = step[0].stop if step else 1
+    if dataset.chunks:
+        step += -step % dataset.chunks[0]
+    total = dataset.file.id.get_filesize()
+    for begin in range(rows.start, rows.stop, step):
+        end = min(begin + step, rows.stop)
+        values = dataset[begin:end]
+        advance(values.nbytes, total)
+        yield slice(begin - rows.start, end - rows.start), values
 
 
 def text_of(value: str | bytes) -> str:

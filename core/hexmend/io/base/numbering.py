@@ -47,9 +47,10 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, label: str) -> np.
     array([[1, 0]])
     """
     n = len(ids)
-    if n and ids[0] == 1 and ids[-1] == n and np.array_equal(ids, np.arange(1, n + 1)):
-        wrong = (wanted < 1) | (wanted > n)
-        found = np.subtract(wanted, 1, dtype=np.int32 if n < ID_LIMIT else np.int64, casting="unsafe")
+    if n and ids[0] == 1 and ids[-1] == n and _rise_by_one(ids):
+        if wanted.size and wanted.min() >= 1 and wanted.max() <= n:  # without arrays of marks
+            return np.subtract(wanted, 1, dtype=np.int32 if n < ID_LIMIT else np.int64, casting="unsafe")
+        found, wrong = wanted, (wanted < 1) | (wanted > n)
     else:
         order = np.argsort(ids, kind="stable")
         in_order = ids[order]
@@ -67,6 +68,12 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, label: str) -> np.
         problem = f"{label} {number} is used, but the file has no such {label}"
         raise FileError(path, problem, "Add it, or correct what uses it.")
     return found
+
+
+def _rise_by_one(ids: np.ndarray) -> bool:
+    """Return True if each of the ids (n,) is one more than the one before it."""
+    step = 1 << 18  # ids at a time, to limit the memory
+    return all((np.diff(ids[begin : begin + step + 1]) == 1).all() for begin in range(0, len(ids), step))
 
 
 def node_ids(data: dict[str, np.ndarray], count: int, limit: int = ID_LIMIT) -> np.ndarray:

@@ -6,7 +6,6 @@ not used: it reads what a file that is cut short lacks as zeros, and needs a pro
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,6 +14,8 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.storage.binary_rows import native, read_rows
+from hexmend.io.storage.file_bytes import FileBytes
 
 #: Types of values (nc_type); 2 is text.
 TYPES = {
@@ -93,9 +94,9 @@ class ClassicReader:
 
     def __init__(self, path: Path):
         self.path = path
-        self._length = os.path.getsize(path)
-        with open(path, "rb") as file:
-            header = _Header(ByteCursor(path, file.read(_HEADER_SIZE), is_text=False))
+        self._data = FileBytes(path)
+        self._length = len(self._data)
+        header = _Header(ByteCursor(path, self._data[:_HEADER_SIZE], is_text=False))
         records = header.count()
         dimensions = header.dimensions()
         self.attributes = header.attributes()
@@ -122,10 +123,9 @@ class ClassicReader:
     def array(self, name: str, record: int = 0) -> np.ndarray:
         """Values of a variable, of one record where it has several, in the machine's byte order."""
         variable = self._variables[name]
-        with open(self.path, "rb") as file:
-            file.seek(variable.begin + (record * self._record_size if variable.is_record else 0))
-            values = np.fromfile(file, variable.dtype, variable.count)
-        return values.astype(variable.dtype.newbyteorder("=")).reshape(variable.shape)
+        begin = variable.begin + (record * self._record_size if variable.is_record else 0)
+        values = native(read_rows(self._data, begin, variable.count, 1, variable.dtype))
+        return values.reshape(variable.shape)
 
     def variable(self, name: str) -> Variable:
         """Variable of the header."""

@@ -77,14 +77,17 @@ class _Reader:
         if not 1 <= width <= 3:
             raise FileError(self.path, f"num_dim is {width}: expected 1 to 3", DAMAGED)
         if "coord" in self.store:
-            rows = self.variables.array("coord", width, self.n_nodes)
+            columns = iter(self.variables.array("coord", width, self.n_nodes))
         else:
             names = [f"coord{axis}" for axis in "xyz"[:width]]
             if missing := [name for name in names if name not in self.store]:
                 raise FileError(self.path, f"has no coordinates {missing[0]}", DAMAGED)
-            rows = [self.variables.array(name, self.n_nodes) for name in names]
+            columns = (self.variables.array(name, self.n_nodes) for name in names)
+        first = next(columns)
         points = np.zeros((self.n_nodes, 3))  # after reading: num_nodes of a damaged file may be huge
-        points[:, :width] = np.column_stack(list(rows))
+        points[:, 0] = first
+        for k, column in enumerate(columns, 1):
+            points[:, k] = column
         return points
 
     def blocks(self) -> tuple[list[Block], list[np.ndarray]]:
@@ -130,7 +133,7 @@ class _Reader:
             self.notes.append(unread_note(f"{count:,} cells of {title}"))
             self.unread[title] = count
             return None
-        nodes = self.variables.integers(variable, count, width) - 1
+        nodes = self.variables.nodes(variable, count, width)
         check_numbers(self.path, f"block {number} uses the nodes", nodes, self.n_nodes)
         if kind is None:
             cells = f"Cells of type {type_} with {width} nodes in block {number}"

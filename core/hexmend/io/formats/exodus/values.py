@@ -10,6 +10,7 @@ from hexmend.errors import FileError
 from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.exodus.store import ExodusStore
+from hexmend.io.storage.binary_rows import gather_integers, row_blocks
 
 
 class CheckedVariables:
@@ -40,6 +41,17 @@ class CheckedVariables:
         if values.dtype.kind == "f":
             raise FileError(self.path, f"variable {name!r} holds {values.dtype}: expected whole numbers", DAMAGED)
         return values.astype(np.int64)
+
+    def nodes(self, name: str, *shape: int) -> np.ndarray:
+        """Numbers of nodes, from 0, of exactly this shape, int32 where they fit, else int64."""
+        values = self.array(name, *shape)
+        if values.dtype == np.int32:
+            values -= 1  # the array is nobody else's
+            return values
+        if values.dtype.kind == "f":
+            return self.integers(name, *shape) - 1  # an error
+        blocks = row_blocks(len(values), values[:1].nbytes)
+        return gather_integers(shape, ((part, values[part].astype(np.int64) - 1) for part in blocks))
 
     def members(self, name: str, dimension: str, count: int, label: str) -> np.ndarray:
         """Members of a set, from 0, int64; `dimension` names their number, `count` is that of all `label`."""

@@ -18,7 +18,7 @@ from hexmend.io.base.numbering import find_ids
 from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.gmsh.element_types import KIND_OF_TYPE, ORDER
 from hexmend.io.formats.gmsh.physical_groups import PHYSICAL_NAMES, group_numbers, unnamed_group
-from hexmend.io.formats.gmsh.sections import DataSection, ElementBlock, Sections
+from hexmend.io.formats.gmsh.sections import DataSection, ElementBlock, Sections, joined
 from hexmend.mesh.mesh import Mesh
 
 #: Name of the cell data that hold partitions, unless the file has data of that name.
@@ -26,7 +26,7 @@ PARTITION = "partition"
 
 
 def to_mesh(path: Path, sections: Sections) -> Mesh:
-    """Make the mesh of a file's sections.
+    """Make the mesh of a file's sections, whose elements and data are released.
 
     Raises
     ------
@@ -35,6 +35,13 @@ def to_mesh(path: Path, sections: Sections) -> Mesh:
     MeshError
         From `Mesh`.
     """
+    content = _content(path, sections)
+    sections.elements, sections.data = [], []
+    return mesh_of(path, content)
+
+
+def _content(path: Path, sections: Sections) -> Content:
+    """Make the content; elements are released as soon as they are in a block."""
     for name, values in (("$Nodes", sections.points), ("$Elements", sections.elements)):
         if values is None:
             raise FileError(path, f"has no section {name}", "Write the file again with the program that made it.")
@@ -55,11 +62,12 @@ def to_mesh(path: Path, sections: Sections) -> Mesh:
             data = _data(sections.data, False, block.data[ID], budget)
             data |= {partition: partitions} if partitioned else {}
             blocks.append(replace(block, data=data | block.data))
+            sections.elements = [part for part in sections.elements if part.type != type]
+            del parts, block
     blocks.sort(key=lambda block: block.kind not in HEX_KINDS)
     field_data = {PHYSICAL_NAMES: sections.names} if sections.names else {}
     node_data = {**_data(sections.data, True, sections.tags, budget), ID: sections.tags}
-    content = Content(sections.points, tuple(blocks), node_data, field_data=field_data, notes=tuple(notes))
-    return mesh_of(path, content)
+    return Content(sections.points, tuple(blocks), node_data, field_data=field_data, notes=tuple(notes))
 
 
 def _block(
@@ -67,9 +75,11 @@ def _block(
 ) -> tuple[Block, np.ndarray]:
     """Block of all elements of a kind, and the partition of each, (k,) int64."""
     nodes = parts[0].nodes if len(parts) == 1 else np.concatenate([part.nodes for part in parts])
-    tags = np.concatenate([part.tags for part in parts])
-    rows = [np.broadcast_to(0 if part.partitions is None else part.partitions, len(part.tags)) for part in parts]
-    partitions = np.concatenate(rows)
+    tags = joined([part.tags for part in parts], np.int64)
+    partitions = np.broadcast_to(np.int64(0), len(tags))
+    if any(part.partitions is not None for part in parts):
+        rows = [np.broadcast_to(0 if part.partitions is None else part.partitions, len(part.tags)) for part in parts]
+        partitions = np.concatenate(rows)
     groups, row = _groups(parts), None
     # versions 1 and 2 repeat an element for each of its groups
     if len(groups) > 1 and any(isinstance(part.groups, np.ndarray) for part in parts):
@@ -111,6 +121,9 @@ def _data(
     found = {}
     for section in sections:
         if section.of_nodes != of_nodes or not len(section.tags):
+            continue
+        if np.array_equal(section.tags, tags):
+            found[section.name] = section.values
             continue
         order = np.argsort(section.tags, kind="stable")
         at = np.minimum(np.searchsorted(section.tags[order], tags), len(order) - 1)

@@ -40,8 +40,10 @@ def read_data(source: ByteCursor, order: str, key: str, sections: Sections) -> N
         raise source.error(f"{key} has not a name, a step, 1 to {_MAX_WIDTH} values a row, and a number of rows")
     name, (step, width, count) = names[0].strip('"'), integers[:3]
     if order:
-        rows = source.read_binary(key, count, 1, [("tag", f"{order}i4"), ("values", f"{order}f8", (width,))])[:, 0]
-        tags, values = rows["tag"].astype(np.int64), rows["values"].astype(np.float64)
+        blocks = source.binary_blocks(key, count, 1, [("tag", f"{order}i4"), ("values", f"{order}f8", (width,))])
+        tags, values = np.empty(count, np.int64), np.empty((count, width))
+        for part, rows in blocks:
+            tags[part], values[part] = rows["tag"][:, 0], rows["values"][:, 0]
     else:
         rows = source.read_numbers(key, count, 1 + width, np.float64)
         if not (np.isfinite(rows[:, 0]) & (np.abs(rows[:, 0]) < 2**53)).all():

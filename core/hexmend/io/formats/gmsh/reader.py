@@ -12,6 +12,7 @@ from hexmend.io.formats.gmsh import periodic, version_1, version_2, version_4
 from hexmend.io.formats.gmsh.content import to_mesh
 from hexmend.io.formats.gmsh.data import DATA, read_data
 from hexmend.io.formats.gmsh.sections import Sections
+from hexmend.io.storage.file_bytes import FileBytes
 from hexmend.mesh.mesh import Mesh
 
 #: Readers of sections by version and keyword.
@@ -44,7 +45,7 @@ def read(path: Path) -> Mesh:
     with open(path, "rb") as file:
         if not file.read(4096).lstrip().startswith(b"$"):  # found out before a large file is read
             raise FileError(path, "does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
-    source = ByteCursor(path, path.read_bytes())
+    source = ByteCursor(path, FileBytes(path))
     version, order, sections, skipped = 0, "", Sections(), {}
     while not source.at_end:
         key = source.next_line()

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+
+from hexmend.io.storage.binary_rows import gather_integers
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,7 +19,7 @@ class ElementBlock:
     type : int
         Gmsh's element type.
     tags : (k,) int64
-    nodes : (k, width) int64
+    nodes : (k, width) int
         Node tags, in Gmsh's order.
     groups : (k,) int64, or sequence of int
         Physical group of each element, 0 for none; or the groups that all elements are in.
@@ -86,3 +88,35 @@ class Sections:
     data: list[DataSection] = field(default_factory=list)
     periodic: list[PeriodicLink] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+
+
+def split_tags(blocks: Iterable[tuple[slice, np.ndarray]], count: int, width: int) -> tuple[np.ndarray, np.ndarray]:
+    """Split blocks of rows in the tags of elements and their nodes.
+
+    Parameters
+    ----------
+    blocks : iterable of (slice, (k, 1 + width) int array)
+        As of `hexmend.io.storage.binary_rows.read_blocks`.
+    count, width : int
+        Number of elements, and nodes of each.
+
+    Returns
+    -------
+    tags : (count,) int64
+    nodes : (count, width) int32, or int64 where a number needs it
+    """
+    tags = np.empty(count, np.int64)
+
+    def nodes() -> Iterable[tuple[slice, np.ndarray]]:
+        for part, rows in blocks:
+            tags[part] = rows[:, 0]
+            yield part, rows[:, 1:]
+
+    return tags, gather_integers((count, width), nodes())
+
+
+def joined(parts: Sequence[np.ndarray], dtype: type, *shape: int) -> np.ndarray:
+    """Concatenate arrays of rows of a type and shape, of which there may be none; a single one is not copied."""
+    if len(parts) == 1:
+        return parts[0].astype(dtype, copy=False)
+    return np.concatenate([np.zeros((0, *shape), dtype), *parts])

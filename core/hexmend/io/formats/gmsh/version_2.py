@@ -7,14 +7,17 @@ import numpy as np
 from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.formats.gmsh.element_types import nodes_per_element
 from hexmend.io.formats.gmsh.sections import ElementBlock, Sections
+from hexmend.io.storage.binary_rows import native
 
 
 def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
     """Read $Nodes: a count, then the tag and the coordinates of each node."""
     if order:
         count = source.parse_count(source.next_line(), "the number of nodes")
-        rows = source.read_binary("$Nodes", count, 1, [("tag", f"{order}i4"), ("x", f"{order}f8", 3)])[:, 0]
-        sections.tags, sections.points = rows["tag"].astype(np.int64), rows["x"].astype(np.float64)
+        blocks = source.binary_blocks("$Nodes", count, 1, [("tag", f"{order}i4"), ("x", f"{order}f8", 3)])
+        sections.tags, sections.points = np.empty(count, np.int64), np.empty((count, 3))
+        for part, rows in blocks:
+            sections.tags[part], sections.points[part] = rows["tag"][:, 0], rows["x"][:, 0]
         _expect(source, "$EndNodes")
         return
     read_text_nodes(source, "$Nodes", b"$EndNodes", sections)
@@ -69,9 +72,9 @@ def _binary_elements(source: ByteCursor, order: str) -> list[ElementBlock]:
         if follow < 1 or n_tags < 0 or n_tags > len(source.data):
             raise source.error(f"$Elements announces {follow} elements with {n_tags} groups at {source.location}")
         rows = source.read_binary("$Elements", follow, 1 + n_tags + nodes_per_element(source.path, type), f"{order}i4")
-        rows = rows.astype(np.int64)
-        tags, nodes = rows[:, 1 : 1 + n_tags], rows[:, 1 + n_tags :]
-        blocks.append(ElementBlock(type, rows[:, 0], nodes, *_group_and_partition(tags)))
+        rows = native(rows)
+        tags, nodes = rows[:, 1 : 1 + n_tags].astype(np.int64), rows[:, 1 + n_tags :]
+        blocks.append(ElementBlock(type, rows[:, 0].astype(np.int64), nodes, *_group_and_partition(tags)))
         seen += follow
     if seen != count:
         raise source.error(f"$Elements holds {seen} elements: expected {count}")

@@ -6,8 +6,9 @@ import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.formats.gmsh.element_types import nodes_per_element
-from hexmend.io.formats.gmsh.sections import ElementBlock, Sections
+from hexmend.io.formats.gmsh.sections import ElementBlock, Sections, joined, split_tags
 from hexmend.io.formats.gmsh.version_2 import node_tags
+from hexmend.io.storage.binary_rows import native
 
 
 class SectionNumbers:
@@ -30,6 +31,24 @@ class SectionNumbers:
             raise self.source.error(f"${self.name} ends early: {count} numbers more were announced")
         self.at += count
         return self.values[self.at - count : self.at]
+
+    def take_node_tags(self, count: int) -> np.ndarray:
+        """Take tags of nodes, (count,) int64."""
+        if self.values is not None or count < 0:
+            return node_tags(self.source, self.take(count, "u8"))
+        blocks = self.source.binary_blocks(f"${self.name}", count, 1, f"{self.order}u8")
+        tags = np.empty(count, np.int64)
+        for part, rows in blocks:
+            tags[part] = node_tags(self.source, rows[:, 0].astype(np.float64))
+        return tags
+
+    def take_elements(self, count: int, width: int) -> tuple[np.ndarray, np.ndarray]:
+        """Take the tags, (count,) int64, and the nodes, (count, width) int, of elements."""
+        if self.values is not None:
+            rows = self.take(count * (1 + width), "u8").reshape(count, 1 + width).astype(np.int64, copy=False)
+            return rows[:, 0], rows[:, 1:]
+        blocks = self.source.binary_blocks(f"${self.name}", count, 1 + width, f"{self.order}u8")
+        return split_tags(blocks, count, width)
 
     def integers(self, count: int, code: str = "u8") -> list[int]:
         """Take a few whole numbers."""
@@ -87,15 +106,15 @@ def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
     """Read $Nodes: the tags of each entity's nodes, then their coordinates."""
     numbers = SectionNumbers(source, order, "Nodes", np.float64)
     blocks, count = numbers.integers(4)[:2]
-    tags, points = [np.zeros(0, np.int64)], [np.zeros((0, 3))]
+    tags, points = [], []
     for _ in range(blocks):
         dimension, _, parametric = numbers.integers(3, "i4")
         (n_nodes,) = numbers.integers(1)
-        tags.append(node_tags(source, numbers.take(n_nodes, "u8").astype(np.float64)))
+        tags.append(numbers.take_node_tags(n_nodes))
         width = 3 + (dimension if parametric else 0)
-        points.append(numbers.take(n_nodes * width, "f8").reshape(n_nodes, width)[:, :3])
+        points.append(native(numbers.take(n_nodes * width, "f8")).reshape(n_nodes, width)[:, :3])
     numbers.close()
-    sections.tags, sections.points = np.concatenate(tags), np.concatenate(points).astype(np.float64)
+    sections.tags, sections.points = joined(tags, np.int64), joined(points, np.float64, 3)
     if len(sections.tags) != count:
         raise source.error(f"$Nodes holds {len(sections.tags)} nodes: expected {count}")
 
@@ -108,13 +127,11 @@ def read_elements(source: ByteCursor, order: str, sections: Sections) -> None:
     for _ in range(blocks):
         dimension, entity, type = numbers.integers(3, "i4")
         (n_elements,) = numbers.integers(1)
-        width = 1 + nodes_per_element(source.path, type)
-        rows = numbers.take(n_elements * width, "u8").reshape(n_elements, width)
-        rows = rows.view(np.int64) if rows.dtype == np.uint64 else rows.astype(np.int64)
+        tags, nodes = numbers.take_elements(n_elements, nodes_per_element(source.path, type))
         groups = sections.entities.get((dimension, entity), ())
         number = sections.partitions.get((dimension, entity))
         partition = None if number is None else np.full(n_elements, number)
-        sections.elements.append(ElementBlock(type, rows[:, 0], rows[:, 1:], groups, partition))
+        sections.elements.append(ElementBlock(type, tags, nodes, groups, partition))
         seen += n_elements
     numbers.close()
     if seen != count:

@@ -12,6 +12,7 @@ from hexmend.io.base.format import register
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, blanked, fields_of_words, word_ranges
 from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
+from hexmend.io.storage.file_bytes import FileBytes
 from hexmend.mesh.mesh import Mesh
 
 _KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexaedra": SECTIONS["Hexahedra"]}
@@ -19,7 +20,8 @@ _KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexae
 
 def read(path: Path) -> Mesh:
     """Read a Medit file; coordinates are read as float64 in every version of the format."""
-    cursor = ByteCursor(path, blanked(path.read_bytes(), b"#"))
+    data = FileBytes(path)
+    cursor = ByteCursor(path, data if data.find(b"#") < 0 else blanked(data[:], b"#"))
     if cursor.next_word() != "MeshVersionFormatted":
         raise cursor.error("does not begin with MeshVersionFormatted", "Is it a Medit file? Check its suffix.")
     cursor.parse_count(cursor.next_word(), "the version")
@@ -49,7 +51,7 @@ def read(path: Path) -> Mesh:
             raise cursor.error(f"{quoted(key)} stands where a section should begin ({line})")
     if points is None:
         raise cursor.error("has no section Vertices")
-    if "Hexahedra" not in sections and not cursor.data.rstrip().endswith(b"End"):
+    if "Hexahedra" not in sections and not cursor.data[:].rstrip().endswith(b"End"):
         raise cursor.error(f"ends at {cursor.location} without Hexahedra")
     return to_mesh(path, points, refs, sections, skipped)
 

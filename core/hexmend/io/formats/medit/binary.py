@@ -12,6 +12,7 @@ from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.format import register
 from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, BinaryCoordinates, BinaryPiece
 from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
+from hexmend.io.storage.file_bytes import FileBytes
 from hexmend.mesh.mesh import Mesh
 
 #: Codes of sections.
@@ -21,12 +22,12 @@ _BY_CODE = {section.code: section for section in SECTIONS.values()}
 
 def read(path: Path) -> Mesh:
     """Read a binary Medit file of either byte order."""
-    return to_mesh(path, *_sections(ByteCursor(path, path.read_bytes(), is_text=False))[:4])
+    return to_mesh(path, *_sections(ByteCursor(path, FileBytes(path), is_text=False))[:4])
 
 
 def locate(path: Path) -> BinaryCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
-    points, *_, piece = _sections(ByteCursor(path, path.read_bytes(), is_text=False))
+    points, *_, piece = _sections(ByteCursor(path, FileBytes(path), is_text=False))
     return BinaryCoordinates(path, points, (piece,))
 
 
@@ -72,11 +73,9 @@ def _sections(cursor: ByteCursor) -> tuple[np.ndarray, np.ndarray, dict[str, np.
                 size = 3 * np.dtype(real).itemsize + np.dtype(integer).itemsize
                 strides = (size, np.dtype(real).itemsize)
                 piece = BinaryPiece(cursor.pos, np.dtype(real), strides, slice(0, count), ALL_COLUMNS)
-                rows = cursor.read_binary(name, count, 1, [("x", real, 3), ("ref", integer)])
-                points, refs = rows["x"][:, 0].astype(np.float64), rows["ref"][:, 0].astype(integer[1:])
+                points, refs = _read_vertices(cursor, count, real, integer)
             else:
-                rows = cursor.read_binary(name, count, _BY_CODE[code].width, integer)
-                sections[name] = rows.astype(integer[1:], copy=False)
+                sections[name] = cursor.read_integers(name, count, _BY_CODE[code].width, integer)
         elif not cursor.pos <= after <= len(cursor.data):
             raise cursor.error(f"the section of number {code} at byte {at} leads to byte {after}, outside the file")
         else:
@@ -85,6 +84,15 @@ def _sections(cursor: ByteCursor) -> tuple[np.ndarray, np.ndarray, dict[str, np.
     if points is None:
         raise cursor.error(f"has no section Vertices among its {seen}")
     return points, refs, sections, skipped, piece
+
+
+def _read_vertices(cursor: ByteCursor, count: int, real: str, integer: str) -> tuple[np.ndarray, np.ndarray]:
+    """Read coordinates, (count, 3) float64, and references, (count,) int."""
+    blocks = cursor.binary_blocks("Vertices", count, 1, [("x", real, 3), ("ref", integer)])
+    points, refs = np.empty((count, 3)), np.empty(count, integer[1:])
+    for part, rows in blocks:
+        points[part], refs[part] = rows["x"][:, 0], rows["ref"][:, 0]
+    return points, refs
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:

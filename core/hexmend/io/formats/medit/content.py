@@ -17,6 +17,7 @@ from hexmend.io.base.format import Capability
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.coordinates.unread import some_names, unread_note
+from hexmend.io.storage.binary_rows import gather_integers, row_blocks
 from hexmend.mesh.mesh import Mesh
 
 
@@ -98,7 +99,7 @@ def to_mesh(
             for (flagged, flag), members in flags.items():
                 if flagged == kind:
                     data[flag] = _mask(path, flag, members, len(rows))
-            blocks.append(Block(kind, rows[:, :-1] - 1, data))
+            blocks.append(Block(kind, _from_zero(rows[:, :-1]), data))
     node_sets = {}
     for name, title in _NODE_SETS.items():
         if name in sections:
@@ -109,7 +110,7 @@ def to_mesh(
     if "required" in node_sets:
         pinned = _mask(path, "RequiredVertices", node_sets["required"], len(points)).astype(bool)
     hexes = sections.get("Hexahedra", np.empty((0, 9), np.int64))
-    blocks.append(Block("hex", hexes[:, :8] - 1, {REF: hexes[:, 8].copy()}))
+    blocks.append(Block("hex", _from_zero(hexes[:, :8]), {REF: hexes[:, 8].copy()}))
     notes = (unread_note(f"sections ({some_names(dict.fromkeys(skipped))})"),) if skipped else ()
     content = Content(points, tuple(blocks), {REF: refs}, node_sets, pinned=pinned, notes=notes)
     return mesh_of(path, content)
@@ -156,6 +157,12 @@ DECLARATION = {
     "stored_names": frozenset({REF, "corners", "required", *(flag for _, _, flag in _FLAGS)}),
     "limitations": lambda mesh: lost_mid_nodes(mesh, _KINDS),
 }
+
+
+def _from_zero(numbers: np.ndarray) -> np.ndarray:
+    """Nodes from 0 of those from 1, (k, width), in 32 bits where they fit."""
+    parts = row_blocks(len(numbers), numbers.shape[1] * numbers.itemsize)
+    return gather_integers(numbers.shape, ((part, numbers[part] - 1) for part in parts))
 
 
 def _with_refs(nodes: np.ndarray, refs: np.ndarray | None) -> np.ndarray:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.errors import FileError
 from hexmend.io.base.cell_kinds import node_count
 from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, merge_blocks
@@ -102,7 +103,7 @@ def to_content(path: Path, grid: Grid) -> Content:
     types, notes = _correct_types(path, grid)
     check_sizes(path, grid, types)
     blocks = []
-    for number in dict.fromkeys(types.tolist()):
+    for number in _distinct(types):
         if number not in WIDTH_BY_TYPE:
             continue
         chosen = np.flatnonzero(types == number)
@@ -110,7 +111,7 @@ def to_content(path: Path, grid: Grid) -> Content:
         rows = rows[:, VOXEL_ORDER] if number == VOXEL else rows[:, PIXEL_ORDER] if number == PIXEL else rows
         data, sets = _split_sets({name: _select(values, chosen) for name, values in grid.cell_data.items()})
         blocks.append(Block(KIND_BY_TYPE[{VOXEL: HEXAHEDRON, PIXEL: QUAD}.get(number, number)], rows, data, sets))
-    unknown = np.flatnonzero(~np.isin(types, list(WIDTH_BY_TYPE)))
+    unknown = np.flatnonzero(~mask(np.array(list(WIDTH_BY_TYPE)), 256)[types])
     if unknown.size:
         if not any(block.kind in HEX_KINDS for block in blocks):
             first = int(unknown[0])
@@ -200,12 +201,17 @@ def _merge_voxels(types: np.ndarray, blocks: list[Block]) -> list[Block]:
     hexes = [block for block in blocks if block.kind == "hex"]
     if len(hexes) < 2:
         return blocks
-    hex_types = [number for number in dict.fromkeys(types.tolist()) if number in (VOXEL, HEXAHEDRON)]
+    hex_types = [number for number in _distinct(types) if number in (VOXEL, HEXAHEDRON)]
     order = np.argsort(np.concatenate([np.flatnonzero(types == number) for number in hex_types]), kind="stable")
     merged = merge_blocks([replace(block, data=_with_set_arrays(block), sets={}) for block in hexes])
     data, sets = _split_sets({name: values[order] for name, values in merged.data.items()})
     merged = Block("hex", merged.nodes[order], data, sets)
     return [merged, *(block for block in blocks if block.kind != "hex")]
+
+
+def _distinct(types: np.ndarray) -> list[int]:
+    """Types that occur among those of cells, (c,) uint8, in the order of the first cell of each."""
+    return sorted(np.unique(types).tolist(), key=lambda number: int(np.argmax(types == number)))
 
 
 def _rows(grid: Grid, chosen: np.ndarray, width: int) -> np.ndarray:

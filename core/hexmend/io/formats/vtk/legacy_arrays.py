@@ -7,6 +7,7 @@ from urllib.parse import unquote
 import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor, quoted
+from hexmend.io.storage.binary_rows import native
 
 #: NumPy types of VTK's types, without the byte order.
 TYPES = {
@@ -57,13 +58,16 @@ def read_array(cursor: ByteCursor, section: str, rows: int, width: int, kind: st
     if kind.lower() == "bit":
         bits = np.unpackbits(np.frombuffer(cursor.read_bytes((rows * width + 7) // 8, section), np.uint8))
         return bits[: rows * width].reshape(rows, width)
-    return cursor.read_binary(section, rows, width, f">{code}").astype(code)
+    return native(cursor.read_binary(section, rows, width, f">{code}"))
 
 
 def read_integers(cursor: ByteCursor, section: str, rows: int, kind: str) -> np.ndarray:
-    """Read whole numbers of a VTK type, (rows,); see `read_array`."""
+    """Read whole numbers of a VTK type, (rows,) int32 where they fit and the file is binary; see `read_array`."""
     if TYPES.get(kind.lower(), "i8")[0] == "f":
         raise cursor.error(f"{section} has the type {kind}: expected whole numbers")
+    code = TYPES.get(kind.lower())
+    if code is not None and not cursor.is_text and kind.lower() != "bit":
+        return cursor.read_integers(section, rows, 1, f">{code}")[:, 0]
     return read_array(cursor, section, rows, 1, kind)[:, 0]
 
 

@@ -17,6 +17,7 @@ from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells
 from hexmend.io.formats.vtk.legacy_writer import write
+from hexmend.io.storage.file_bytes import FileBytes
 from hexmend.mesh.mesh import Mesh
 
 #: Bytes in which the first line must end.
@@ -54,8 +55,7 @@ class _LegacyReader:
                 first = head.split(b"\n", 1)[0].decode("utf-8", errors="replace").strip()
                 problem = f"line 1 is {quoted(first)}: expected '# vtk DataFile Version ...'"
                 raise FileError(path, problem, "Is it a VTK file? Check its suffix.")
-            file.seek(0)
-            self.cursor = ByteCursor(path, file.read())
+        self.cursor = ByteCursor(path, FileBytes(path))
         self.sections: dict[str, np.ndarray] = {}
         self.data: dict[str, dict[str, np.ndarray]] = {"POINT_DATA": {}, "CELL_DATA": {}}
         self.field_data: dict[str, np.ndarray | list[str]] = {}

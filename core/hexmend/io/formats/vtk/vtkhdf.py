@@ -22,6 +22,7 @@ from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.vtk.grid import Grid, to_content
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtkhdf_writer import names_not_kept, write
+from hexmend.io.storage.binary_rows import gather_integers
 from hexmend.mesh.mesh import Mesh
 
 #: Chunks that any file may have, and the smallest size of a further chunk in bytes, that of its entry in the index.
@@ -104,10 +105,12 @@ class _VTKHDFReader:
         return int(self._read(steps, name).ravel()[0]) if name in steps else default
 
     def _read_integers(self, name: str, rows: slice) -> np.ndarray:
-        values = self._read(self.root, name, rows)
-        if values.dtype.kind not in "iu" or values.ndim != 1:
-            raise FileError(self.path, f"its {name} are {values.dtype}: expected whole numbers", DAMAGED)
-        return values if values.dtype in (np.int32, np.int64, np.uint8) else values.astype(np.int64)
+        found = self._rows_of(self.root, name, rows)
+        if found.dtype.kind not in "iu" or found.ndim != 1:
+            raise FileError(self.path, f"its {name} are {found.dtype}: expected whole numbers", DAMAGED)
+        if found.dtype.itemsize == 1:
+            return found[rows]
+        return gather_integers((rows.stop - rows.start,), hdf5.dataset_blocks(found, rows))
 
     def _read_data(self, section: str, rows: slice) -> dict[str, np.ndarray]:
         group = _group(self.root, section)
@@ -136,13 +139,25 @@ class _VTKHDFReader:
 
     def _read(self, group, name: str, rows: slice | None = None) -> np.ndarray:
         """Read rows of a dataset, in the machine's byte order."""
+        if rows is None:
+            found = self._dataset(group, name)
+            self.budget.charge(found.size * found.dtype.itemsize, name)
+            values = np.asarray(found[()])
+            return values.astype(values.dtype.newbyteorder("="), copy=False)
+        found = self._rows_of(group, name, rows)
+        values = np.empty((rows.stop - rows.start, *found.shape[1:]), found.dtype.newbyteorder("="))
+        for part, block in hdf5.dataset_blocks(found, rows):
+            values[part] = block
+        return values
+
+    def _rows_of(self, group, name: str, rows: slice):
+        """Return a dataset after a check that it has these rows, which are charged to the budget."""
         found = self._dataset(group, name)
-        if rows is not None and (found.ndim < 1 or rows.stop > len(found) or rows.start < 0):
+        if found.ndim < 1 or rows.stop > len(found) or rows.start < 0:
             raise FileError(self.path, f"its {name} ends after {found.shape} rows: expected {rows.stop}", DAMAGED)
-        count = found.size if rows is None else (rows.stop - rows.start) * int(np.prod(found.shape[1:]))
+        count = (rows.stop - rows.start) * int(np.prod(found.shape[1:]))
         self.budget.charge(count * found.dtype.itemsize, name)
-        values = np.asarray(found[()] if rows is None else found[rows])
-        return values.astype(values.dtype.newbyteorder("="), copy=False)
+        return found
 
     def _dataset(self, group, name: str):
         """Return a dataset after a check that it has no more chunks than fit into the file."""

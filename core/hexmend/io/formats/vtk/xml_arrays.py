@@ -17,6 +17,7 @@ import numpy as np
 
 from hexmend.io.base.decimals import count_words, exceeds_dtype, parse_numbers
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement, array_title
+from hexmend.io.storage.file_progress import advance
 from hexmend.io.storage.parallel_map import parallel_map
 
 #: Names of compressors.
@@ -69,6 +70,7 @@ def read_strings(document: Document, array: XMLElement) -> list[str]:
 
 def _read_decimals(document: Document, array: XMLElement, dtype: np.dtype, count: int | None) -> np.ndarray:
     text = document.text(array)
+    advance(len(text), document.size)
     if array.get("type") == "String":
         dtype = np.dtype("i2")  # character codes, written as signed bytes by some programs
     wide = np.dtype("f8") if dtype.kind == "f" else np.dtype("u8" if dtype == np.uint64 else "i8")
@@ -160,6 +162,7 @@ def _read_uncompressed(document: Document, array: XMLElement, stream: _Stream, s
     header_type = _header_type(document)
     length = _read_header(document, array, stream, 1)[0]
     _check_size(document, array, length, size)
+    advance(length, document.size)
     if stream.alone(header_type.itemsize):  # some programs encode the size separately
         return _take(document, array, stream, stream.after(header_type.itemsize), length)
     return _take(document, array, stream, 0, header_type.itemsize + length)[header_type.itemsize :]
@@ -192,8 +195,8 @@ def _read_compressed(document: Document, array: XMLElement, stream: _Stream, siz
             raise document.error(f"{block_title} has not the {expected} bytes announced")
         answer[k * whole : k * whole + expected] = np.frombuffer(block, np.uint8)
 
-    for _ in parallel_map(unpack, range(blocks)):
-        pass
+    for k, _ in enumerate(parallel_map(unpack, range(blocks))):
+        advance(packed[k], document.size)
     return answer
 
 

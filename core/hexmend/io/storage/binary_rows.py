@@ -1,0 +1,127 @@
+"""Rows of binary numbers of a file, read block by block, and whole numbers in 32 bits where they fit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from hexmend.io.storage.file_bytes import FileBytes
+from hexmend.io.storage.file_progress import report
+
+#: Bytes that are read at a time, and bytes that are few.
+_BLOCK, _FEW = 1 << 22, 1 << 12
+_LIMITS = np.iinfo(np.int32)
+
+
+def read_rows(data: bytes | FileBytes, at: int, rows: int, width: int, dtype: np.dtype) -> np.ndarray:
+    """Read rows of numbers, which the data are long enough for, and report the progress.
+
+    Parameters
+    ----------
+    data : bytes or FileBytes
+    at : int
+        Offset of the first byte.
+    rows, width : int
+    dtype : numpy dtype
+        In the file, with its byte order.
+
+    Returns
+    -------
+    (rows, width) array
+        Read-only for bytes and for few rows of a file, else an array of its own.
+
+    Raises
+    ------
+    OSError
+        Where another program has shortened the file meanwhile.
+    """
+    if isinstance(data, bytes):
+        return np.frombuffer(data, dtype, rows * width, at).reshape(rows, width)
+    size = rows * width * dtype.itemsize
+    if size <= _FEW:
+        return np.frombuffer(data[at : at + size], dtype, rows * width).reshape(rows, width)
+    values = np.empty((rows, width), dtype)
+    for part in row_blocks(rows, width * dtype.itemsize):
+        _fill(data, at + part.start * width * dtype.itemsize, values[part])
+    return values
+
+
+def read_blocks(
+    data: bytes | FileBytes, at: int, rows: int, width: int, dtype: np.dtype
+) -> Iterator[tuple[slice, np.ndarray]]:
+    """Read rows of numbers block by block; parameters and errors are those of `read_rows`.
+
+    Yields
+    ------
+    part : slice
+        Of the rows.
+    values : (k, width) array
+        In the byte order of the file; valid until the next block.
+    """
+    size = width * dtype.itemsize
+    parts = row_blocks(rows, size)
+    if isinstance(data, bytes):
+        values = read_rows(data, at, rows, width, dtype)
+        yield from ((part, values[part]) for part in parts)
+        return
+    buffer = np.empty((parts[0].stop if parts else 0, width), dtype)
+    for part in parts:
+        values = buffer[: part.stop - part.start]
+        _fill(data, at + part.start * size, values)
+        yield part, values
+
+
+def row_blocks(rows: int, row_size: int) -> list[slice]:
+    """Split rows of so many bytes into blocks that are read at a time."""
+    step = max(1, _BLOCK // max(1, row_size))
+    return [slice(begin, min(begin + step, rows)) for begin in range(0, rows, step)]
+
+
+def native(values: np.ndarray) -> np.ndarray:
+    """Return numbers in the byte order of the machine; an array that is not read-only may be changed in place."""
+    if not values.flags.writeable:
+        return values.astype(values.dtype.newbyteorder("="))
+    return values if values.dtype.isnative else values.byteswap(inplace=True).view(values.dtype.newbyteorder("="))
+
+
+def _fill(data: FileBytes, at: int, values: np.ndarray) -> None:
+    if data.read_into(at, values) < values.nbytes:
+        raise OSError("another program has shortened it meanwhile")
+    report(at + values.nbytes, len(data))
+
+
+def gather_integers(shape: tuple[int, ...], blocks: Iterable[tuple[slice, np.ndarray]]) -> np.ndarray:
+    """Gather blocks of rows of whole numbers in one array.
+
+    Parameters
+    ----------
+    shape : tuple of int
+    blocks : iterable of (slice, array of int)
+        Rows and their values, of any type and byte order; each is read before the next is asked for.
+
+    Returns
+    -------
+    array
+        Of the given shape, int32 if all numbers fit, else int64; unsigned numbers of 64 bits and above 2^63 wrap.
+
+    Examples
+    --------
+    >>> gather_integers((2,), [(slice(0, 1), np.array([5])), (slice(1, 2), np.array([7], ">u8"))]).dtype
+    dtype('int32')
+    >>> gather_integers((1,), [(slice(0, 1), np.array([1 << 40]))])
+    array([1099511627776])
+    """
+    values = np.empty(shape, np.int32)
+    for rows, block in blocks:
+        if values.dtype == np.int32 and not _fits(block):
+            values = values.astype(np.int64)
+        values[rows] = block
+    return values
+
+
+def _fits(block: np.ndarray) -> bool:
+    """Return True if the numbers of a block have 32 bits."""
+    if not block.size or np.can_cast(block.dtype, np.int32):
+        return True
+    return bool(block.max() <= _LIMITS.max and block.min() >= _LIMITS.min)
