@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from hexmend.kernels import elements
@@ -26,7 +28,7 @@ def was_turned(mesh: Mesh) -> bool:
     return any(note.endswith((_RENUMBERED, _RENUMBERED_BEFORE)) for note in mesh.notes)
 
 
-def with_consistent_orientation(mesh: Mesh) -> Mesh:
+def with_consistent_orientation(mesh: Mesh, report: Callable[[float], object] = lambda share: None) -> Mesh:
     """Return the mesh with all left-handed parts renumbered right-handed, and a note that says so.
 
     Single inverted hexes are left as they are: smoothing has to repair them.
@@ -34,12 +36,14 @@ def with_consistent_orientation(mesh: Mesh) -> Mesh:
     Parameters
     ----------
     mesh : Mesh
+    report : callable
+        Called with the share of the hexes that have been looked at, 0 to 1.
 
     Returns
     -------
     Mesh
     """
-    which = mirrored_parts(mesh)
+    which = mirrored_parts(mesh, report)
     count = int(which.sum())
     if not count:
         return mesh
@@ -58,7 +62,7 @@ def whole_parts_are(count: int, n_hexes: int) -> str:
     return count_phrase(count, "hex, which makes a whole part, is", "hexes, which make whole parts, are")
 
 
-def mirrored_parts(mesh: Mesh) -> np.ndarray:
+def mirrored_parts(mesh: Mesh, report: Callable[[float], object] = lambda share: None) -> np.ndarray:
     """Find the hexes of left-handed parts.
 
     Parts are connected by nodes. A part is left-handed if some of its hexes have a negative volume and none a positive
@@ -67,28 +71,48 @@ def mirrored_parts(mesh: Mesh) -> np.ndarray:
     Parameters
     ----------
     mesh : Mesh
+    report : callable
+        As of `with_consistent_orientation`.
 
     Returns
     -------
     (m,) bool
     """
-    chunks = [slice(begin, begin + _CHUNK) for begin in range(0, mesh.n_hexes, _CHUNK)]
     wrong, right = np.zeros(mesh.n_hexes, dtype=bool), np.zeros(mesh.n_hexes, dtype=bool)
-    if not any((_volumes(mesh.points, mesh.hexes[some]) < 0).any() for some in chunks):
+    if not mesh.n_hexes:
         return wrong
-    for some in chunks:
-        wrong[some], right[some] = _handedness(mesh.points, mesh.hexes[some])
+    bound = _rounding_bound(mesh.points)
+    for begin in range(0, mesh.n_hexes, _CHUNK):
+        some = slice(begin, begin + _CHUNK)
+        wrong[some], right[some] = _handedness(mesh.points, mesh.hexes[some], bound)
+        report(min(begin + _CHUNK, mesh.n_hexes) / mesh.n_hexes)
+    if not wrong.any():
+        return wrong
     part = parts_of(mesh)
     of_part = (np.bincount(part, wrong) > 0) & (np.bincount(part, right) == 0)
     return of_part[part]
 
 
-def _handedness(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Mark hexes (k, 8) of negative and of positive volume, both (k,) bool; flat ones are neither."""
+def _handedness(points: np.ndarray, hexes: np.ndarray, bound: float) -> tuple[np.ndarray, np.ndarray]:
+    """Mark hexes (k, 8) of negative and of positive volume, both (k,) bool; flat ones are neither.
+
+    `bound` is that of the rounding error of any hex: those of larger volumes need none of their own.
+    """
     volumes = _volumes(points, hexes)
     with np.errstate(all="ignore"):
-        rounding = _rounding(points, hexes)
-        return volumes < -rounding, volumes > rounding
+        wrong, right = volumes < -bound, volumes > bound
+        small = np.flatnonzero(~(wrong | right))
+        rounding = _rounding(points, hexes[small])
+        wrong[small], right[small] = volumes[small] < -rounding, volumes[small] > rounding
+    return wrong, right
+
+
+def _rounding_bound(points: np.ndarray) -> float:
+    """Bound of the rounding errors of all hexes with these corners (n, 3)."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    with np.errstate(all="ignore"):
+        largest = np.maximum(np.abs(low), np.abs(high)).max()
+        return float(65 * np.finfo(np.float64).eps * largest * np.square(high - low).sum())
 
 
 def _volumes(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
