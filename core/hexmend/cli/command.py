@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from importlib import import_module
 from typing import NamedTuple, Protocol
 
+from hexmend.cli.process.terminal import redraws_lines
 from hexmend.signal_guard import uninterrupted
 
 
@@ -30,9 +32,15 @@ class Command(Protocol):
 
 @uninterrupted  # Python would lose an exception of Ctrl-C within an import
 def action(module: str) -> Callable[[argparse.Namespace], int]:
-    """Import a module and return its function `run`, which does the work of a command."""
+    """Import a module and return its function `run`, which does the work of a command.
+
+    On a terminal it shows the progress of the files that it reads and writes.
+    """
     import_module("numpy")  # every command needs it; deep within other imports Python 3.11 takes 10 ms longer for it
-    return import_module(module).run
+    run = import_module(module).run
+    if "hexmend.io" in sys.modules and redraws_lines():
+        return import_module("hexmend.cli.output.file_line").with_file_line(run)
+    return run
 
 
 class CoreCommand(NamedTuple):

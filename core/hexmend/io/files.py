@@ -25,13 +25,13 @@ from hexmend.io.coordinates.replacement import (
 from hexmend.io.coordinates.unread import unread_content
 from hexmend.io.format_lookup import every_format, format_by_place, format_of, suffixes_of, writable_format
 from hexmend.io.storage.atomic import atomic_write, check_writable
-from hexmend.io.storage.file_progress import FileAction, file_operation, stage
+from hexmend.io.storage.file_progress import FileAction, file_operation, report, stage
 from hexmend.io.storage.readable import check_readable, reading
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
 
 #: Share of the time to read a mesh that its format takes; then its orientation is checked.
-_FORMATS_SHARE = 0.8
+_FORMATS_SHARE = 0.7
 
 
 @old_keywords("read")
@@ -69,7 +69,8 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
             with stage(0.0, _FORMATS_SHARE):
                 mesh = format.read(path)
             mesh = mesh if format.place else mesh.replace(name=path.stem)
-            return mesh if as_is else with_consistent_orientation(mesh)
+            with stage(_FORMATS_SHARE, 1.0):
+                return mesh if as_is else with_consistent_orientation(mesh, report)
     except MeshError as error:
         raise FileError(path, str(error), _REMEDY["finite" in str(error)]) from None
     finally:
@@ -105,7 +106,8 @@ def write(
     """
     path = Path(path)
     if like is not None:
-        _write_like(path, mesh, like)
+        with file_operation(path, FileAction.WRITING):
+            _write_like(path, mesh, like)
         return
     _write_anew(path, mesh, encoding, writable_format(path))
 
@@ -118,7 +120,7 @@ def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) ->
     if format.place:
         format.write(path, mesh, encoding)
         return
-    with atomic_write(path) as temporary:
+    with file_operation(path, FileAction.WRITING), atomic_write(path) as temporary:
         try:
             format.write(temporary, mesh, encoding)
         except FileError as error:  # it names the temporary file
@@ -184,9 +186,15 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
         Where the file cannot be written; where `path` is the original file and that has changed since it was read, or
         has content that a file written anew would not have; or where it is a file that the original includes.
     """
-    path, reason = Path(path), ()
+    path = Path(path)
     if original is not None:
         check_not_included(path, original.path)
+    with file_operation(path, FileAction.WRITING):
+        return _write_as_given(path, mesh, original)
+
+
+def _write_as_given(path: Path, mesh: Mesh, original: Original | None) -> Written:
+    reason: tuple[str, ...] = ()
     if replaces_coordinates(path, original):
         try:
             return replace_coordinates(path, mesh, original, format_of(original.path))

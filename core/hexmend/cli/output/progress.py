@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Self
 
 from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.cli.process.terminal import redraws_lines
+from hexmend.io.storage.file_progress import watch_files
 from hexmend.signal_guard import uninterrupted
 
 if TYPE_CHECKING:
@@ -24,6 +25,9 @@ LINE_INTERVAL = 4.0
 
 #: Seconds after which a live line is drawn on a terminal, because rich takes time to load.
 LIVE_DELAY = 0.4
+
+#: Characters of a bar.
+_BAR_WIDTH = 24
 
 
 class Progress:
@@ -39,12 +43,15 @@ class Progress:
 
     def __enter__(self) -> Self:
         self._display: _Live | _Lines | None = _Live() if redraws_lines() else _Lines()
+        self._unwatched = watch_files(None)  # a file that is written meanwhile, such as a checkpoint, has no line
+        self._unwatched.__enter__()
         self.signals = ExitAfterIteration()
         self.signals.__enter__()
         return self
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
         self.signals.__exit__(kind, error, trace)
+        self._unwatched.__exit__(None, None, None)
         if self._display is not None:
             with suppress(OSError):
                 self._display.close()
@@ -129,22 +136,24 @@ class _Live:
             self._line.stop()
 
 
-def progress_line(template: str) -> rich.progress.Progress:
+def progress_line(template: str, *, bar: bool = False) -> rich.progress.Progress:
     """Make a line with a spinner, the elapsed time and a text; it is removed when it is stopped.
 
     Parameters
     ----------
     template : str
         The text, with fields of rich's task, such as `{task.description}`.
+    bar : bool
+        Show the share that is done as a bar in place of the elapsed time.
     """
     from rich.console import Console
-    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
     from rich.table import Column
 
     text = Column(no_wrap=True, ratio=1)  # shortened on a narrow terminal
     return Progress(
         SpinnerColumn(table_column=Column(no_wrap=True)),
-        TimeElapsedColumn(table_column=Column(no_wrap=True)),
+        BarColumn(_BAR_WIDTH) if bar else TimeElapsedColumn(table_column=Column(no_wrap=True)),
         TextColumn(template, markup=False, table_column=text),
         console=Console(stderr=True, highlight=False),
         expand=True,

@@ -28,6 +28,8 @@ _LONGEST_LINE = 1 << 16
 _CHUNK = 1 << 20
 #: Bytes of numbers that are parsed at a time.
 _TEXT = 1 << 24
+#: Share of the work on a text that parsing it is.
+_SHARE = 0.9
 #: Bytes in which words and white space are looked for.
 _NEAR = 1 << 13
 
@@ -168,7 +170,7 @@ class ByteCursor:
                 text, numbers = text.rsplit(None, surplus)[0], numbers[: count - k]
             values[k : k + len(numbers)] = numbers
             at, k = at + len(text), k + len(numbers)
-            report(at, len(self.data))
+            report(_SHARE * at, len(self.data))
         self.pos = at
         return values
 

@@ -11,6 +11,8 @@ from hexmend.io.storage.file_progress import report
 
 #: Bytes that are read at a time, and bytes that are few.
 _BLOCK, _FEW = 1 << 22, 1 << 12
+#: Share of the work on a binary file that reading its bytes is.
+_SHARE = 0.45
 _LIMITS = np.iinfo(np.int32)
 
 
@@ -88,7 +90,7 @@ def native(values: np.ndarray) -> np.ndarray:
 def _fill(data: FileBytes, at: int, values: np.ndarray) -> None:
     if data.read_into(at, values) < values.nbytes:
         raise OSError("another program has shortened it meanwhile")
-    report(at + values.nbytes, len(data))
+    report(_SHARE * (at + values.nbytes), len(data))
 
 
 def gather_integers(shape: tuple[int, ...], blocks: Iterable[tuple[slice, np.ndarray]]) -> np.ndarray:

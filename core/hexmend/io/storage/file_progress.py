@@ -7,14 +7,15 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from enum import Enum
+from math import ceil
 from pathlib import Path
 from time import monotonic
 
 #: Seconds between reports that are passed on.
 _INTERVAL = 0.05
 
-#: Smallest share from which the time left is estimated.
-_LEAST_SHARE = 0.02
+#: Smallest share from which the time left is estimated, and seconds from which it is given in minutes.
+_LEAST_SHARE, _LONG = 0.02, 100.0
 
 
 class FileAction(Enum):
@@ -50,6 +51,18 @@ class FileProgress:
     def seconds_left(self) -> float | None:
         """Estimated time to the end; None as long as too little is done for an estimate."""
         return None if self.share < _LEAST_SHARE else self.seconds * (1 - self.share) / self.share
+
+    @property
+    def phrase(self) -> str:
+        """The share and the time left for a message.
+
+        >>> FileProgress(Path("big.vtu"), FileAction.READING, 0.4, 2.0).phrase
+        '40%, 3 s left'
+        """
+        left = self.seconds_left
+        if left is None:
+            return f"{self.share:.0%}"
+        return f"{self.share:.0%}, " + (f"{ceil(left)} s left" if left < _LONG else f"{left / 60:.0f} min left")
 
 
 #: Called with the progress of each file; an exception that it raises ends the reading or writing.

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.formats.exodus.netcdf3 import ATTRIBUTES, DIMENSIONS, TYPES, VARIABLES
+from hexmend.io.storage.file_progress import advance
 
 #: nc_type of NumPy's types.
 _NC_TYPES = {"S": 2, "i4": 4, "i8": 10, "f4": 5, "f8": 6}
@@ -79,6 +80,7 @@ class ClassicWriter:
             file.write(self._header(values, begins, wide))
             for k in order:
                 file.write(values[k].tobytes())
+                advance(values[k].nbytes, place)
                 file.write(b"\0" * (-values[k].nbytes % 4))
 
     @staticmethod

@@ -10,6 +10,7 @@ from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.decimals import format_rows
 from hexmend.io.base.decimals import row_chunks as chunks
 from hexmend.io.formats.gmsh.sections import DataSection, Sections
+from hexmend.io.storage.file_progress import advance
 
 #: Keywords of the sections of data.
 DATA = ("$NodeData", "$ElementData")
@@ -73,10 +74,12 @@ class SectionWriter:
     ----------
     file : BinaryIO
     binary : bool
+    total : int
+        Numbers that `rows` will write about, for the progress.
     """
 
-    def __init__(self, file: BinaryIO, binary: bool):
-        self.file, self.binary = file, binary
+    def __init__(self, file: BinaryIO, binary: bool, total: int):
+        self.file, self.binary, self.total = file, binary, total
 
     def integers(self, *parts: tuple[object, str]) -> None:
         """Write a line of whole numbers; each part has its binary type, i4 or u8."""
@@ -88,11 +91,11 @@ class SectionWriter:
 
     def rows(self, values: np.ndarray) -> None:
         """Write rows of floats, or of whole numbers (u8)."""
-        if self.binary:
-            self.file.write(values.astype("<f8" if values.dtype.kind == "f" else "<u8").tobytes())
-        else:
-            for part in chunks(len(values)):
-                self.file.write(format_rows(values[part]))
+        code = "<f8" if values.dtype.kind == "f" else "<u8"
+        for part in chunks(len(values)):
+            rows = values[part]
+            self.file.write(rows.astype(code).tobytes() if self.binary else format_rows(rows))
+            advance(rows.size, self.total)
 
     def end(self, name: bytes) -> None:
         """Write the end of the section of a name."""

@@ -39,7 +39,8 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     element_tags = element_ids(content.blocks)
     entities = _entities(content.blocks, mesh.field_data.get(PHYSICAL_NAMES))
     with open(path, "wb") as file:
-        out = SectionWriter(file, encoding == "binary")
+        total = content.points.size + sum(block.nodes.size for block in content.blocks)
+        out = SectionWriter(file, encoding == "binary", total)
         file.write(b"$MeshFormat\n4.1 %d 8\n" % out.binary)
         if out.binary:
             file.write(np.array([1], "<i4").tobytes() + b"\n")

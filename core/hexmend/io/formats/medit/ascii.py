@@ -13,6 +13,7 @@ from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, blanked, fields_of_words, word_ranges
 from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
 from hexmend.io.storage.file_bytes import FileBytes
+from hexmend.io.storage.file_progress import advance
 from hexmend.mesh.mesh import Mesh
 
 _KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexaedra": SECTIONS["Hexahedra"]}
@@ -98,14 +99,17 @@ def locate(path: Path) -> TextCoordinates:
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write version 2; decimals are the shortest that read as the same number."""
     points, refs, sections = from_mesh(mesh)
+    total = len(points) + sum(map(len, sections.values()))
     with open(path, "wb") as file:
         file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n".encode())
         for part in row_chunks(len(points)):
             file.write(format_rows(points[part], refs[part]))
+            advance(len(points[part]), total)
         for name, rows in sections.items():
             file.write(f"{name}\n{len(rows)}\n".encode())
             for part in row_chunks(len(rows)):
                 file.write(format_rows(rows[part]))
+                advance(len(rows[part]), total)
         file.write(b"End\n")
 
 

@@ -13,6 +13,7 @@ from hexmend.io.base.format import register
 from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, BinaryCoordinates, BinaryPiece
 from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
 from hexmend.io.storage.file_bytes import FileBytes
+from hexmend.io.storage.file_progress import advance
 from hexmend.mesh.mesh import Mesh
 
 #: Codes of sections.
@@ -104,6 +105,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     for name, rows in (("Vertices", refs), *sections.items()):
         if rows.size and (rows.min() < limit.min or rows.max() > limit.max):
             raise FileError(path, f"a reference of {name} needs more than 32 bits", "Write .mesh or .vtu instead.")
+    total = len(points) + sum(map(len, sections.values()))
     vertices = np.empty(len(points), [("x", "<f8", 3), ("ref", "<i4")])
     vertices["x"], vertices["ref"] = points, refs
     with open(path, "wb") as file:
@@ -119,6 +121,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
             head(code, 4 + rows.nbytes)
             file.write(struct.pack("<i", len(rows)))
             file.write(rows.tobytes())
+            advance(len(rows), total)
         file.write(struct.pack("<i", _END))
         file.write(struct.pack(offset, 0))
 

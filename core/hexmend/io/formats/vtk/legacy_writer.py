@@ -13,6 +13,7 @@ from hexmend.errors import FileError
 from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.base.numbering import runs
 from hexmend.io.formats.vtk.grid import from_mesh
+from hexmend.io.storage.file_progress import advance
 from hexmend.mesh.mesh import Mesh
 
 #: VTK's names of NumPy types.
@@ -30,9 +31,13 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         name = mesh.name.replace("\n", " ")[:200] or "mesh"
         head = f"# vtk DataFile Version 3.0\n{name}\n{encoding.upper()}\nDATASET UNSTRUCTURED_GRID\n"
         file.write(head.encode("utf-8", "replace"))
-        _write_arrays(path, file, grid.field_data, ascii)
+        data = (*grid.node_data.values(), *grid.cell_data.values())
+        total = (
+            grid.points.nbytes + 4 * grid.nodes.size + 5 * grid.types.size + sum(np.asarray(one).nbytes for one in data)
+        )
+        _write_arrays(path, file, grid.field_data, ascii, total)
         file.write(f"POINTS {len(grid.points)} double\n".encode())
-        _write_numbers(file, grid.points, "f8", ascii)
+        _write_numbers(file, grid.points, "f8", ascii, total)
         widths = np.diff(grid.start)
         count = len(widths)
         file.write(f"CELLS {count} {count + len(grid.nodes)}\n".encode())
@@ -45,18 +50,18 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
             for run in runs(widths):
                 width = widths[run.start] + 1
                 rows = flat[begins[run.start] :][: (run.stop - run.start) * width].reshape(-1, width)
-                _write_numbers(file, rows, "i4", ascii)
+                _write_numbers(file, rows, "i4", ascii, total)
         else:
-            _write_numbers(file, flat, "i4", ascii)
+            _write_numbers(file, flat, "i4", ascii, total)
         file.write(f"CELL_TYPES {count}\n".encode())
-        _write_numbers(file, grid.types, "i4", ascii)
+        _write_numbers(file, grid.types, "i4", ascii, total)
         for head, data in ((f"POINT_DATA {len(grid.points)}", grid.node_data), (f"CELL_DATA {count}", grid.cell_data)):
             if data:
                 file.write(f"{head}\n".encode())
-                _write_arrays(path, file, data, ascii)
+                _write_arrays(path, file, data, ascii, total)
 
 
-def _write_arrays(path: Path, file: BinaryIO, data: Mapping[str, object], ascii: bool) -> None:
+def _write_arrays(path: Path, file: BinaryIO, data: Mapping[str, object], ascii: bool, total: int) -> None:
     """Write arrays as a FIELD; raises `FileError` for a type that VTK does not have."""
     if data:
         file.write(f"FIELD FieldData {len(data)}\n".encode())
@@ -76,15 +81,18 @@ def _write_arrays(path: Path, file: BinaryIO, data: Mapping[str, object], ascii:
             raise FileError(path, f"the array {title!r} holds {array.dtype}, which VTK cannot", "Remove the array.")
         flat = array.reshape(len(array), -1)
         file.write(f"{head} {flat.shape[1]} {len(flat)} {NAMES[code]}\n".encode())
-        _write_numbers(file, flat, code, ascii)
+        _write_numbers(file, flat, code, ascii, total)
 
 
-def _write_numbers(file: BinaryIO, values: np.ndarray, code: str, ascii: bool) -> None:
+def _write_numbers(file: BinaryIO, values: np.ndarray, code: str, ascii: bool, total: int) -> None:
+    """Write rows of numbers; `total` is the size of all that are written, in bytes, for the progress."""
     if ascii:
         for part in row_chunks(len(values)):
             file.write(format_rows(values[part]))
+            advance(values[part].nbytes, total)
     else:
         file.write(np.ascontiguousarray(values, dtype=f">{code}").tobytes() + b"\n")
+        advance(values.nbytes, total)
 
 
 def _with_length(text: str) -> bytes:

@@ -12,6 +12,7 @@ from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.vtk.grid import from_mesh
 from hexmend.io.formats.vtk.vtu_writer import writable
+from hexmend.io.storage.file_progress import report
 from hexmend.mesh.mesh import Mesh
 
 _VERSION = (2, 2)
@@ -36,7 +37,9 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         for name, count in counts.items():
             root[f"NumberOf{name}"] = np.array([count])
         root["Points"], root["Types"] = grid.points, grid.types.astype(np.uint8, copy=False)
+        report(0.2)
         root.create_dataset("Connectivity", data=grid.nodes, dtype=np.int64)
+        report(0.8)
         root["Offsets"] = grid.start
         sections = {"PointData": grid.node_data, "CellData": grid.cell_data, "FieldData": grid.field_data}
         for section, arrays in sections.items():

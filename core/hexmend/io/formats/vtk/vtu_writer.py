@@ -14,6 +14,7 @@ from hexmend.io.base.decimals import format_rows
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
 from hexmend.io.formats.vtk.xml_arrays import read_values
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement
+from hexmend.io.storage.file_progress import advance, stage
 from hexmend.io.storage.parallel_map import parallel_map
 from hexmend.mesh.mesh import Mesh
 
@@ -21,6 +22,8 @@ from hexmend.mesh.mesh import Mesh
 _BLOCK = 1 << 20
 #: Level of zlib, of 9: higher ones take much longer and save little.
 _LEVEL = 1
+#: Share of the work that writing is; then the file is read again.
+_WRITING_SHARE = 0.8
 #: Characters kept for the attribute with the offset of an array behind the XML.
 _OFFSET_WIDTH = 25
 _NAMES = {code: name for name, code in TYPES.items() if name not in ("Bit", "String")}
@@ -43,7 +46,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     grid = from_mesh(mesh)
     checksums: list[tuple[str, int]] = []
     appended = None if encoding == "ascii" else _Appended()
-    with open(path, "wb") as file:
+    with open(path, "wb") as file, stage(0.0, _WRITING_SHARE):
         compressor = "" if encoding == "ascii" else ' compressor="vtkZLibDataCompressor"'
         root = 'VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"'
         file.write(f'<?xml version="1.0" encoding="utf-8"?>\n<{root}{compressor}>\n<UnstructuredGrid>\n'.encode())
@@ -55,7 +58,8 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         if appended is not None:
             appended.write(file)
         file.write(b"</VTKFile>\n")
-    _verify(path, checksums)
+    with stage(_WRITING_SHARE, 1.0):
+        _verify(path, checksums)
 
 
 def _sections(path: Path, grid: Grid) -> Iterator[tuple[str, Mapping[str, np.ndarray | list[str]]]]:
@@ -111,9 +115,10 @@ class _Appended:
         """Write the arrays, then their offsets."""
         file.write(b'<AppendedData encoding="raw">\n_')
         begin, offsets = file.tell(), []
+        total = sum(numbers.nbytes for _, numbers in self.arrays)
         for _, numbers in self.arrays:
             offsets.append(file.tell() - begin)
-            _write_compressed(file, numbers)
+            _write_compressed(file, numbers, total)
         file.write(b"\n</AppendedData>\n")
         end = file.tell()
         for (place, _), offset in zip(self.arrays, offsets, strict=True):
@@ -146,8 +151,11 @@ def _write_array(
     return title.encode("utf-8", "replace").decode(), zlib.crc32(numbers.view(np.uint8))
 
 
-def _write_compressed(file: BinaryIO, numbers: np.ndarray) -> None:
-    """Write a header and compressed blocks; the header, which has their sizes, is completed at the end."""
+def _write_compressed(file: BinaryIO, numbers: np.ndarray, total: int) -> None:
+    """Write a header and compressed blocks; the header, which has their sizes, is completed at the end.
+
+    `total` is the size of all arrays, for the progress.
+    """
     data, begin = numbers.view(np.uint8), file.tell()
     count = -(-len(data) // _BLOCK)
     sizes = np.zeros(3 + count, "<u8")  # VTK reads three words where there are no blocks too
@@ -157,6 +165,7 @@ def _write_compressed(file: BinaryIO, numbers: np.ndarray) -> None:
     for k, block in enumerate(parallel_map(lambda block: zlib.compress(block, _LEVEL), blocks)):
         sizes[3 + k] = len(block)
         file.write(block)
+        advance(len(blocks[k]), total)
     end = file.tell()
     file.seek(begin)
     file.write(sizes.tobytes())

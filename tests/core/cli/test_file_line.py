@@ -1,0 +1,123 @@
+"""The line of a file that takes long: on a terminal alone, and gone before anything else is printed."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hexmend import gallery, io
+from hexmend.cli.output.file_line import FileLine
+from hexmend.cli.output.progress import Progress
+from hexmend.io.storage.file_progress import FileAction, FileProgress, watch_files
+
+pty = pytest.importorskip("pty")
+
+#: The program, whose line does not wait, so that a small file will do.
+EAGER = (
+    "import sys; from hexmend.cli.output import file_line; from hexmend.io.storage import file_progress; "
+    "file_line.DELAY = file_progress._INTERVAL = 0.0; from hexmend.cli.main import main; sys.exit(main(sys.argv[1:]))"
+)
+CLEARED = "\x1b[2K"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    path = tmp_path_factory.mktemp("line")
+    io.write(path / "mesh.vtu", gallery.make("cube", size=3000, scramble=0.1))
+    (path / "cut.vtu").write_bytes((path / "mesh.vtu").read_bytes()[:20_000])
+    return path
+
+
+def on_terminal(*words, **variables):
+    """Run the program with a terminal as standard error; returns exit status, standard output and what is drawn."""
+    terminal, end = pty.openpty()
+    environment = {name: value for name, value in os.environ.items() if name not in ("NO_COLOR", "FORCE_COLOR")}
+    environment |= {"TERM": "xterm", "COLUMNS": "100", **variables}
+    command = [sys.executable, "-c", EAGER, *map(str, words)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=end, env=environment, text=True) as program:
+        os.close(end)
+        drawn = b""
+        while True:
+            try:
+                part = os.read(terminal, 4096)
+            except OSError:  # the program has ended
+                break
+            if not part:
+                break
+            drawn += part
+        out = program.stdout.read()
+    os.close(terminal)
+    return program.returncode, out, drawn.decode()
+
+
+def test_reading_and_writing_have_a_line_on_a_terminal_that_is_removed(folder, tmp_path):
+    words = [
+        "smooth",
+        folder / "mesh.vtu",
+        "-o",
+        tmp_path / "out.vtu",
+        "--method",
+        "laplacian",
+        "--max-iterations",
+        "1",
+    ]
+    status, out, drawn = on_terminal(*words)
+    assert status == 0
+    assert "Reading mesh.vtu: " in drawn
+    assert "%" in drawn
+    assert "s left" in drawn
+    assert "Writing out.vtu: " in drawn
+    assert not re.sub(r"\x1b\[[?0-9]*[a-zA-Z]|\s", "", drawn.rpartition(CLEARED)[2])
+    assert "Reading" not in out
+
+
+@pytest.mark.parametrize(
+    ("words", "variables"), [(["info", "{mesh}", "--json"], {}), (["info", "{mesh}"], {"TERM": "dumb"})]
+)
+def test_there_is_no_line_with_json_and_on_a_dumb_terminal(folder, words, variables):
+    status, out, drawn = on_terminal(*(word.format(mesh=folder / "mesh.vtu") for word in words), **variables)
+    assert status == 0
+    assert out
+    assert drawn == ""
+
+
+def test_there_is_no_line_without_a_terminal(folder):
+    command = [sys.executable, "-c", EAGER, "info", str(folder / "mesh.vtu")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stderr == ""
+    assert "Reading" not in done.stdout
+
+
+def test_an_error_comes_after_the_line_has_gone(folder):
+    status, _, drawn = on_terminal("info", folder / "cut.vtu")
+    assert status == 3
+    assert "cut.vtu" in drawn.rpartition(CLEARED)[2]
+    assert "Traceback" not in drawn
+
+
+def test_a_terminal_that_has_gone_does_not_end_the_reading(monkeypatch):
+    line = FileLine()
+    shown = []
+
+    def gone(*_, **__):
+        shown.append(1)
+        raise OSError
+
+    monkeypatch.setattr("hexmend.cli.output.file_line.progress_line", gone)
+    for seconds in (0.2, 2.0, 3.0):
+        line.show(FileProgress(Path("a"), FileAction.READING, 0.1, seconds))
+    line.show(FileProgress(Path("a"), FileAction.READING, 1.0, 4.0, ended=True))
+    assert len(shown) == 1
+
+
+def test_files_within_a_run_have_no_line(folder):
+    seen = []
+    with watch_files(seen.append):
+        with Progress():
+            io.read(folder / "mesh.vtu")
+        assert not seen
+        io.read(folder / "mesh.vtu")
+    assert seen
