@@ -11,6 +11,9 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QW
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
+#: Steps of the bar.
+_STEPS = 1000
+
 
 class Busy(QWidget):
     """Progress indicator of the newest task, with a button that ends it."""
@@ -19,28 +22,43 @@ class Busy(QWidget):
         super().__init__(parent)
         self._text = QLabel()
         self._text.setAccessibleName(tr("Current task"))
-        bar = QProgressBar()
-        bar.setRange(0, 0)
-        bar.setFixedSize(140, 10)  # as high as text, so that the layout does not jump
-        bar.setTextVisible(False)
+        self._bar = QProgressBar()
+        self._bar.setRange(0, 0)
+        self._bar.setFixedSize(140, 10)  # as high as text, so that the layout does not jump
+        self._bar.setTextVisible(False)
+        self._bar.setAccessibleName(tr("Share of the task that is done"))
         self._cancel = QPushButton()
         self._cancel.setFixedHeight(self._text.fontMetrics().height() + 4)
         self._cancel.clicked.connect(lambda: self._end())
         self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end(self._escape_owner))
         self._escape_owner = ""
-        self._tasks: dict[str, tuple[str, str, str, Callable[[], object]]] = {}  # by owner
+        self._tasks: dict[str, tuple[str, str, str, Callable[[], object], float | None]] = {}  # by owner
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        for part in (self._text, bar, self._cancel):
+        for part in (self._text, self._bar, self._cancel):
             layout.addWidget(part)
         self.hide()
 
     def show_work(
-        self, owner: str, text: str, button_text: str = "", help: str = "", cancel: Callable[[], object] | None = None
+        self,
+        owner: str,
+        text: str,
+        button_text: str = "",
+        help: str = "",
+        cancel: Callable[[], object] | None = None,
+        share: float | None = None,
     ) -> None:
-        """Show the task of an owner, with a button that calls `cancel`; without a button if its text is ""."""
-        self._tasks[owner] = text, button_text, help, cancel or (lambda: self.done(owner))
+        """Show the task of an owner, with a button that calls `cancel`; without a button if its text is "".
+
+        `share` is what is done, 0 to 1; None if it is unknown.
+        """
+        self._tasks[owner] = text, button_text, help, cancel or (lambda: self.done(owner)), share
         self._show()
+
+    @property
+    def share(self) -> float | None:
+        """Share of the task that the bar shows, 0 to 1; None if it is unknown."""
+        return self._bar.value() / self._bar.maximum() if self._bar.maximum() else None
 
     def text(self) -> str:
         """Return the text shown."""
@@ -61,8 +79,10 @@ class Busy(QWidget):
             self._escape.setEnabled(False)
             self.hide()
             return
-        text, button_text, help, _ = list(self._tasks.values())[-1]
+        text, button_text, help, _, share = list(self._tasks.values())[-1]
         self._text.setText(text)
+        self._bar.setRange(0, 0 if share is None else _STEPS)
+        self._bar.setValue(0 if share is None else round(share * _STEPS))
         self._cancel.setText(button_text)
         set_help(self._cancel, button_text, help)
         self._cancel.setVisible(bool(button_text))

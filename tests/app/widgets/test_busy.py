@@ -47,3 +47,13 @@ def test_escape_ends_the_task_of_its_owner(busy, ended):
     busy.take_escape("")
     QTest.keyClick(busy, Qt.Key.Key_Escape)
     assert ended == ["open"]
+
+
+def test_the_bar_shows_the_share_of_the_newest_task_where_it_is_known(busy):
+    assert busy.share is None
+    busy.show_work("film", "Drawing: 40%…", "Give up", "Do not.", lambda: None, 0.4)
+    assert busy.share == pytest.approx(0.4)
+    busy.done("film")
+    assert busy.share is None
+    busy.show_work("open", "Reading…", share=0.0)
+    assert busy.share == 0

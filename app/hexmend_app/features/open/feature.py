@@ -110,8 +110,9 @@ class FeatureOpen(Feature):
 
     def _show_progress(self, progress: LoadProgress) -> None:
         if self._opener.busy:
+            share = progress.file.share if progress.file is not None else None
             self.host.busy.show_work(
-                "open", stage_text(progress), tr("Cancel"), tr("Cancel opening (Esc)."), self._opener.cancel
+                "open", stage_text(progress), tr("Cancel"), tr("Cancel opening (Esc)."), self._opener.cancel, share
             )
 
     def _on_ended(self, path: Path) -> None:

@@ -15,8 +15,14 @@ def stage_text(progress: LoadProgress) -> str:
     >>> from pathlib import Path
     >>> stage_text(LoadProgress(LoadStage.MEASURING, Path("a/five.vtu"), 12345))
     'Measuring five.vtu, 12,345 hexes…'
+    >>> from hexmend.io.storage.file_progress import FileAction, FileProgress
+    >>> file = FileProgress(Path("a/five.vtu"), FileAction.READING, 0.4, 2.0)
+    >>> stage_text(LoadProgress(LoadStage.READING, file.path, file=file))
+    'Reading five.vtu: 40%, 3 s left…'
     """
     name = progress.path.name
+    if progress.file is not None and progress.file.share:
+        return tr("Reading {name}: {done}…", name=name, done=progress.file.phrase)
     return {
         LoadStage.READING: tr("Reading {name}…", name=name),
         LoadStage.MEASURING: tr("Measuring {name}, {hexes:,} hexes…", name=name, hexes=progress.hexes),

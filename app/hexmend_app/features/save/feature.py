@@ -10,6 +10,7 @@ from typing import Any
 from hexmend.errors import FileError, HexmendError
 from hexmend.io import unsupported_data
 from hexmend.io.formats.session import SUFFIX
+from hexmend.io.storage.file_progress import FileProgress
 from hexmend.run.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
@@ -33,6 +34,7 @@ class FeatureSave(Feature):
         self._last: Scene | None = None  # scene of the last picture
         saver = self.session.saver
         saver.began.connect(self._on_began)
+        saver.progressed.connect(self._on_progressed)
         saver.ended.connect(self._on_ended)
         saver.failed.connect(self._on_failed)
 
@@ -113,6 +115,10 @@ class FeatureSave(Feature):
 
     def _on_began(self, saving: SaveTask) -> None:
         self.host.busy.show_work("save", tr("Saving {name}…", name=saving.path.name))
+
+    def _on_progressed(self, saving: SaveTask, progress: FileProgress) -> None:
+        text = tr("Saving {name}: {done}…", name=saving.path.name, done=progress.phrase)
+        self.host.busy.show_work("save", text, share=progress.share)
 
     def _on_ended(self, saving: SaveTask) -> None:
         self.host.busy.done("save")

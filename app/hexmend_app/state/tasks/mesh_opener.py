@@ -11,12 +11,14 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.errors import HexmendError
 from hexmend.io import read
+from hexmend.io.storage.file_progress import FileProgress, watch_files
 from hexmend_app.picture.picture_metadata import read_metadata
 from hexmend_app.picture.png_text import is_png
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredPicture, restore_picture
 from hexmend_app.state.session.session_data import SessionData
+from hexmend_app.state.tasks.file_watcher import FileWatcher
 from hexmend_app.state.tasks.task import Task
 
 
@@ -30,11 +32,27 @@ class LoadStage(Enum):
 
 @dataclass(frozen=True)
 class LoadProgress:
-    """Progress of opening a file; `hexes` is 0 while their number is unknown."""
+    """Progress of opening a file.
+
+    Parameters
+    ----------
+    stage : LoadStage
+    path : Path
+    hexes : int
+        0 while their number is unknown.
+    file : FileProgress, optional
+        Share of the file that is read, and the time left, while they are known.
+    """
 
     stage: LoadStage
     path: Path
     hexes: int = 0
+    file: FileProgress | None = None
+
+
+def _reading(progress: FileProgress) -> LoadProgress:
+    """Progress of opening while a file is read."""
+    return LoadProgress(LoadStage.READING, progress.path, file=progress)
 
 
 def _read_picture(picture: MissingMesh, path: Path, task: Task) -> RestoredPicture:
@@ -45,6 +63,14 @@ def _read_picture(picture: MissingMesh, path: Path, task: Task) -> RestoredPictu
 
 
 def _open(path: Path, picture: MissingMesh | None, task: Task) -> State | SessionData | RestoredPicture | MissingMesh:
+    """Read a mesh, a session, or the meshes of a picture, and report the progress of files."""
+    with watch_files(FileWatcher(task, _reading, ends=True)):
+        return _open_any(path, picture, task)
+
+
+def _open_any(
+    path: Path, picture: MissingMesh | None, task: Task
+) -> State | SessionData | RestoredPicture | MissingMesh:
     """Read a mesh, a session, or the meshes of a picture."""
     if picture is None and is_png(path):
         picture = MissingMesh(path, read_metadata(path))
@@ -147,7 +173,7 @@ class MeshOpener(QObject):
         self._task.start()
 
     def cancel(self) -> None:
-        """Drop what is being read: its thread cannot be ended, but other files can be opened."""
+        """Drop what is being read: its thread ends when it next reports progress; other files can be opened at once."""
         if self._task is None:
             return
         task, self._task, self._next = self._task, None, None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,10 +12,12 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.io import Original, Written, replaces_coordinates, unsupported_data, write_as_given
 from hexmend.io.formats.session import SUFFIX
+from hexmend.io.storage.file_progress import watch_files
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session_data import SessionData
 from hexmend_app.state.session.user_events import MeshSaved
+from hexmend_app.state.tasks.file_watcher import FileWatcher
 from hexmend_app.state.tasks.task import Task, drop
 
 if TYPE_CHECKING:
@@ -79,6 +82,12 @@ def original_for(path: Path, originals: Iterable[Original]) -> Original | None:
     return next((one for one in originals if replaces_coordinates(path, one)), None)
 
 
+def _write(saving: SaveTask, task: Task) -> None:
+    """Write a file and report the progress; a file that was begun is written to its end."""
+    with watch_files(FileWatcher(task, lambda progress: progress, ends=False)):
+        saving.write()
+
+
 class MeshSaver(QObject):
     """Writes meshes and sessions in the background, one after another.
 
@@ -90,6 +99,8 @@ class MeshSaver(QObject):
     -------
     began(SaveTask)
         The file is being written.
+    progressed(SaveTask, FileProgress)
+        A part of a mesh file has been written.
     ended(SaveTask)
         The file is on disk, and its state counts as saved.
     failed(SaveTask)
@@ -97,6 +108,7 @@ class MeshSaver(QObject):
     """
 
     began = Signal(object)
+    progressed = Signal(object, object)
     ended = Signal(object)
     failed = Signal(object)
 
@@ -147,7 +159,8 @@ class MeshSaver(QObject):
             saving.originals = (
                 self._session.document.originals
             )  # not earlier: a save before may have written one of them
-            self._task = Task(f"saving {saving.path.name}", lambda _: saving.write())
+            self._task = Task(f"saving {saving.path.name}", partial(_write, saving))
+            self._task.reported.connect(lambda progress: self.progressed.emit(saving, progress))
             self._task.ended.connect(self._finish)
             self.began.emit(saving)
             self._task.start()

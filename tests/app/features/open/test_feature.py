@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import threading
+import time
 
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
@@ -12,12 +13,14 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 
 from hexmend import gallery, io
+from hexmend.io.storage import file_progress
+from hexmend.io.storage.file_progress import FileAction, file_operation, report
 from hexmend.run import StoppingCriteria
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.resources import demo_mesh
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.settings.recent_files import MAX_RECENT_FILES
-from hexmend_app.state.tasks import mesh_opener
+from hexmend_app.state.tasks import file_watcher, mesh_opener
 from hexmend_app.state.tasks.task import running
 from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
 from tests.patience import PATIENCE
@@ -199,3 +202,42 @@ def test_another_mesh_is_opened_while_a_cancelled_file_is_still_read(window, qtb
     assert ended.args == [mesh_file]
     finish_reading(qtbot, slow_read)
     assert window.session.document.name == mesh_file.name
+
+
+def test_opening_shows_the_share_of_the_file_and_what_is_left(window, qtbot, monkeypatch, tmp_path):
+    monkeypatch.setattr(file_watcher, "INTERVAL", 0.0)
+    monkeypatch.setattr(file_progress, "_INTERVAL", 0.0)
+    io.write(tmp_path / "part.vtu", gallery.make("cube", size=3000))
+    shown = []
+    window.session.opener.progressed.connect(lambda _: shown.append((window.busy.text(), window.busy.share)))
+    open_and_wait(qtbot, window, tmp_path / "part.vtu")
+    shares = [share for text, share in shown if text.startswith("Reading part.vtu: ")]
+    assert len(shares) > 3
+    assert shares == sorted(shares)
+    assert any("%" in text and "s left" in text for text, _ in shown)
+    assert shown[-1][1] is None  # the later stages have no share
+
+
+def test_a_cancelled_file_is_read_no_further(window, qtbot, monkeypatch, mesh_file, tmp_path):
+    """The thread ends although the file would take for ever."""
+    monkeypatch.setattr(file_watcher, "INTERVAL", 0.0)
+    begun, end = threading.Event(), time.monotonic() + PATIENCE / 1000
+
+    def endless_read(path):
+        with file_operation(path, FileAction.READING):
+            while time.monotonic() < end:
+                report(0.4)
+                begun.set()
+                time.sleep(0.01)
+
+    monkeypatch.setattr(mesh_opener, "read", endless_read)
+    before = window.session.document.now
+    window.features["open"].open(tmp_path / "endless.vtu")
+    qtbot.waitUntil(lambda: window.busy.text().startswith("Reading endless.vtu: 40%"), timeout=PATIENCE)
+    assert begun.is_set()
+    press(named(window.busy, QPushButton, "Cancel"))
+    qtbot.waitUntil(lambda: not any(task.name.startswith("reading") for task in running()), timeout=PATIENCE // 4)
+    assert time.monotonic() < end
+    assert window.session.document.now is before
+    assert "Opening endless.vtu was cancelled" in window.messages.messages()[-1][1]
+    assert not any("cannot be opened" in title for title, *_ in window.messages.messages())
