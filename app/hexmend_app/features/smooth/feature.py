@@ -95,6 +95,12 @@ class FeatureSmooth(Feature):
                 handle=self.session.commands.reset,
                 enabled=lambda: self._ready() and self._state().reset,
             ),
+            *self._further_actions(),
+        )
+
+    def _further_actions(self) -> Sequence[Action]:
+        """Return what is asked for less often."""
+        return (
             Action(
                 id="show_every",
                 text=tr("Show e&very iteration"),
