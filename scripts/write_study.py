@@ -2,7 +2,7 @@
 
 Use: python scripts/write_study.py STUDY OUTLOOKS OFFSETS
 
-STUDY is the folder of `hexmend study thesis --max-seconds 100` with the tables of Chapter 4, OUTLOOKS that of
+STUDY is the folder of `hexmend study thesis --max-seconds 60` with the tables of Chapter 4, OUTLOOKS that of
 `hexmend study thesis --quick --only 5.2.5 --only 5.2.6`, OFFSETS the output of `hexmend bench --only offsets`. The
 section "Where ours differs" of docs/study.md is kept.
 """
@@ -54,7 +54,7 @@ def main() -> None:
 
 
 ORIGIN = """
-The tables come from `hexmend study thesis --max-seconds 100`, those of section 5.2 from `make study` (`--quick`), and
+The tables come from `hexmend study thesis --max-seconds 60`, those of section 5.2 from `make study` (`--quick`), and
 the comparison of `offset` from `hexmend bench --only offsets`; `scripts/write_study.py` assembles this page. The
 section *Where ours differs* is written by hand.
 """
