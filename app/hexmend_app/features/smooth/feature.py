@@ -95,11 +95,11 @@ class FeatureSmooth(Feature):
                 handle=self.session.commands.reset,
                 enabled=lambda: self._ready() and self._state().reset,
             ),
-            *self._further_actions(),
+            *self._option_actions(),
         )
 
-    def _further_actions(self) -> Sequence[Action]:
-        """Return what is asked for less often."""
+    def _option_actions(self) -> Sequence[Action]:
+        """Return the actions for options of runs, and for their command."""
         return (
             Action(
                 id="show_every",
