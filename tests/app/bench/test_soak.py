@@ -47,7 +47,7 @@ def test_memory_that_cannot_be_measured_is_reported_at_once(qapp, monkeypatch, c
     def unknown():
         raise OSError
 
-    monkeypatch.setattr("hexmend.study.bench.section.resident_mb", unknown)
+    monkeypatch.setattr("hexmend_app.cli.soak.memory_check.resident_mb", unknown)
     assert main(["soak", "--minutes", "0"]) != 0
     assert "soak needs a system with /proc" in capsys.readouterr().err
 

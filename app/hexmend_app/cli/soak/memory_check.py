@@ -7,7 +7,7 @@ import argparse
 from hexmend.cli.process.interrupts import ExitAfterIteration, FinishWriting
 from hexmend.errors import HexmendError
 from hexmend.report import write_json
-from hexmend.study.bench import section
+from hexmend.run.memory import resident_mb
 from hexmend_app.cli.numbers import numbers
 from hexmend_app.resources import demo_mesh
 from hexmend_app.shell.start.display import check_display
@@ -20,7 +20,7 @@ def run(args: argparse.Namespace) -> int:
     from hexmend_app.bench.soak import Memory, soak  # imports Qt, which needs the libraries of a display
 
     try:
-        section.resident_mb()
+        resident_mb()
     except OSError:
         raise HexmendError("soak needs a system with /proc, such as Linux, to measure the memory") from None
     memory = Memory()
