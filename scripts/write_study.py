@@ -1,10 +1,9 @@
 """Assembles docs/study.md from the output of commands and the section that is written by hand.
 
-Use: python scripts/write_study.py STUDY OUTLOOKS OFFSETS
+Use: python scripts/write_study.py STUDY OFFSETS REMARKS
 
-STUDY is the folder of `hexmend study thesis --max-seconds 60` with the tables of Chapter 4, OUTLOOKS that of
-`hexmend study thesis --quick --only 5.2.5 --only 5.2.6`, OFFSETS the output of `hexmend bench --only offsets`. The
-section "Where ours differs" of docs/study.md is kept.
+STUDY is the folder of `hexmend study thesis --max-seconds 60`, OFFSETS and REMARKS the output of `hexmend bench --only
+offsets` and of `--only remarks`. The section "Where ours differs" of docs/study.md is kept.
 """
 
 from __future__ import annotations
@@ -25,25 +24,27 @@ def sections(text: str) -> dict[str, str]:
     return {"": found[0], **dict(zip(found[1::2], found[2::2], strict=True))}
 
 
+def table(output: Path) -> str:
+    """Return the lines of a table in the output of a command, which are indented there."""
+    return "\n".join(line.strip() for line in output.read_text("utf-8").splitlines() if line.startswith("  "))
+
+
 def main() -> None:
-    study, outlooks, offsets = map(Path, sys.argv[1:])
+    study, offsets, remarks = map(Path, sys.argv[1:])
     chapter = sections(FILES.sub("\n", (study / "study.md").read_text("utf-8")))
-    outlook = sections(FILES.sub("\n", (outlooks / "study.md").read_text("utf-8")))
     own = sections((DOCS / "study.md").read_text("utf-8"))[OWN]
-    claims = [line for line in chapter["## Claims\n"].splitlines() if line.startswith("- ") and "(5.2." not in line]
-    claims += [line for line in outlook["## Claims\n"].splitlines() if "(5.2." in line]
-    table = "\n".join(line.strip() for line in offsets.read_text("utf-8").splitlines() if line.startswith("  "))
     head, preface = chapter[""].split("\n", 1)
     parts = [
         f"{head}\n{ORIGIN}",
         preface.strip() + "\n",
-        "## Claims\n\n" + "\n".join(claims) + "\n",
+        "## Claims\n" + chapter["## Claims\n"],
         OWN + own,
         "## Compared with the thesis, cell by cell\n" + chapter["## Compared with the thesis, cell by cell\n"],
-        '## The "-1" of (B.20)\n' + ABOUT_OFFSETS + "\n" + table + "\n",
+        '## The "-1" of (B.20)\n' + ABOUT_OFFSETS + "\n" + table(offsets) + "\n",
+        "## Remarks of 4.1.2 and 4.1.3, measured\n" + ABOUT_REMARKS + "\n" + table(remarks) + "\n",
         "## Figures\n" + chapter["## Figures\n"],
         "## Tables\n" + ABOUT_OBJECTIVE + chapter["## Tables\n"],
-        "## What section 5.2 hopes for\n" + outlook["## What section 5.2 hopes for\n"],
+        "## Sections 3.2.2 and 5.2, tried\n" + chapter["## Sections 3.2.2 and 5.2, tried\n"],
     ]
     text = "\n".join(part.rstrip() + "\n" for part in parts)
     (DOCS / "study.md").write_text(text, "utf-8")
@@ -54,9 +55,9 @@ def main() -> None:
 
 
 ORIGIN = """
-The tables come from `hexmend study thesis --max-seconds 60`, those of section 5.2 from `make study` (`--quick`), and
-the comparison of `offset` from `hexmend bench --only offsets`; `scripts/write_study.py` assembles this page. The
-section *Where ours differs* is written by hand.
+The tables come from `hexmend study thesis --max-seconds 60`, the comparison of `offset` and the measured remarks from
+`hexmend bench --only offsets,remarks`; `scripts/write_study.py` assembles this page. The section *Where ours differs*
+is written by hand.
 """
 
 ABOUT_OFFSETS = """
@@ -66,6 +67,10 @@ smoothing and GETMe. Both are true only without this subtraction. The parameter 
 table compares the optima of `mend` for offset 1 · offset 0, with the optimum of the thesis in brackets and the higher
 value in bold. With offset 0 the mean and the norm are higher; with offset 1 the worst elements are better. As analysts
 judge a mesh by its worst elements, 1 is the default.
+"""
+
+ABOUT_REMARKS = """
+What sections 4.1.2 and 4.1.3 say about the methods without figures of their own.
 """
 
 ABOUT_OBJECTIVE = """

@@ -32,3 +32,11 @@ def capitalised(sentence: str) -> str:
 
 class WorsenedText(str):
     """Text of a value that is worse than it was; tables with colours show it in red."""
+
+
+class FailedText(str):
+    """Text of a value of a run that did not arrive; tables of the thesis show it in italics."""
+
+
+class ShortestText(str):
+    """Text of the shortest time of a table; tables of the thesis show it in bold face."""

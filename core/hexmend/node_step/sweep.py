@@ -31,9 +31,10 @@ class Sweep(Iterator[NodeStep]):
     Attributes
     ----------
     nodes : (k,) int32
-        The free nodes in the order of the first sweep of a run.
+        The node of each step: the free nodes in the order of the first sweep of a run, each as often as the method
+        steps at a node before the next.
     done : int
-        Number of nodes that have been visited.
+        Number of steps that have been made.
     delta : float
         The delta of the sweep, (3.2), determined at its beginning.
 
@@ -48,7 +49,7 @@ class Sweep(Iterator[NodeStep]):
 
     def __init__(self, mesh: Mesh, smoother: LocalDescent):
         self.mesh, self.smoother = mesh, smoother
-        self.nodes = ORDERS[smoother.order](mesh)(mesh.points, 0)
+        self.nodes = ORDERS[smoother.order](mesh)(mesh.points, 0).repeat(smoother.repeats)
         self.done = 0
         self.delta = smoother.delta_at(mesh, mesh.points)
         self._points = mesh.points.copy()
@@ -63,7 +64,7 @@ class Sweep(Iterator[NodeStep]):
 
     @property
     def finished(self) -> bool:
-        """True if all nodes have been visited."""
+        """True if all steps have been made."""
         return self.done == self.nodes.size
 
     @property
@@ -74,7 +75,7 @@ class Sweep(Iterator[NodeStep]):
     @property
     def title(self) -> str:
         """Short text about what was done, for lists of changes."""
-        return f"sweep of {self.smoother.name}, {count_phrase(self.done, 'node')}"
+        return f"sweep of {self.smoother.name}, {count_phrase(-(-self.done // self.smoother.repeats), 'node')}"
 
     def preview(self, node: int) -> NodeStep:
         """Return the step that the method would make for a node at the present positions."""
@@ -82,11 +83,11 @@ class Sweep(Iterator[NodeStep]):
         return local_step(self.smoother, self.mesh, self._points, node, self.delta)
 
     def position(self, node: int) -> int:
-        """Return the position of a free node in the order of the sweep, from 0."""
+        """Return the number of the first step at a free node, from 0."""
         return int(np.flatnonzero(self.nodes == node)[0])
 
     def finish(self) -> NodeStep | None:
-        """Visit the remaining nodes by the kernel; return the step of the last, or None if none remained."""
+        """Make the remaining steps by the kernel; return the last, or None if none remained."""
         if self.finished:
             return None
         last, settings = self.nodes.size - 1, self.smoother.step_settings(self.delta, target_matrices(self.mesh))

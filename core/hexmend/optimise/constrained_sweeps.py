@@ -58,7 +58,9 @@ class ConstrainedSweeps:
         colours = Topology(root[mesh.hexes], mesh.n_nodes).colouring(moves)
         self._parts = [_Colour(energy, root, colours[i]) for i in range(len(colours))]
 
-    def __call__(self, x: np.ndarray, delta: float, directions: NodeDirections, search: LineSearch) -> None:
+    def __call__(
+        self, x: np.ndarray, delta: float, directions: NodeDirections, search: LineSearch, repeats: int = 1
+    ) -> None:
         """Sweep once.
 
         Parameters
@@ -70,9 +72,12 @@ class ConstrainedSweeps:
         directions : callable
             `steepest_descents` or `newton_steps`.
         search : LineSearch
+        repeats : int
+            Steps at a node before the next.
         """
         for part in self._parts:
-            part.step(x, delta, directions, search)
+            for _ in range(repeats):
+                part.step(x, delta, directions, search)
 
 
 class _Colour:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from hexmend.quality.summary import SUMMARY_QUANTITIES
 from hexmend.quantity import Quantity, format_count, format_microseconds, format_milliseconds, format_significant
 from hexmend.report.documents import write_document
 from hexmend.report.tables import Table
-from hexmend.terminal_text import WorsenedText, count_phrase
+from hexmend.terminal_text import FailedText, ShortestText, WorsenedText, count_phrase
 
 #: How a run ended, where the record's own word is not the clearest.
 _ENDED = {
@@ -73,6 +73,8 @@ def comparison_table(
     columns: Mapping[str, Mapping[str, Any]],
     published: Mapping[str, Mapping[str, Any]] | None = None,
     notes: Sequence[str] = (),
+    failed: Collection[str] = (),
+    shortest: str = "",
 ) -> Table:
     """Make a table with methods in columns and figures in rows, transposed if there are many methods.
 
@@ -84,10 +86,19 @@ def comparison_table(
     published : mapping, optional
         Figures of the thesis by column; each gets a row below ours.
     notes : sequence of str
+    failed : collection of str
+        Columns whose figures are marked as those of runs that did not arrive.
+    shortest : str
+        Column whose time is marked as the shortest.
     """
     rows = []
     for figure in LINES:
-        rows.append([label(figure, columns.values()), *(_cell(figure, record) for record in columns.values())])
+        cells = [_cell(figure, record) for record in columns.values()]
+        cells = [FailedText(cell) if head in failed else cell for head, cell in zip(columns, cells, strict=True)]
+        if shortest and figure.key == "seconds":
+            where = list(columns).index(shortest)
+            cells[where] = ShortestText(cells[where])
+        rows.append([label(figure, columns.values()), *cells])
         theirs = [(published or {}).get(head, {}) for head in columns]
         if any(record.get(figure.key) is not None for record in theirs):
             rows.append(["– thesis", *(figure.of(record) for record in theirs)])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from hexmend.report.tables import Table
+from hexmend.terminal_text import FailedText, ShortestText
 
 #: Characters that are commands in LaTeX, or that it does not have without packages.
 _ESCAPES = {
@@ -35,7 +36,7 @@ def latex(table: Table) -> str:
     \\caption{Cube}
     \\end{table}
     """
-    head, *rows = (" & ".join(escape(cell) for cell in line) + r" \\" for line in [table.head, *table.rows])
+    head, *rows = (" & ".join(_emphasised(cell) for cell in line) + r" \\" for line in [table.head, *table.rows])
     title = f"{table.title}." if table.title and table.notes else table.title
     caption = " ".join(escape(sentence) for sentence in (title, *table.notes) if sentence)
     lines = [
@@ -50,6 +51,12 @@ def latex(table: Table) -> str:
         r"\end{table}",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _emphasised(cell: str) -> str:
+    """Escape the text of a cell, with commands for what it stands for."""
+    command = "textbf" if isinstance(cell, ShortestText) else "textit" if isinstance(cell, FailedText) else ""
+    return rf"\{command}{{{escape(cell)}}}" if command else escape(cell)
 
 
 def escape(text: str) -> str:

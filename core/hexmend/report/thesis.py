@@ -29,6 +29,10 @@ _OUR_MESHES = {
     "mostly much smaller: qualities and times are to be compared in kind and not in digits.",
 }
 
+#: Notes on the notation, which is the thesis's (4.1.1) but for its shading.
+_FAILED = "In italics: the run did not converge to the optimum (shaded in the thesis)."
+_SHORTEST = "In bold face: the shortest time of the optimisers that did."
+
 #: Note below every table.
 OURS = "The mesh is ours, of the structure of the thesis's, whose file is not published."
 
@@ -85,9 +89,19 @@ def experiment_table(experiment: Mapping[str, Any]) -> Table:
         notes.append(f"The thesis's has {thesis['hexes']:,} hexes and {thesis['free_nodes']:,} free nodes.")
     notes.append(f"Inverted at the start: {experiment['inverted']:,}, in the thesis {thesis['inverted']:,}.")
     delta = f", δ = {experiment['delta']:g}" if experiment["delta"] is not None else ""
-    size = "{hexes:,} hexes, {free_nodes:,} free nodes".format(**experiment)
+    size = "{hexes:,} hexes, {free_nodes:,} free nodes of {nodes:,}".format(**experiment)
     title = f"Table {experiment['table']}, {experiment['thesis_mesh']}{delta}: {size}"
-    return comparison_table(title, experiment["columns"], experiment["published"], notes)
+    failed, shortest = _notation(experiment["columns"])
+    notes += [_FAILED] if failed else []
+    notes += [_SHORTEST] if shortest else []
+    return comparison_table(title, experiment["columns"], experiment["published"], notes, failed, shortest)
+
+
+def _notation(columns: Mapping[str, Mapping[str, Any]]) -> tuple[list[str], str]:
+    """Return the optimisers that did not arrive at the optimum, and the fastest of the others (thesis 4.1.1)."""
+    arrived = {name: one["arrived"] for name, one in columns.items() if one.get("arrived") is not None}
+    seconds = {name: columns[name]["seconds"] for name, there in arrived.items() if there}
+    return [name for name, there in arrived.items() if not there], min(seconds, key=seconds.__getitem__, default="")
 
 
 def stem(experiment: Mapping[str, Any]) -> str:
@@ -110,7 +124,7 @@ def index(study: Mapping[str, Any], figures: Sequence[Mapping[str, str]]) -> str
         parts += ["## Figures", *map(_figure, sorted(figures, key=_number))] + ([escape(missing)] if missing else [])
     for head, tables in (
         ("## Tables", [(stem(one), experiment_table(one)) for one in study["experiments"]]),
-        ("## What section 5.2 hopes for", [(outlook_stem(one), outlook_table(one)) for one in study["outlooks"]]),
+        ("## Sections 3.2.2 and 5.2, tried", [(outlook_stem(one), outlook_table(one)) for one in study["outlooks"]]),
     ):
         parts += [head] if tables else []
         for name, table in tables:

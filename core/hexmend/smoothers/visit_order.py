@@ -81,11 +81,13 @@ class VisitOrder:
     mesh : Mesh
     order : str
         One of `ORDERS`.
+    steps : int
+        Times that a node is visited before the next (3.2.2).
     """
 
-    def __init__(self, mesh: Mesh, order: str):
+    def __init__(self, mesh: Mesh, order: str, steps: int = 1):
         self.sequence = ORDERS[order](mesh)
-        self._mesh = mesh
+        self._mesh, self._steps = mesh, steps
         self._nodes: np.ndarray | None = None
         self._groups: CSR | None = None
 
@@ -106,5 +108,5 @@ class VisitOrder:
         """
         nodes = self.sequence(points, sweep)
         if nodes is not self._nodes:
-            self._nodes, self._groups = nodes, self._mesh.topology.wavefronts(nodes)
+            self._nodes, self._groups = nodes, self._mesh.topology.wavefronts(nodes.repeat(self._steps))
         return self._groups

@@ -74,11 +74,17 @@ def test_the_wavefronts_of_colour_are_the_colours():
 
 
 @settings(max_examples=30)
-@given(st.sampled_from(LOCAL), st.sampled_from(sorted(ORDERS)), st.integers(0, 99), st.sampled_from([0.2, 0.8]))
-def test_a_sweep_is_the_visit_of_one_node_after_another(name, order, seed, amplitude):
+@given(
+    st.sampled_from(LOCAL),
+    st.sampled_from(sorted(ORDERS)),
+    st.integers(0, 99),
+    st.sampled_from([0.2, 0.8]),
+    st.integers(1, 3),
+)
+def test_a_sweep_is_the_visit_of_one_node_after_another(name, order, seed, amplitude, steps):
     mesh = scrambled(grid(4), amplitude, seed)
-    smoother = METHODS[name](order=order)
-    expected = one_by_one(mesh, smoother, ORDERS[order](mesh)(mesh.points, 0))
+    smoother = METHODS[name](order=order, steps_per_node=steps)
+    expected = one_by_one(mesh, smoother, ORDERS[order](mesh)(mesh.points, 0).repeat(steps))
     np.testing.assert_array_equal(after(mesh, smoother), expected)
 
 

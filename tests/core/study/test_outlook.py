@@ -36,7 +36,7 @@ def tried():
 
 
 def test_the_outlooks_name_known_meshes_methods_and_parameters():
-    assert {one.section for one in THESIS.outlooks} == {"5.2.5", "5.2.6"}
+    assert {one.section for one in THESIS.outlooks} == {"3.2.2", "5.2.5", "5.2.6"}
     for one in THESIS.outlooks:
         assert one.mesh in GALLERY
         assert set(one.methods + one.additional) <= set(METHODS)
@@ -96,7 +96,7 @@ def test_the_report_has_a_line_a_run(tried, tmp_path):
     study = run_experiments(replace(THESIS, experiments=(), outlooks=()), quick=True)
     write_study(tmp_path, study.record() | {"outlooks": [record]})
     index = (tmp_path / "study.md").read_text(encoding="utf-8")
-    assert "## What section 5.2 hopes for" in index
+    assert "## Sections 3.2.2 and 5.2, tried" in index
     assert "(section-5.2.5-bridge-sharp.csv)" in index
 
 

@@ -38,6 +38,11 @@ class LocalOptimiser(Optimiser):
         100, low=1, high=200, help="Backtracks of a step after which the node does not move."
     )
 
+    @property
+    def repeats(self) -> int:
+        """Number of steps at a node before the next."""
+        return 1
+
     def constrained_sweep(self, mesh: Mesh, linear: np.ndarray) -> Sweep:
         energy = MeshEnergy(mesh, self.norm)
         sweeps = ConstrainedSweeps(energy, linear)
@@ -45,7 +50,7 @@ class LocalOptimiser(Optimiser):
 
         def sweep(points: np.ndarray) -> np.ndarray:
             x = energy.to_edge_units(points)
-            sweeps(x, self.delta_at(mesh, points), find, self.line_search)
+            sweeps(x, self.delta_at(mesh, points), find, self.line_search, self.repeats)
             return np.where(linear[:, None], x * energy.unit, points)
 
         return sweep

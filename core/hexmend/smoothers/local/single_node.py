@@ -20,7 +20,7 @@ from hexmend.smoothers.visit_order import ORDERS, VisitOrder
 
 @dataclass(frozen=True)
 class LocalDescent(LocalOptimiser):
-    """One step with line search per free node and sweep, on the node's patch scaled to unit mean edge length."""
+    """Steps with line search at each free node in turn, on the node's patch scaled to unit mean edge length."""
 
     bytes_per_hex = 400
 
@@ -29,12 +29,16 @@ class LocalDescent(LocalOptimiser):
         choices=tuple(ORDERS),
         help="Order of the nodes in a sweep (5.2.6): inward is level by level from the fixed nodes.",
     )
+    steps_per_node: int = parameter(
+        1, low=1, high=100, help="Steps at a node before the next: more than one did not pay in the thesis (3.2.2)."
+    )
 
     def steps(self, mesh: Mesh) -> Steps:
         sliding = self.sliding(mesh)
         mesh = mesh if sliding is None else sliding.mesh
-        corners, visits = mesh.topology.node_corners, VisitOrder(mesh, self.order)
-        derivatives = int(np.diff(corners.start)[mesh.free].sum())  # each visit asks the hexes at its node
+        corners, visits = mesh.topology.node_corners, VisitOrder(mesh, self.order, self.steps_per_node)
+        # Each visit asks the hexes at its node.
+        derivatives = self.steps_per_node * int(np.diff(corners.start)[mesh.free].sum())
         points, number, sweeps = mesh.points, 0, Sweeps(sliding, mesh.n_nodes)
         target = target_matrices(mesh)
 
@@ -50,6 +54,10 @@ class LocalDescent(LocalOptimiser):
             points, energies = sweeps(points, sweep)
             yield Step(points, {"delta": delta, "energy_evaluations": energies, "derivative_evaluations": derivatives})
             number += 1
+
+    @property
+    def repeats(self) -> int:
+        return self.steps_per_node
 
     def step_settings(self, delta: float, target: TargetMatrices | None = None) -> local.NodeStepSettings:
         """Settings of a node's step in a sweep with that delta and the target of the mesh."""

@@ -94,7 +94,7 @@ def getme_against_laplacian(results: Sequence[ExperimentResult]) -> Finding:
 
 @claim("4.2", "GETMe is cheaper to perform than the optimisation methods.")
 def getme_cheaper(results: Sequence[ExperimentResult]) -> Finding:
-    """4.2: GETMe's whole time against that of the optimisers that arrive from the same mesh."""
+    """4.2: GETMe's whole time against that of the optimisers that arrive from the same mesh, on most meshes."""
     cases = {}
     for result, getme in with_rows(published(results), "getme"):
         key = name, hexes = result.experiment.mesh, result.initial.hexes
@@ -102,7 +102,44 @@ def getme_cheaper(results: Sequence[ExperimentResult]) -> Finding:
             if other.initial.hexes == hexes and (found := optimal_runs(other)):
                 details = f"{name}, {hexes:,} hexes: {seconds_of([getme, found[0]])}"
                 cases[key] = getme.seconds < found[0].seconds, details
-    return tally(list(cases.values()), "GETMe and an optimiser that converges were not both run on a mesh.")
+    unknown = "GETMe and an optimiser that converges were not both run on a mesh."
+    return tally(list(cases.values()), unknown, most=True)
+
+
+@claim(
+    "abstract",
+    "GETMe typically raises the least and the mean quality in a time at least an order of magnitude below that of the "
+    "optimisers, and ends below their quality and above that of Laplacian smoothing.",
+)
+def getme_typically(results: Sequence[ExperimentResult]) -> Finding:
+    """Abstract: each part on every mesh where all of them ran; in most.
+
+    Above Laplacian smoothing is judged by q min, by which it holds in all of the thesis's own tables and by q norm in
+    three of seven; below the optimum by q norm, which that maximises.
+    """
+    found: dict[tuple[str, int], tuple[bool, bool, bool, str]] = {}
+    for result, laplacian, getme in with_rows(published(results), "laplacian", "getme"):
+        key = name, hexes = result.experiment.mesh, result.initial.hexes
+        tops = (optimal_runs(other) for other in of_mesh(results, name, "initial") if other.initial.hexes == hexes)
+        if (top := next((runs[0] for runs in tops if runs), None)) is not None:
+            least = laplacian.after.q_min, getme.after.q_min
+            norms = getme.after.q_norm, top.after.q_norm
+            raises = getme.after.q_min > result.initial.q_min and getme.after.q_mean > result.initial.q_mean
+            times = top.seconds / getme.seconds
+            details = "{}, {:,} hexes: {:.2g} times, q min {:.4f} and {:.4f}, q norm {:.4f} and {:.4f}".format(
+                name, hexes, times, *least, *norms
+            )
+            found[key] = raises, times >= _ORDER, least[0] < least[1] and norms[0] < norms[1], details
+    if not found:
+        return None, "Laplacian smoothing, GETMe and an optimiser that converges were not all run on a mesh."
+    *counts, details = zip(*found.values(), strict=True)
+    higher, fast, between = map(sum, counts)
+    figures = (
+        f"Of {len(found)} meshes GETMe raises both on {higher}, is {_ORDER:g} times faster on {fast} and ends between "
+        f"the two on {between}. Seconds of the fastest optimiser over those of GETMe, q min of laplacian and getme, "
+        f"q norm of getme and that optimiser: {'. '.join(details)}."
+    )
+    return min(higher, fast, between) > len(found) / 2, figures
 
 
 @claim("3.1.2", "Sequential GETMe raises the least quality of every mesh.")

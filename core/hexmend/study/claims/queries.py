@@ -11,10 +11,7 @@ from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Outcome
 from hexmend.smoothers import METHODS
 from hexmend.study.table_row import Row
-from hexmend.study.thesis.experiment_result import ExperimentResult
-
-#: Objectives of one optimum differ by less than this share, because of the tolerance of A.1.
-SAME_OBJECTIVE = 1e-3
+from hexmend.study.thesis.experiment_result import SAME_OBJECTIVE, ExperimentResult
 
 #: "Far less time" and "slow": at least this factor.
 MUCH_SLOWER = 5.0

@@ -1,14 +1,36 @@
-"""Expectations of section 5.2 of the thesis, judged by measured figures."""
+"""Claims of sections 3.2.2 and 5.2 of the thesis about variants of its methods, judged by measured figures."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
 
-from hexmend.study.claims.claim import Claim, Finding, claim
+from hexmend.study.claims.claim import Claim, Finding, claim, tally
 from hexmend.study.outlook.experiments import Point, TrialResult, Variant
 
 #: An order is faster if it arrives after less than this share of the sweeps in natural order.
 _FASTER = 0.9
+
+#: More steps at a node are economical if they save more than this factor of the evaluations.
+_ECONOMICAL = 1.05
+
+
+@claim("3.2.2", "Several steps at a node before the next are not economical.")
+def steps_per_node(trials: Sequence[TrialResult]) -> Finding:
+    """3.2.2: one step at a node against more, by evaluations of a hex until near the optimum."""
+    cases = []
+    for trial in _of_section(trials, "3.2.2"):
+        for method in trial.outlook.methods:
+            arrivals = _arrivals(trial, method, "steps_per_node")
+            if 1 in arrivals and len(arrivals) > 1:
+                fewest = min(arrivals.values(), key=lambda point: point.evaluations)
+                each = ", ".join(
+                    f"{steps} {point.evaluations:.3g} ({point.iteration} sweeps, {point.seconds:.2g} s)"
+                    for steps, point in arrivals.items()
+                )
+                details = f"{trial.outlook.mesh}, {trial.initial.hexes:,} hexes, {method}: {each}"
+                cases.append((arrivals[1].evaluations <= _ECONOMICAL * fewest.evaluations, details))
+    return tally(cases, "No method arrived with one step at a node and with more.", most=True)
 
 
 @claim(
@@ -44,8 +66,7 @@ def from_the_boundary(trials: Sequence[TrialResult]) -> Finding:
     details, faster = [], []
     for trial in _of_section(trials, "5.2.6"):
         for method in trial.outlook.methods:
-            arrivals = {run.values["order"]: _arrival(trial, run) for run in trial.variants if run.row.method == method}
-            sweeps = {order: point.iteration for order, point in arrivals.items() if point is not None}
+            sweeps = {order: point.iteration for order, point in _arrivals(trial, method, "order").items()}
             if not {"inward", "natural"} <= sweeps.keys():
                 continue
             faster.append(sweeps["inward"] < _FASTER * sweeps["natural"])
@@ -58,7 +79,11 @@ def from_the_boundary(trials: Sequence[TrialResult]) -> Finding:
 
 
 #: All expectations, in the order of the report.
-OUTLOOK_CLAIMS: tuple[Callable[[Sequence[TrialResult]], Claim], ...] = (middle_ground, from_the_boundary)
+OUTLOOK_CLAIMS: tuple[Callable[[Sequence[TrialResult]], Claim], ...] = (
+    steps_per_node,
+    middle_ground,
+    from_the_boundary,
+)
 
 
 def _of_section(trials: Sequence[TrialResult], section: str) -> Iterator[TrialResult]:
@@ -68,6 +93,12 @@ def _of_section(trials: Sequence[TrialResult], section: str) -> Iterator[TrialRe
 def _arrival(trial: TrialResult, run: Variant | None) -> Point | None:
     optimum = trial.optimum
     return None if run is None or optimum is None else run.arrival(optimum)
+
+
+def _arrivals(trial: TrialResult, method: str, key: str) -> dict[Any, Point]:
+    """Return the arrivals of a method's runs by a varied parameter, of those that arrived."""
+    runs = {run.values[key]: _arrival(trial, run) for run in trial.variants if run.row.method == method}
+    return {value: point for value, point in runs.items() if point is not None}
 
 
 def _first(trial: TrialResult, runs: Iterable[Variant], key: Callable[[Point], float]) -> tuple[Variant, Point] | None:

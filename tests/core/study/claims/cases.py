@@ -82,6 +82,17 @@ JUDGED = {
         [table("4.11", {"getme": run(2.5)}), table("4.5", {"local-sd": run(2), "global-nr": run(3)})],
         [table("4.11", {"getme": run(2.5)}), table("4.5", {"local-sd": late()})],
     ),
+    heuristics.getme_typically: (
+        [
+            table("4.11", {"laplacian": run(q_min=0.3), "getme": run(1, q_min=0.4, q_mean=0.5, q_norm=0.6)}),
+            table("4.5", {"local-sd": run(20, q_norm=0.7), "global-nr": run(30, q_norm=0.7)}),
+        ],
+        [
+            table("4.11", {"laplacian": run(q_min=0.3), "getme": run(1, q_min=0.4, q_mean=0.5, q_norm=0.6)}),
+            table("4.5", {"local-sd": run(2, q_norm=0.7), "global-nr": run(30, q_norm=0.7)}),
+        ],
+        [table("4.11", {"laplacian": run(), "getme": run(2.5)}), table("4.5", {"local-sd": late()})],
+    ),
     heuristics.sequential_raises_minimum: (
         [table("4.11", {"getme-sequential": run(q_min=0.5)}, q_min=0.4)],
         [table("4.2", {"getme": run(q_min=0.4), "getme-sequential": run(q_min=0.4)})],
