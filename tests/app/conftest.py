@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 from contextlib import contextmanager
+from dataclasses import replace
 
 import pyqtgraph as pg
 import pytest
@@ -15,11 +16,15 @@ from hexmend import gallery, io
 from hexmend_app.scene.render.graphics import prepare_off_screen
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
+from hexmend_app.state.settings import settings
 from hexmend_app.state.tasks.task import running
 from hexmend_app.theme.style import apply_style
 from tests.app.driving import open_and_wait
 from tests.app.resetting import SIZE, Resetting, lay_out, settle, unseen
 from tests.guards import windows_close
+
+#: Tests do not wait for runs to be shown, unless they say so.
+settings.RUN_PACE = replace(settings.RUN_PACE, default="fastest")
 
 #: The window that tests share; empty until it is created.
 SHARED: list[Window] = []

@@ -29,6 +29,7 @@ from hexmend_app.bench.windows import end_run
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.named_cameras import NamedCameras
 from hexmend_app.state.mesh.history import LIMIT
+from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.timeline import SPEED
 from hexmend_app.theme import theme_choice
 from tests.app.driving import open_and_wait
@@ -92,6 +93,7 @@ class Resetting:
             session.recipe_draft.remove(0)
         session.recipe_draft.rename("")
         session.history.limit = LIMIT
+        session.run.set_pace(Pace.FASTEST)
         session.timeline.pause()
         session.timeline.set_speed(SPEED)
         session.side_views.close_all()

@@ -30,6 +30,7 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
     from hexmend_app.shell.start.program import application
     from hexmend_app.shell.window import Window
     from hexmend_app.state.mesh.document import State
+    from hexmend_app.state.run.pace import Pace
 
     app = application()
     rows = []
@@ -38,6 +39,7 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
         window.resize(1440, 900)
         window.show()
         window.build_features()
+        window.session.run.set_pace(Pace.FASTEST)
         window.build_canvas()
         window.session.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
         run_event_loop(0.5)  # until the layout has settled

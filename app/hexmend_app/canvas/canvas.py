@@ -281,7 +281,7 @@ class Canvas(CameraView):
             self.colour_bar.setVisible(not self.viewport.frame.look.colours.neutral)
             self.colour_bar.set_label(colouring.title)
             self.colour_bar.set_table(colouring.table)
-            self.colour_bar.set_range(colouring.low, colouring.high)
+            self.colour_bar.set_range(colouring.low, colouring.high, colouring.beyond)
             self.colour_bar.set_names(colouring.names)
             single = len(self.panes.all) == 1  # the captions of several views show the numbers of inverted hexes
             self.colour_bar.set_special(

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from hexmend_app.canvas.name_list import NameList
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
-from hexmend_app.scene.colour.colouring import range_label
+from hexmend_app.scene.colour.colouring import end_label
 from hexmend_app.scene.colour.ticks import ticks_with_ends
 from hexmend_app.theme.style import INVERTED, LINE, MUTED, PANEL, TEXT, on_theme_change, set_help, smaller, tabular
 from hexmend_app.translation import tr
@@ -76,10 +76,10 @@ class ColourBar(QFrame):
             self._title.setText(label)
             self._describe()
 
-    def set_range(self, low: float, high: float) -> None:
+    def set_range(self, low: float, high: float, beyond: tuple[bool, bool] = (False, False)) -> None:
         """Set the values at the ends of the gradient."""
-        if (low, high) != self.range:
-            self._gradient.low, self._gradient.high = float(low), float(high)
+        if (low, high, beyond) != (*self.range, self._gradient.beyond):
+            self._gradient.low, self._gradient.high, self._gradient.beyond = float(low), float(high), beyond
             self._gradient.update()
             self._describe()
 
@@ -168,13 +168,14 @@ class _Gradient(QWidget):
         super().__init__()
         self.table = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
         self.low, self.high = 0.0, 1.0
+        self.beyond = (False, False)
         self._key: tuple = ()  # values that `_drawn` depends on
         self._drawn = QPixmap()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
 
     def text(self, value: float) -> str:
         """Format a value for a tick."""
-        return range_label(value, self.low, self.high)
+        return end_label(value, self.low, self.high, self.beyond)
 
     def sizeHint(self) -> QSize:
         """Return the width of gradient and numbers; a minimum width makes changes rare."""
@@ -194,8 +195,8 @@ class _Gradient(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint gradient, ticks and numbers from a cached pixmap; called with every frame of the view below."""
-        key = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.font().key())
-        key += (str(LINE), str(MUTED), str(TEXT))
+        key = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.beyond)
+        key += (self.font().key(), str(LINE), str(MUTED), str(TEXT))
         if key != self._key:
             self._key, self._drawn = key, self._draw()
         QPainter(self).drawPixmap(0, 0, self._drawn)

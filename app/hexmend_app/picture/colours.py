@@ -19,7 +19,7 @@ class Range(StrEnum):
     FULL = "full"
     """All values that the metric can have."""
     FITTED = "fitted"
-    """From the smallest to the largest value of the mesh."""
+    """From the smallest to the largest value of the mesh, except one percent that is far outside of most."""
     ACCEPTABLE = "acceptable"
     """Values that are usually acceptable for solvers."""
 

@@ -242,7 +242,7 @@ class Window(QMainWindow):
         call_each(self.features.values(), lambda feature: feature.refresh())
         self._refresh_menus()
         # Esc dismisses messages first, then cancels opening.
-        self.busy.take_escape("open" if self.session.opener.busy and self.messages.isHidden() else "")
+        self.busy.take_escape("open" if self.session.opener.busy and not self.messages.takes_escape else "")
         document = self.session.document
         if document.is_open:
             self._counts.refresh(self.session)

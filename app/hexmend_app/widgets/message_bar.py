@@ -44,8 +44,8 @@ class MessageBar(QFrame):
     """Bar that shows one message at a time, and is hidden without messages.
 
     Errors are shown first, then warnings and results, each with the newest first. A message with lower priority than
-    the message shown waits behind it. Esc dismisses the message shown. A message that repeats the last one of its kind
-    is counted, not queued.
+    the message shown waits behind it. Esc dismisses a message that does not go by itself. A message that repeats the
+    last one of its kind is counted, not queued.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class MessageBar(QFrame):
     emptied
         The last message has been dismissed.
     filled
-        A first message is shown, and takes Esc.
+        A message is shown that takes Esc, or a first one.
     """
 
     emptied = Signal()
@@ -138,6 +138,12 @@ class MessageBar(QFrame):
         """Show a result for `timeout_ms` milliseconds (0: until dismissed)."""
         self._add(_Message("info", text, "", timeout_ms))
 
+    def show_result(
+        self, title: str, text: str, choices: Sequence[tuple[str, Callable[[], object]]], timeout_ms: int = 12_000
+    ) -> None:
+        """Show a result for `timeout_ms` milliseconds with a button for each choice, as `show_offer`."""
+        self._add(_Message("info", title, text, timeout_ms, tuple(choices)))
+
     def _add(self, message: _Message) -> None:
         rank = _rank(message)
         shown = self._messages[self._at] if self._messages else None
@@ -168,6 +174,11 @@ class MessageBar(QFrame):
         """Remove all messages."""
         while self._messages:
             self.dismiss()
+
+    @property
+    def takes_escape(self) -> bool:
+        """True if Esc dismisses the message shown."""
+        return self._escape.isEnabled()
 
     def messages(self) -> list[tuple[str, str, str]]:
         """Return kind, title and text of all stored messages, oldest first."""
@@ -208,16 +219,18 @@ class MessageBar(QFrame):
 
     def _refresh(self) -> None:
         self._timer.stop()
-        self._escape.setEnabled(bool(self._messages))
+        before = self._escape.isEnabled()
+        self._escape.setEnabled(False)
         filled = bool(self._messages) and self.isHidden()
         self.setVisible(bool(self._messages))
-        if filled:
-            self.filled.emit()
         if not self._messages:
             self._at = 0
             return
         self._at %= len(self._messages)
         message = self._messages[self._at]
+        self._escape.setEnabled(not message.timeout_ms)  # what goes by itself leaves Esc to others
+        if filled or self.takes_escape is not before:
+            self.filled.emit()
         self._paint()
         self._icon.setAccessibleName(message.kind)
         self.title.setText(message.title + (f"  (×{message.times})" if message.times > 1 else ""))

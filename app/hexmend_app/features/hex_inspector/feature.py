@@ -131,7 +131,7 @@ class FeatureHexInspector(Feature):
                 help=tr("End the isolation, then clear the selection."),
                 handle=self._back,
                 enabled=lambda: (
-                    self.host.messages.isHidden()
+                    not self.host.messages.takes_escape
                     and not self.session.opener.busy
                     and (self._selection.hex is not None or self._view.look.show.isolate is not None)
                 ),

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, Distribution, distribute
-from hexmend_app.features.histogram.outline import Series
+from hexmend_app.features.histogram.outline import Gradient, Series
 from hexmend_app.theme.palette import KEPT
 from hexmend_app.theme.style import BLUE, GREY
 from hexmend_app.translation import tr
@@ -22,10 +22,13 @@ class Distributions:
     axis : Axis
     current : Distribution or None
     snapshots : list of (slot, name, Distribution)
+    gradient : Gradient
+        Colours of the view along the axis; () if they show something else.
     """
 
     def __init__(self) -> None:
         self.axis = Axis("q")
+        self.gradient: Gradient = ()
         self._bins = DEFAULT_BINS
         self._clear()
 
@@ -79,12 +82,16 @@ class Distributions:
             self.snapshots.append((slot, name, distribution))
 
     def series(self) -> list[Series]:
-        """Return the distributions as they are drawn, in the order of the legend."""
-        series = []
+        """Return the distributions as they are drawn, in the order of the legend.
+
+        Where that of now has the colours of the view, which are opaque, that of the start is an outline over it.
+        """
+        series, coloured = [], bool(self.gradient)
         if self._initial is not None:
-            series.append(Series("start", tr("at the start"), GREY, self._initial, filled=True))
+            series.append(Series("start", tr("at the start"), GREY, self._initial, filled=not coloured))
         if self.current is not None:
-            series.append(Series("now", "now", BLUE, self.current, filled=True, current=True))
+            now = Series("now", "now", BLUE, self.current, filled=True, current=True, gradient=self.gradient)
+            series.insert(0 if coloured else len(series), now)
         return series + [Series(str(slot), name, KEPT[slot], counts) for slot, name, counts in self.snapshots]
 
     def _clear(self) -> None:

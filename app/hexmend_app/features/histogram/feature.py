@@ -12,6 +12,7 @@ from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.histogram.head import HistogramSettings
 from hexmend_app.features.histogram.histogram_file import figure, write_histogram
+from hexmend_app.features.histogram.outline import Gradient
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.picture.visibility import Show
 from hexmend_app.state.mesh.document import State
@@ -22,6 +23,9 @@ from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.theme.palette import BLUE, GREY, KEPT
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
+
+#: Number of colours between which those of the bars lie.
+_COLOURS = 33
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
 
@@ -94,6 +98,7 @@ class FeatureHistogram(Feature):
         self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.colours.metric)
         if self._document.is_open and self.panel.isVisible():
             self._count()
+            self.panel.set_gradient(self._gradient())
         self.panel.set_range(range)
 
     def _count(self) -> None:
@@ -105,6 +110,16 @@ class FeatureHistogram(Feature):
             self._show_snapshots()
         if self._seen.changed("now", self.metric, now):
             self.panel.set_current(self._values(now), now.figures.inverted)
+
+    def _gradient(self) -> Gradient:
+        """Return the colours of the view along the axis; () if they show another metric or none."""
+        colouring = None if self.canvas is None or self._view.look.colours.neutral else self.canvas.colouring
+        if colouring is None or colouring.names or self.metric != self._view.look.colours.metric:
+            return ()
+        axis, positions = self.panel.axis, np.linspace(0.0, 1.0, _COLOURS)
+        values = axis.low + positions * (axis.high - axis.low)
+        colours = colouring.colours(values, np.zeros(_COLOURS, bool))
+        return tuple((float(at), f"#{bytes(colour).hex()}") for at, colour in zip(positions, colours, strict=True))
 
     def _values(self, state: State) -> np.ndarray:
         return metric_values(self.metric, state.mesh, state.figures)

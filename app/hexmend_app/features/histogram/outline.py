@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF
-from PySide6.QtGui import QPainterPath, QPolygonF
+from PySide6.QtGui import QBrush, QLinearGradient, QPainterPath, QPolygonF
 from PySide6.QtWidgets import QGraphicsPathItem
 
 from hexmend_app.features.histogram.bins import Distribution
@@ -17,6 +17,10 @@ from hexmend_app.theme.style import INVERTED
 #: Top of a broken bar, position and width of its gap, and height of the teeth, as fractions of the axis.
 BROKEN_TOP, _GAP_AT, _GAP, _TOOTH = 1.08, 0.88, 0.05, 0.03
 _TEETH = 4
+
+
+#: Colours (#rrggbb) by their position on the axis of values, from 0 to 1.
+Gradient = tuple[tuple[float, str], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +38,8 @@ class Series:
         True if the area below the outline is filled.
     current : bool
         True for the distribution of now.
+    gradient : tuple of (float, str)
+        Colours of the filled area by their position on the axis, from 0 to 1; by default `colour`.
     """
 
     key: str
@@ -42,6 +48,7 @@ class Series:
     distribution: Distribution
     filled: bool = False
     current: bool = False
+    gradient: Gradient = ()
 
 
 @dataclass(frozen=True)
@@ -100,15 +107,16 @@ class Outline:
     def draw(self, layer: int, series: Series, heights: Heights) -> None:
         """Draw a distribution in a layer; higher layers are drawn over lower ones."""
         # During a run, only the distribution of now changes.
-        if self._drawn is not None and self._drawn[0] is series.distribution and self._drawn[1:] == (layer, heights):
+        style = (layer, heights, series.filled, series.gradient)
+        if self._drawn is not None and self._drawn[0] is series.distribution and self._drawn[1:] == style:
             return
-        self._drawn = (series.distribution, layer, heights)
+        self._drawn = (series.distribution, *style)
         colour = str(series.colour)
         shown = series.distribution.cumulated() if heights.cumulative else series.distribution
         filled = series.filled and not heights.cumulative  # filled cumulative shares would hide each other
         width = 1.0 if filled else 1.8
         pen = pg.mkPen(colour, width=width)
-        brush = pg.mkBrush(colour + ("70" if series.current else "50")) if filled else None
+        brush = _brush(series) if filled else None
         curve = heights.of(shown, shown.counts)
         self.curve.setData(
             np.linspace(0, 1, len(curve) + 1),
@@ -126,6 +134,16 @@ class Outline:
         _draw_bars(self.ends, bars, shown, heights, pen, brush)
         for item in self.items:
             item.setZValue(layer)
+
+
+def _brush(series: Series) -> QBrush:
+    """Return the brush of the area below an outline."""
+    if not series.gradient:
+        return pg.mkBrush(str(series.colour) + ("70" if series.current else "50"))
+    gradient = QLinearGradient(0.0, 0.0, 1.0, 0.0)
+    for position, colour in series.gradient:
+        gradient.setColorAt(position, colour)
+    return QBrush(gradient)
 
 
 def _draw_bars(item: QGraphicsPathItem, bars: list, distribution: Distribution, heights: Heights, pen, brush) -> None:

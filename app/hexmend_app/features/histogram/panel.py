@@ -18,7 +18,7 @@ from hexmend_app.features.histogram.distributions import Distributions
 from hexmend_app.features.histogram.head import HistogramHead
 from hexmend_app.features.histogram.histogram_plot import HistogramPlot
 from hexmend_app.features.histogram.legend import HistogramLegend
-from hexmend_app.features.histogram.outline import Series
+from hexmend_app.features.histogram.outline import Gradient, Series
 from hexmend_app.features.histogram.range_row import RangeRow
 from hexmend_app.picture.visibility import Show
 from hexmend_app.theme.palette import KEPT
@@ -165,6 +165,12 @@ class QualityHistogram(QWidget):
         self._distributions.set_snapshots(snapshots)
         self.legend.set_snapshots([(slot, name) for slot, name, _ in self._distributions.snapshots])
         self._refresh()
+
+    def set_gradient(self, gradient: Gradient) -> None:
+        """Fill the distribution of now with colours along the axis; with that of its name for ()."""
+        if gradient != self._distributions.gradient:
+            self._distributions.gradient = gradient
+            self._refresh()
 
     def series(self) -> list[Series]:
         """Return the distributions as they are drawn, in the order of the legend."""

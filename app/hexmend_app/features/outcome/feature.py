@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from hexmend.advice import Advice, Suggestion
 from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
+from hexmend_app.features.outcome.notice import notice
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.translation import tr
@@ -84,6 +86,23 @@ class FeatureOutcome(Feature):
         record, advice = self.session.run.record, self.session.run.advice
         if record not in self.session.history.records:
             self._empty_run = (self.session.timeline.record, record.name, advice)
+        elif record.end is not None:
+            title, text = notice(record, record.start.summary, record.end.summary)
+            choices = (
+                (tr("Compare"), partial(self._compare, record)),
+                (tr("Undo"), partial(self._do, "undo", record)),
+                (tr("Save…"), partial(self._do, "save", record)),
+            )
+            self.host.messages.show_result(title, text, choices if record.result else ())
+
+    def _do(self, action: str, record: RunRecord) -> None:
+        """Trigger an action, if the result of a run is still the last change of the mesh."""
+        if self.session.document.recorded is record.end:
+            self.host.action(action).trigger()
+
+    def _compare(self, record: RunRecord) -> None:
+        """Show the mesh before a run next to its result."""
+        self.session.side_views.show(tr("before {name}", name=record.name), record.start)
 
     def _on_mesh_replaced(self) -> None:
         self._empty_run = None

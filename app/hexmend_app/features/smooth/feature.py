@@ -14,10 +14,13 @@ from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_count
 from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.smooth.run_buttons import STATES, RunState
+from hexmend_app.features.smooth.skip_on_input import SkipOnInput
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.mesh.run_record import balances
+from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.worker import IterationFrame
+from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_short_of_memory
 from hexmend_app.widgets.error_report import report_of
@@ -25,6 +28,13 @@ from hexmend_app.widgets.wording import figure
 
 #: Actions whose keys are shown on the panel's buttons.
 _BUTTONS = ("run", "step", "stop", "reset")
+
+#: Texts and explanations of the paces.
+_PACES = {
+    Pace.FASTEST: ("&As fast as possible", "Show the newest iteration; short runs are over before the eye moves."),
+    Pace.EASED: ("&Eased", "Let iterations merge into one another; short runs are shown for two to three seconds."),
+    Pace.EVERY: ("E&very one", "Wait with the next iteration until the last one is shown: slower, none is skipped."),
+}
 
 
 class FeatureSmooth(Feature):
@@ -48,6 +58,8 @@ class FeatureSmooth(Feature):
         panel.pause_requested.connect(smoothing.pause)
         panel.resume_requested.connect(smoothing.resume)
         panel.breakpoint_form.changed.connect(smoothing.break_at)
+        smoothing.set_pace(Pace(settings.RUN_PACE.get()))
+        SkipOnInput(smoothing, lambda: self.host.canvas)
         smoothing.failed.connect(self._on_failed)
         smoothing.hit.connect(self._on_hit)
 
@@ -101,15 +113,19 @@ class FeatureSmooth(Feature):
     def _option_actions(self) -> Sequence[Action]:
         """Return the actions for options of runs, and for their command."""
         return (
-            Action(
-                id="show_every",
-                text=tr("Show e&very iteration"),
-                menu="Smooth",
-                part=3,
-                help=tr("Wait with the next iteration until the last one is shown: slower, but none is skipped."),
-                handle=self._smoothing.show_every,
-                checked=lambda: self._smoothing.shows_every,
-                needs_mesh=False,
+            *(
+                Action(
+                    id=f"pace_{pace.value}",
+                    text=tr(text),
+                    menu="Smooth/Iterations in the view",
+                    part=3,
+                    help=tr(help),
+                    handle=lambda on, pace=pace: self._set_pace(pace, on),
+                    checked=lambda pace=pace: self._smoothing.pace is pace,
+                    needs_mesh=False,
+                    exclusive=True,
+                )
+                for pace, (text, help) in _PACES.items()
             ),
             Action(
                 id="copy_command",
@@ -122,8 +138,13 @@ class FeatureSmooth(Feature):
             ),
         )
 
+    def _set_pace(self, pace: Pace, on: bool) -> None:
+        if on and pace is not self._smoothing.pace:
+            self._smoothing.set_pace(pace)
+            settings.RUN_PACE.set(pace.value)
+
     def states(self) -> Sequence[StatePart]:
-        """Return the number of iterations of a step, and whether every iteration is shown."""
+        """Return the number of iterations of a step."""
         steps = StatePart(
             name="steps",
             data=int,
@@ -131,13 +152,7 @@ class FeatureSmooth(Feature):
             restore=self.panel.set_steps,
             check=partial(check_count, "steps"),
         )
-        every = StatePart(
-            name="every_iteration",
-            data=bool,
-            to_data=lambda: self._smoothing.shows_every,
-            restore=self._smoothing.show_every,
-        )
-        return steps, every
+        return (steps,)
 
     def actions_ready(self) -> None:
         """Show actions on the buttons of the panel."""

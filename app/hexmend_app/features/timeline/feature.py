@@ -68,6 +68,7 @@ class FeatureTimeline(Feature):
     def actions_ready(self) -> None:
         """Show actions on the buttons of the panel."""
         self.panel.show_actions({name: self.host.action(f"iteration_{name}") for name, *_ in _STEPS})
+        self.panel.run_bar.show_actions({name: self.host.action(name) for name in ("run", "step", "stop")})
 
     def panels(self) -> Sequence[Panel]:
         """Return the bar below the view."""
@@ -85,6 +86,7 @@ class FeatureTimeline(Feature):
         """Show the runs, and the run and iteration displayed."""
         timeline, history = self._timeline, self.session.history
         self.panel.setVisible(self.session.document.is_open)
+        self.panel.run_bar.set_state(self._smoothing.phase, self._smoothing.outcome)
         if self._seen.changed("runs", tuple(history.records)):
             self.panel.set_runs([_text(record) for record in history.records])
         record = timeline.record

@@ -9,6 +9,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
+from hexmend_app.features.timeline.run_bar import RunBar
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.theme.style import icon, set_help, tabular
 from hexmend_app.translation import tr
@@ -24,7 +25,12 @@ _STEPS = ("first", "back", "play", "on", "newest")
 
 
 class TimelineBar(QWidget):
-    """Bar with the runs, a slider for the iterations, and buttons.
+    """Bar with buttons of the active run, the runs, a slider for the iterations, and buttons.
+
+    Attributes
+    ----------
+    run_bar : RunBar
+        Buttons and state of the active run.
 
     Signals
     -------
@@ -46,12 +52,13 @@ class TimelineBar(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
+        self.run_bar = RunBar()
         self._runs = QComboBox()
         let_shrink(self._runs, 12)
         self._runs.activated.connect(self.run_chosen)
         set_help(self._runs, tr("Run"), tr("Run shown in the timeline."))
         self._buttons = {name: ActionButton() for name in _STEPS}
-        self._branch = ActionButton(with_text=True)
+        self._branch = ActionButton()
         for button in (*self._buttons.values(), self._branch):
             button.setAutoRaise(True)
         self._slider = TrackSlider()
@@ -69,6 +76,8 @@ class TimelineBar(QWidget):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(8, 1, 8, 1)
         layout.setSpacing(2)
+        layout.addWidget(self.run_bar)
+        layout.addSpacing(8)
         layout.addWidget(self._runs)
         layout.addSpacing(4)
         for button in self._buttons.values():

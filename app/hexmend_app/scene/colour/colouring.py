@@ -39,6 +39,12 @@ _CHANGED = (
     SpecialColour("mended", _MENDED),
 )
 
+#: Percentiles of a robust range: its ends, and the middle half. Of larger meshes every so many values are taken.
+_PERCENTILES, _SAMPLE = (0.5, 25, 75, 99.5), 200_000
+
+#: Distance of far values from the middle half, in spans of it.
+_FAR = 6.0
+
 #: Minimum width of a fitted range relative to its values, for values that differ by rounding only.
 _MIN_WIDTH = 1e-6
 
@@ -58,6 +64,8 @@ class Colouring:
     special_colours : tuple of SpecialColour
     names : tuple of str
         Names of the values 0, 1, ... of materials, whose colours are then the rows of the table, (k, 3).
+    beyond : (bool, bool)
+        True if hexes with the first and with the last colour have values below and above the range.
     """
 
     title: str
@@ -66,6 +74,7 @@ class Colouring:
     table: np.ndarray
     special_colours: tuple[SpecialColour, ...] = _INVERTED
     names: tuple[str, ...] = ()
+    beyond: tuple[bool, bool] = (False, False)
 
     def colours(self, values: np.ndarray, kinds: np.ndarray) -> np.ndarray:
         """Return the colour of each hex, (k, 3) uint8.
@@ -106,7 +115,7 @@ class Colouring:
         """Format a value for the colour bar, to three digits of the range; name a material."""
         if self.names:
             return self.names[round(value)]
-        return range_label(value, self.low, self.high)
+        return end_label(value, self.low, self.high, self.beyond)
 
 
 def resolve(
@@ -146,7 +155,9 @@ def resolve(
     table = COLOUR_MAPS[CHANGE_MAP if change else colours.map].table
     if colours.reverse != (better(colours.metric) < 0):
         table = table[::-1]
-    return Colouring(title or colour_quantity(colours.metric).title, *ends, table, _CHANGED if change else _INVERTED)
+    title, chosen = title or colour_quantity(colours.metric).title, _ordinary(values, inverted)
+    beyond = bool((chosen < ends[0]).any()), bool((chosen > ends[1]).any())
+    return Colouring(title, *ends, table, _CHANGED if change else _INVERTED, beyond=beyond)
 
 
 def declared_ends(colours: Colours) -> tuple[float, float] | None:
@@ -159,16 +170,44 @@ def declared_ends(colours: Colours) -> tuple[float, float] | None:
 
 
 def fitted(values: np.ndarray, inverted: np.ndarray) -> tuple[float, float]:
-    """Return the range of values, (m,), except those of `inverted` hexes, (m,) bool; a point is widened."""
-    finite = np.isfinite(values)
-    chosen = values[finite & ~inverted]
-    if not chosen.size:
-        chosen = values[finite]
+    """Return the range of values, (m,), except those of `inverted` hexes, (m,) bool; a point is widened.
+
+    Values far outside of most, by more than `_FAR` times the span of their middle half, are left out up to one percent.
+    """
+    chosen = _ordinary(values, inverted)
     if not chosen.size:
         return 0.0, 1.0
-    low, high = float(chosen.min()), float(chosen.max())
+    low, high = _robust_ends(chosen)
     missing = max(_MIN_WIDTH * max(abs(low), abs(high)), 1e-300) - (high - low)
     return (low, high) if missing <= 0 else (low - missing / 2, high + missing / 2)
+
+
+def _ordinary(values: np.ndarray, inverted: np.ndarray) -> np.ndarray:
+    """Return the finite values of hexes that are not inverted; of all, if these have none."""
+    finite = np.isfinite(values)
+    chosen = values[finite & ~inverted]
+    return chosen if chosen.size else values[finite]
+
+
+def _robust_ends(values: np.ndarray) -> tuple[float, float]:
+    """Return the smallest and largest value, except a few that are far outside of most."""
+    low, high = float(values.min()), float(values.max())
+    first, lower, upper, last = (float(v) for v in np.percentile(values[:: 1 + values.size // _SAMPLE], _PERCENTILES))
+    fence = _FAR * (upper - lower)
+    if upper > lower:
+        low = low if low >= lower - fence else max(low, min(first, lower - fence))
+        high = high if high <= upper + fence else min(high, max(last, upper + fence))
+    return low, high
+
+
+def end_label(value: float, low: float, high: float, beyond: tuple[bool, bool]) -> str:
+    """Format a value between `low` and `high`; an end beyond which there are values with ≤ or ≥.
+
+    >>> end_label(0.0, 0, 1, (True, False)), end_label(1.0, 0, 1, (True, False)), end_label(0.5, 0, 1, (True, True))
+    ('≤ 0', '1', '0.5')
+    """
+    sign = "≤ " if value == low and beyond[0] else "≥ " if value == high and beyond[1] else ""
+    return sign + range_label(value, low, high)
 
 
 def range_label(value: float, low: float, high: float) -> str:

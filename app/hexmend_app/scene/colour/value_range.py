@@ -9,6 +9,9 @@ from hexmend_app.picture.colours import Range
 from hexmend_app.picture.quantities import colour_quantity
 from hexmend_app.picture.visibility import Show
 
+#: Metrics that are positive for hexes that are not inverted, and for no others.
+_POSITIVE = ("scaled-jacobian",)
+
 
 def within(values: np.ndarray, inverted: np.ndarray, show: Show) -> np.ndarray:
     """Return True for the hexes in a range, (m,) bool, which are exactly those that the histogram counts in it.
@@ -40,6 +43,11 @@ def better(metric: str) -> int:
 
 
 def declared_range(metric: str, range: Range) -> tuple[float, float] | None:
-    """Return the FULL or ACCEPTABLE range of a metric; None if it is infinite."""
+    """Return the FULL or ACCEPTABLE range of a metric; None if it is infinite.
+
+    The full range of the scaled Jacobian begins at 0: hexes of lower values are inverted and have their own colour.
+    """
     declared = colour_quantity(metric).full_range if range is Range.FULL else colour_quantity(metric).acceptable
+    if metric in _POSITIVE and range is Range.FULL:
+        declared = 0.0, declared[1]
     return tuple(map(float, declared)) if np.isfinite(declared).all() else None

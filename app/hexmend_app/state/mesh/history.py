@@ -202,10 +202,33 @@ class History:
             if state is not None and state.mesh.points is points and _same_own_parts(state.mesh, mesh):
                 break
         else:
-            mesh = mesh.with_points(points)
-            surface = mesh.points if record.holds_times else record.start.mesh.surface_points
-            state = State.of(mesh if mesh.surface_points is surface else mesh.moving_from(surface))
+            state = _state_with(mesh, record, points)
         self._moments[state] = RecordedIteration(record, number)
+        return state
+
+    def state_between(self, record: RunRecord, at: float, mesh: Mesh) -> State:
+        """Return a state between two recorded iterations, its nodes on straight lines from one to the other.
+
+        Parameters
+        ----------
+        record : RunRecord
+        at : float
+            Number of an iteration with a fraction; `iteration_of` says the nearest.
+        mesh : Mesh
+            The open mesh, whose `OWN_PARTS` the state gets.
+        """
+        with self._lock:
+            numbers = record.numbers()
+            above = min(int(np.searchsorted(numbers, at)), numbers.size - 1)
+            last = int(numbers[above])
+            if above == 0 or at >= last:
+                points = record.points(last)
+            else:
+                first = int(numbers[above - 1])
+                points, end = record.points(first), record.points(last)
+                points = points + (at - first) / (last - first) * (end - points)
+        state = _state_with(mesh, record, points)
+        self._moments[state] = RecordedIteration(record, round(at))
         return state
 
     def _free_slot(self) -> int:
@@ -235,6 +258,13 @@ class History:
                 break
             record, number, _ = self._positions.pop(int((gap / age).argmin()))
             self._bytes -= record._offsets.pop(number).nbytes
+
+
+def _state_with(mesh: Mesh, record: RunRecord, points: np.ndarray) -> State:
+    """Return the state of the open mesh with the positions of a record."""
+    mesh = mesh.with_points(points)
+    surface = mesh.points if record.holds_times else record.start.mesh.surface_points
+    return State.of(mesh if mesh.surface_points is surface else mesh.moving_from(surface))
 
 
 def _same_own_parts(mesh: Mesh, other: Mesh) -> bool:

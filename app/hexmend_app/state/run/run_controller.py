@@ -11,6 +11,7 @@ from functools import partial
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.advice import Advice
+from hexmend.iteration import Outcome
 from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
@@ -18,6 +19,8 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
+from hexmend_app.state.run.eased_view import EasedView
+from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_settings import rules_text, settings_text
 from hexmend_app.state.run.worker import IterationFrame, Worker
 
@@ -48,11 +51,16 @@ class RunController(QObject):
         Record of the active or last run.
     advice : Advice or None
         Why the last run ended, and what to do.
+    outcome : Outcome or None
+        Why the last run ended; None if it failed.
     following : bool
         True if iterations are shown as they come; False while the user looks at earlier ones.
-    shows_every : bool
-        True if the run waits until an iteration is shown before it makes the next one; else some are skipped where
-        they come faster than they can be drawn.
+    pace : Pace
+        Pace at which the iterations of runs are shown.
+    history : History
+        Records of all runs.
+    eased : EasedView
+        Shows iterations at the pace of that name.
     iterating : bool
         True while `iterated` is emitted and nothing else has changed.
 
@@ -60,8 +68,8 @@ class RunController(QObject):
     -------
     phase_changed
     iterated(IterationFrame)
-        The newest iteration. Iterations between two checks of the mailbox are not emitted, but recorded, unless every
-        one is shown.
+        The newest iteration. Iterations between two checks of the mailbox are not emitted, but recorded, except at the
+        pace that shows every one.
     hit(IterationFrame)
         The run has reached a breakpoint and pauses.
     ended(Result)
@@ -79,7 +87,7 @@ class RunController(QObject):
     def __init__(self, document: Document, history: History, parent: QObject | None = None):
         super().__init__(parent)
         self._document = document
-        self._history = history
+        self.history = history
         self._before: State | None = None
         self.iterating = False
         self._worker: Worker | None = None
@@ -90,8 +98,10 @@ class RunController(QObject):
         self.work: Smoother | Recipe | None = None
         self.record: RunRecord | None = None
         self.advice: Advice | None = None
+        self.outcome: Outcome | None = None
         self.following = True
-        self.shows_every = False
+        self.pace = Pace.FASTEST
+        self.eased = EasedView(document, history, self)
         self.phase = Phase.IDLE
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
@@ -126,19 +136,22 @@ class RunController(QObject):
         """
         if self.busy or not self._document.is_open:
             return
+        self.eased.skip()
         self._before = self._document.now
         self.work, self._title = smoother, smoother.title
-        self.record = self._history.begin(smoother.title, self._before)
+        self.record = self.history.begin(smoother.title, self._before)
         self.following = True
         rules = smoother.rules if isinstance(smoother, Recipe) else rules or MotionRules()
-        record = partial(self._history.add, self.record)
+        record = partial(self.history.add, self.record)
         self._worker = Worker(self._before.mesh, smoother, stop, record, rules)
         self.record.work, self.record.stop, self.record.changes = smoother, stop, self._worker.changes
         self.record.rules = rules
         self.record.settings = "; ".join(filter(None, (settings_text(smoother, stop), rules_text(rules))))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
-        self._worker.shows_every = self.shows_every
+        self._worker.shows_every = self.pace is Pace.EVERY
         self._worker.grant(iterations)
+        if self.pace is Pace.EASED and math.isinf(iterations):
+            self.eased.begin(self.record)
         self._set_phase(Phase.PREPARING)
         self._worker.task.start()
         self._timer.start()
@@ -149,11 +162,20 @@ class RunController(QObject):
         if self._worker is not None:
             self._worker.metrics = self._metrics
 
-    def show_every(self, on: bool) -> None:
-        """Let runs wait until each iteration is shown, or not."""
-        self.shows_every = on
+    def set_pace(self, pace: Pace) -> None:
+        """Set the pace at which the iterations of runs are shown."""
+        self.pace = pace
+        if pace is not Pace.EASED:
+            self.skip_easing()
         if self._worker is not None:
-            self._worker.shows_every = on
+            self._worker.shows_every = pace is Pace.EVERY
+
+    def skip_easing(self) -> None:
+        """Show the newest iteration or the result at once, and those that follow as they come."""
+        if self.eased.active:
+            self.eased.skip()
+            if self._worker is not None and self._worker.last is not None and self.following:
+                self._preview(self._worker.last)
 
     def break_at(self, breakpoints: Breakpoints) -> None:
         """Set the breakpoints at which runs pause."""
@@ -168,6 +190,7 @@ class RunController(QObject):
 
     def follow(self, on: bool) -> None:
         """Show iterations as they come, starting with the newest, or stop doing so."""
+        self.eased.cancel()
         self.following = on
         if on and self._worker is not None and self._worker.last is not None:
             self._preview(self._worker.last)
@@ -176,6 +199,7 @@ class RunController(QObject):
         """Pause after the current iteration."""
         if self._worker is not None:
             self._worker.grant(0)
+            self.skip_easing()
 
     def resume(self) -> None:
         """Resume the run, and show its iterations."""
@@ -187,6 +211,7 @@ class RunController(QObject):
     def step(self, iterations: int = 1) -> None:
         """Run some more iterations, show them, and pause."""
         if self._worker is not None:
+            self.skip_easing()
             self.following = True
             self._worker.grant_more(iterations)
             self._update()
@@ -213,6 +238,7 @@ class RunController(QObject):
 
         The function is called at once if no run is active; several functions are called in the order of the calls.
         """
+        self.skip_easing()
         if self._worker is None:
             then()
             return
@@ -229,13 +255,14 @@ class RunController(QObject):
 
     def close(self) -> None:
         """Cancel the run; nothing more of it is shown or recorded."""
+        self.eased.cancel()
         self._timer.stop()
         self._after_end.clear()
         if self._worker is not None:
             self._worker.end()
             self._worker.task.drop()
             self._worker = None
-            self._history.finish(self.record, None, None, "")
+            self.history.finish(self.record, None, None, "")
             self._set_phase(Phase.IDLE)
 
     def _update(self) -> None:
@@ -257,14 +284,15 @@ class RunController(QObject):
         if frame.hit is not None:
             self.record.pauses[frame.iteration.number] = frame.hit.sentence
             self.following = True
-        if self.following:
+            self.eased.cancel()
+        if self.following and not self.eased.active:
             self._preview(frame)
         self.iterated.emit(frame)
         if frame.hit is not None:
             self.hit.emit(frame)
 
     def _preview(self, frame: IterationFrame) -> None:
-        self._history.register_state(frame.state, RecordedIteration(self.record, frame.iteration.number))
+        self.history.register_state(frame.state, RecordedIteration(self.record, frame.iteration.number))
         self._document.preview(frame.state)
 
     def _finish(self, worker: Worker) -> None:
@@ -272,10 +300,12 @@ class RunController(QObject):
         worker.task.wait()
         self._worker = None
         error, last = worker.task.error, worker.last
+        self.outcome = worker.task.result.outcome if error is None else None
         reached = None if last is None else RecordedIteration(self.record, last.iteration.number)
         message = worker.task.result.message if error is None else f"Failed: {error}."
-        self._history.finish(self.record, reached, last and last.state, message)
+        self.history.finish(self.record, reached, last and last.state, message)
         if error is not None:
+            self.eased.cancel()
             if last is None:
                 self._document.preview(self._before)
             else:
@@ -284,8 +314,13 @@ class RunController(QObject):
             self.failed.emit(error)
         else:
             if last is not None:
-                self._document.commit(self._title, last.state, show=self.following)
+                if self.following and self.eased.active:
+                    self.eased.finish(last.iteration.number, last.state)
+                show = self.following and not self.eased.active
+                self._document.commit(self._title, last.state, show=show)
                 self.iterated.emit(last)
+            else:
+                self.eased.cancel()
             self.advice = self.record.advice = worker.advice
             self._set_phase(Phase.FINISHED)
             self.ended.emit(worker.task.result)

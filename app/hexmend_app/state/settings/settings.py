@@ -92,6 +92,12 @@ def _switch(value: Any) -> bool:
     return str(value) == "true"
 
 
+def _pace(value: Any) -> str:
+    if str(value) not in ("fastest", "eased", "every"):
+        raise ValueError(value)
+    return str(value)
+
+
 def _paths(value: Any) -> tuple[Path, ...]:
     return tuple(Path(path) for path in json.loads(value))
 
@@ -108,6 +114,8 @@ FOLDER = Setting("folder", Path.home(), Path, str)
 #: Memory limit of the positions of iterations in MB, and iterations played per second.
 HISTORY_MEGABYTES = Setting("history_megabytes", 512, _positive)
 ITERATIONS_PLAYED = Setting("iterations_played", 10, _positive)
+#: One of `hexmend_app.state.run.pace.Pace`.
+RUN_PACE = Setting("run_pace", "eased", _pace)
 #: Key figures are shown in the view.
 KEY_FIGURES = Setting("key_figures", True, _switch, lambda on: "true" if on else "false")
 

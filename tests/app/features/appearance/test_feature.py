@@ -31,7 +31,7 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     whole, bar = pixels(window), window.canvas.colour_bar
     walk_to(window, named(panel, QComboBox, "Metric"), "scaled-jacobian")
     assert window.session.view.look.colours.metric == "scaled-jacobian"
-    assert "Scaled Jacobian from -1 to 1" in bar.accessibleDescription()
+    assert "Scaled Jacobian from 0 to 1" in bar.accessibleDescription()
     recoloured = pixels(window)
     assert differ(whole, recoloured) > 0.05
     maps = named(panel, QComboBox, "Colour map")

@@ -160,3 +160,18 @@ def test_a_refresh_during_a_drag_does_not_reset_the_range(window, qtbot, histogr
     window.refresh()
     qtbot.waitUntil(lambda: window.session.view.look.show.by_quality == histogram.range(), timeout=PATIENCE)
     assert histogram.range().high == pytest.approx(0.5, abs=1e-9)
+
+
+def test_the_bars_have_the_colours_of_the_view(window, qtbot, histogram):
+    window.refresh()
+    gradient, colouring = histogram.series()[0].gradient, window.canvas.colouring
+    assert [series.key for series in histogram.series()] == ["now", "start"]
+    assert gradient[0] == (0.0, f"#{bytes(colouring.table[0]).hex()}")
+    assert gradient[-1] == (1.0, f"#{bytes(colouring.table[-1]).hex()}")
+    window.session.view.change(colours={"map": "cividis"})
+    window.refresh()
+    assert histogram.series()[0].gradient != gradient
+    histogram.metric_chosen.emit("condition")
+    window.refresh()
+    assert [series.key for series in histogram.series()] == ["start", "now"]
+    assert histogram.series()[1].gradient == ()

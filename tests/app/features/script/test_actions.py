@@ -35,7 +35,7 @@ UNTOLD = {
     "script": "writes the script",
     "copy_camera": "copies",
     "copy_command": "copies",
-    "show_every": "is how runs are watched, which changes no result",
+    "pace_*": "is how runs are watched, which changes no result",
     "key_figures": "lays out the view",
     "colour_by_material": "needs a mesh of several materials",
     "mark_curve": "is tested with curves",

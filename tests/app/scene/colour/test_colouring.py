@@ -57,6 +57,8 @@ def test_finite_declared_ranges_are_used(name):
     ):
         got = resolve(Colours(metric=name, range=mode), VALUES, NONE)
         assert got.title == METRICS[name].title
+        if name == "scaled-jacobian" and mode is Range.FULL:  # lower values are inverted, which has its own colour
+            declared = 0.0, 1.0
         assert (got.low, got.high) == (declared if np.isfinite(declared).all() else (0.2, 0.9))
 
 
@@ -99,3 +101,21 @@ def test_labels_read_back_within_a_hundredth_of_the_range(low, high, share):
     value = low + share * (high - low)
     assert abs(float(range_label(value, low, high)) - value) <= 0.01 * (high - low)
     assert range_label(low, low, high) != range_label(high, low, high)
+
+
+def test_a_few_far_values_do_not_stretch_a_fitted_range():
+    values = np.concatenate([np.linspace(1, 2, 996), [3.5, 60, 200, 591]])
+    got = resolve(Colours(metric="condition", range=Range.FITTED), values, np.zeros(1000, bool))
+    assert got.low == 1.0
+    assert 2 <= got.high < 10
+    assert got.beyond == (False, True)
+    assert got.label(got.high).startswith("≥ ")
+    assert got.label(got.low) == "1"
+    few = resolve(Colours(metric="condition", range=Range.FITTED), values[:996], np.zeros(996, bool))
+    assert (few.low, few.high, few.beyond) == (1.0, 2.0, (False, False))
+
+
+def test_a_given_range_says_what_lies_beyond():
+    got = resolve(Colours(range=(0.3, 0.8)), np.array([0.1, 0.5, 0.8]), np.zeros(3, bool))
+    assert got.beyond == (True, False)
+    assert [got.label(value) for value in (0.3, 0.5, 0.8)] == ["≤ 0.3", "0.5", "0.8"]

@@ -12,6 +12,7 @@ from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh import metric_cache
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History
+from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.run.worker import Mailbox
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
@@ -65,27 +66,27 @@ def test_a_run_has_the_result_of_the_command_line(document, smoothing, qtbot):
     assert document.now is document.start
 
 
-@pytest.mark.parametrize("every", [True, False])
-def test_every_iteration_is_shown_where_that_is_asked_for(document, smoothing, qtbot, every):
+@pytest.mark.parametrize("pace", list(Pace))
+def test_every_iteration_is_shown_where_that_is_asked_for(document, smoothing, qtbot, pace):
     seen = []
     smoothing.iterated.connect(lambda frame: seen.append(frame.iteration.number))
-    smoothing.show_every(every)
+    smoothing.set_pace(pace)
     with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
         smoothing.start(LocalSteepestDescent(), StoppingCriteria(max_iterations=12, tolerance=0))
     numbers = sorted(set(seen))
-    if every:
+    if pace is Pace.EVERY:
         assert numbers == list(range(1, 13))
     assert ended.args[0].iterations == 12
 
 
 def test_a_run_that_waits_to_be_shown_can_be_closed_and_let_go_on(document, smoothing, qtbot):
-    smoothing.show_every(True)
+    smoothing.set_pace(Pace.EVERY)
     smoothing.start(LocalSteepestDescent(), SLOW)
     qtbot.waitUntil(lambda: smoothing.record.newest > 2, timeout=PATIENCE)
-    smoothing.show_every(False)
+    smoothing.set_pace(Pace.FASTEST)
     before = smoothing.record.newest
     qtbot.waitUntil(lambda: smoothing.record.newest > before + 5, timeout=PATIENCE)
-    smoothing.show_every(True)
+    smoothing.set_pace(Pace.EVERY)
     smoothing.close()
     wait_for_dropped()
     assert not running()

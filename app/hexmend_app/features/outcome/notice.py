@@ -1,0 +1,31 @@
+"""Notice at the end of a run: what it has changed."""
+
+from __future__ import annotations
+
+from hexmend.quality import Summary
+from hexmend_app.state.mesh.run_record import RunRecord
+from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import counted, figure
+
+
+def notice(record: RunRecord, before: Summary, after: Summary) -> tuple[str, str]:
+    """Return title and text of the notice.
+
+    Parameters
+    ----------
+    record : RunRecord
+        The run, which has ended with a result.
+    before, after : Summary
+        Of the mesh before the run and of its result.
+    """
+    if not record.result:
+        return tr("Kept the mesh before the run: no iteration was better"), record.message
+    inverted = figure(after.inverted)
+    if before.inverted != after.inverted:
+        inverted = f"{figure(before.inverted)} → {inverted}"
+    minima = tr("q min {q} · scaled Jacobian min {j}", q=figure(after.q_min, 3), j=figure(after.scaled_jacobian_min, 3))
+    seconds = record.rows[-1]["seconds"]
+    digits = 2 if seconds < 10 else 1 if seconds < 100 else 0
+    effort = f"{counted(record.newest, 'iteration')} · {seconds:.{digits}f} s"
+    reason = record.message.partition(". ")[0].rstrip(".")
+    return f"{tr('{count} inverted', count=inverted)} · {minima}", f"{effort} · {reason}"

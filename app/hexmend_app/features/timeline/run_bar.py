@@ -1,0 +1,97 @@
+"""Buttons to run, step and stop below the view, with the state of the run in a word."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
+
+from hexmend.iteration import Outcome
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.theme.palette import AMBER, BETTER, BLUE, MUTED, Role
+from hexmend_app.theme.style import tint
+from hexmend_app.translation import tr
+from hexmend_app.widgets.action_button import ActionButton
+
+#: Words and colours of the phases of a run that has not ended.
+_PHASES = {
+    Phase.IDLE: ("Not run yet", MUTED),
+    Phase.PREPARING: ("Preparing", BLUE),
+    Phase.RUNNING: ("Running", BLUE),
+    Phase.PAUSED: ("Paused", AMBER),
+    Phase.STOPPING: ("Stopping", AMBER),
+}
+
+#: Words and colours of the ends of a run.
+_ENDS = {
+    Outcome.CONVERGED: ("Converged", BETTER),
+    Outcome.NO_IMPROVEMENT: ("Converged", BETTER),
+    Outcome.SUFFICIENT: ("Done", BETTER),
+    Outcome.FINISHED: ("Done", BETTER),
+    Outcome.MAX_ITERATIONS: ("Iteration limit", AMBER),
+    Outcome.MAX_SECONDS: ("Time limit", AMBER),
+    Outcome.STOPPED: ("Stopped", AMBER),
+    Outcome.NO_DESCENT: ("No descent", AMBER),
+    Outcome.NOT_FINITE: ("Not finite", AMBER),
+    Outcome.NOTHING_FREE: ("Nothing free", AMBER),
+}
+
+_BUTTONS = "run", "step", "stop"
+
+
+class RunBar(QWidget):
+    """Row of buttons that run, step and stop, and the word for the state of the run."""
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._buttons = {name: ActionButton(with_text=name == "run") for name in _BUTTONS}
+        self._state = QLabel()
+        self._state.setAccessibleName(tr("State of the run"))
+        font = self._state.font()
+        font.setBold(True)
+        self._state.setFont(font)
+        widest = max((tr(word) for word, _ in (*_PHASES.values(), *_ENDS.values())), key=len)
+        self._state.setMinimumWidth(self._state.fontMetrics().horizontalAdvance(widest))
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(4)
+        for button in self._buttons.values():
+            button.setAutoRaise(True)
+            row.addWidget(button)
+        row.addWidget(self._state)
+        self._reserve_space()
+
+    def show_actions(self, actions: Mapping[str, QAction]) -> None:
+        """Show the actions "run", "step" and "stop"."""
+        for name, button in self._buttons.items():
+            button.show_action(actions[name])
+
+    def set_state(self, phase: Phase, outcome: Outcome | None) -> None:
+        """Show the word for a phase of a run, and for its outcome if it has ended."""
+        word, colour = _state(phase, outcome)
+        if self._state.text() != tr(word):
+            self._state.setText(tr(word))
+            tint(self._state, colour)
+
+    @property
+    def state(self) -> str:
+        """The word shown."""
+        return self._state.text()
+
+    def button(self, name: str) -> ActionButton:
+        """Return the button of an action."""
+        return self._buttons[name]
+
+    def _reserve_space(self) -> None:
+        """Reserve the width of the longest text of the first button, so that nothing moves when the state changes."""
+        run = self._buttons["run"]
+        run.ensurePolished()
+        text = max(run.fontMetrics().horizontalAdvance(tr(word)) for word in ("Run", "Pause", "Resume", "Preparing"))
+        run.setMinimumWidth(text + run.iconSize().width() + 16)
+
+
+def _state(phase: Phase, outcome: Outcome | None) -> tuple[str, Role]:
+    if phase in _PHASES:
+        return _PHASES[phase]
+    return _ENDS[outcome] if outcome is not None else ("Failed", AMBER)

@@ -1,0 +1,137 @@
+"""Short runs are shown eased; their result is recorded at once, and shown at once for whoever asks."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend.run import StoppingCriteria
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
+from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.history import History
+from hexmend_app.state.run import eased_view
+from hexmend_app.state.run.pace import REST, SHOWN, Easing, Pace
+from hexmend_app.state.run.run_controller import Phase, RunController
+from tests.core.grids import grid, scrambled
+from tests.patience import PATIENCE
+
+TEN = StoppingCriteria(max_iterations=10, tolerance=0)
+
+
+@pytest.fixture
+def document(qtbot):
+    document = Document()
+    document.replace(State.of(scrambled(grid(6), 0.4)), Path("a.vtu"))
+    return document
+
+
+@pytest.fixture
+def run(document):
+    run = RunController(document, History())
+    run.set_pace(Pace.EASED)
+    yield run
+    run.close()
+
+
+def run_and_wait(qtbot, run, stop=TEN):
+    with qtbot.waitSignal(run.ended, timeout=PATIENCE):
+        run.start(LocalSteepestDescent(), stop)
+
+
+@given(st.lists(st.floats(0.001, 0.5), min_size=1, max_size=40), st.integers(1, 500), st.floats(0, 4))
+def test_the_position_only_rises_and_arrives_in_time(times, result, ran):
+    now, easing, seen = 100.0, Easing(100.0), []
+    for step in times:
+        now += step
+        if now < 100 + ran:
+            seen.append(easing.position(now, result))
+    end = max(now, 100 + ran)
+    easing.finish(end)
+    rest = [easing.rest(end + share * (SHOWN + REST), result) for share in np.linspace(0, 1, 60)]
+    assert rest[-1] is None
+    seen += [one for one in rest if one is not None]
+    assert (np.diff(seen) >= 0).all()
+    assert 0 <= min(seen) <= max(seen) <= result
+    assert easing.rest(end + REST - 1e-6, result) is not None
+
+
+def test_the_result_is_recorded_at_once_and_shown_after_all_between(document, run, qtbot):
+    shown = []
+    document.points_moved.connect(lambda: shown.append(document.now))
+    run_and_wait(qtbot, run)
+    assert run.phase is Phase.FINISHED
+    assert run.eased.active
+    result = document.recorded
+    assert document.undo_title == "Local steepest descent"
+    assert document.now is not result
+    qtbot.waitUntil(lambda: not run.eased.active, timeout=PATIENCE)
+    assert document.now is result
+    assert len(shown) > 10
+    before, after = document.start.mesh.points, result.mesh.points
+    among = [state.mesh.points for state in shown[:-1]]
+    assert all(not np.array_equal(points, after) for points in among)
+    distances = [np.linalg.norm(points - before) for points in among]
+    assert min(distances) < 0.2 * np.linalg.norm(after - before)
+
+
+def test_states_between_are_on_straight_lines_and_name_the_nearest_iteration(document, run, qtbot):
+    run_and_wait(qtbot, run)
+    run.skip_easing()
+    history, record, mesh = run.history, run.record, document.now.mesh
+    a, b = (history.state_between(record, at, mesh).mesh.points for at in (3, 4))
+    between = history.state_between(record, 3.25, mesh)
+    np.testing.assert_allclose(between.mesh.points, 0.75 * a + 0.25 * b, atol=1e-12)
+    assert history.iteration_of(between).number == 3
+    np.testing.assert_array_equal(history.state_between(record, 99, mesh).mesh.points, document.now.mesh.points)
+    np.testing.assert_array_equal(history.state_between(record, 0, mesh).mesh.points, document.start.mesh.points)
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        lambda document, run: run.skip_easing(),
+        lambda document, run: run.set_pace(Pace.FASTEST),
+        lambda document, run: run.end(lambda: None),
+        lambda document, run: run.start(LocalSteepestDescent(), TEN, iterations=0),
+    ],
+)
+def test_the_result_is_there_for_who_goes_on(document, run, qtbot, act):
+    run_and_wait(qtbot, run)
+    result = document.recorded
+    act(document, run)
+    assert not run.eased.active
+    assert document.now is result
+
+
+def test_undo_and_other_states_end_it(document, run, qtbot):
+    run_and_wait(qtbot, run)
+    document.undo()
+    assert not run.eased.active
+    assert document.now is document.start
+    document.redo()
+    run_and_wait(qtbot, run)
+    document.replace(State.of(grid(3)), None)
+    assert not run.eased.active
+
+
+def test_pausing_shows_the_iteration_at_which_it_pauses(document, run, qtbot):
+    run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=100_000))
+    qtbot.waitUntil(lambda: run.record.newest > 3, timeout=PATIENCE)
+    run.pause()
+    qtbot.waitUntil(lambda: run.phase is Phase.PAUSED, timeout=PATIENCE)
+    assert not run.eased.active
+    assert run.history.iteration_of(document.now).number == run.record.newest
+
+
+def test_steps_and_large_meshes_are_shown_as_they_are(document, run, qtbot, monkeypatch):
+    run.start(LocalSteepestDescent(), TEN, iterations=2)
+    assert not run.eased.active
+    qtbot.waitUntil(lambda: run.phase is Phase.PAUSED, timeout=PATIENCE)
+    run.stop()
+    qtbot.waitUntil(lambda: not run.busy, timeout=PATIENCE)
+    monkeypatch.setattr(eased_view, "LIMIT", 10)
+    run_and_wait(qtbot, run)
+    assert not run.eased.active
+    assert document.now is document.recorded
