@@ -14,7 +14,7 @@ VIEW = (
     ("Zoom", "wheel, right drag, + and −"),
     ("Pan", "middle drag, Shift+drag, Shift+arrow keys"),
     ("Select a hex and its nearest node", "click"),
-    ("Dig a hex away", "Ctrl+click"),
+    ("Hide a hex", "Ctrl+click"),
     ("Set the centre of rotation", "double click"),
     ("Open the context menu", "right click"),
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hexmend.quality import METRICS, HexQuantity, Metric
 from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import figure
 
 
 def metrics_offered() -> list[Metric]:
@@ -35,3 +36,13 @@ def in_sentence(metric: HexQuantity) -> str:
     ['q(H)', 'Jacobian', 'scaled Jacobian', 'smallest angle']
     """
     return metric.title if metric.title == "Jacobian" else metric.title[:1].lower() + metric.title[1:]
+
+
+def value_text(metric: HexQuantity, value: float) -> str:
+    """Return a value of a metric as text; of angles to a tenth of a degree.
+
+    >>> from hexmend.quality import METRICS
+    >>> value_text(METRICS["min-angle"], 80.0572), value_text(METRICS["q"], 0.25)
+    ('80.1°', '0.2500')
+    """
+    return f"{value:.1f}°" if metric.unit == "degrees" else figure(value)

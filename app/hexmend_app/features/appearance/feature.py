@@ -90,7 +90,7 @@ class FeatureAppearance(Feature):
         return (
             Panel(
                 id="look",
-                title=tr("Look"),
+                title=tr("Colour"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
                 order=20,

@@ -74,7 +74,7 @@ class FeatureCut(Feature):
             ),
             Action(
                 id="dig",
-                text=tr("&Dig hex away"),
+                text=tr("&Hide hex"),
                 menu="Hex",
                 part=1,
                 keys="Delete",
@@ -85,11 +85,11 @@ class FeatureCut(Feature):
             ),
             Action(
                 id="undig",
-                text=tr("&Undo dig"),
+                text=tr("Show &last hidden hex"),
                 menu="Hex",
                 part=1,
                 keys="Backspace",
-                help=tr("Restore the hex that was dug away last."),
+                help=tr("Show the hex that was hidden last."),
                 handle=view.undig_last,
                 enabled=lambda: bool(view.look.show.hidden),
                 in_view=True,
@@ -119,7 +119,7 @@ class FeatureCut(Feature):
                 place=PanelPlace.TOOLS,
                 tab=tr("Cut"),
                 order=31,
-                help=tr("Peel, shrink, isolate and dig hexes."),
+                help=tr("Peel, shrink, isolate and hide hexes."),
             ),
         )
 

@@ -38,7 +38,7 @@ class InsidePanel(QWidget):
     Attributes
     ----------
     isolated, dug, shown : QLabel
-        Numbers of hexes isolated, dug away and shown.
+        Numbers of hexes isolated, hidden one by one and shown.
 
     Signals
     -------
@@ -47,7 +47,7 @@ class InsidePanel(QWidget):
     all_requested
         End the isolation.
     undo_requested, restore_requested
-        Restore the hex that was dug away last, or all of them.
+        Show the hex that was hidden last, or all of them.
     """
 
     peel_changed = Signal(int)
@@ -76,11 +76,11 @@ class InsidePanel(QWidget):
         set_help(self._all, tr("Show all"), tr("End the isolation and show all hexes."))
         self.dug = QLabel()
         self._undo = QPushButton(icon("undo"), "")
-        set_help(self._undo, tr("Undo dig"), tr("Restore the hex that was dug away last."))
+        set_help(self._undo, tr("Show last"), tr("Show the hex that was hidden last."))
         self._restore = QPushButton(icon("restore"), "")
         for button in (self._undo, self._restore):
             button.setFixedWidth(34)
-        set_help(self._restore, tr("Restore all"), tr("Restore all hexes that were dug away."))
+        set_help(self._restore, tr("Show hidden"), tr("Show all hexes that were hidden."))
         self._outline = QCheckBox(tr("Sharp edges and outline"))
         set_help(
             self._outline,
@@ -149,7 +149,7 @@ class InsidePanel(QWidget):
         )
         self._all.setEnabled(isolate is not None)
         self.dug.setText(
-            tr("{count} dug away", count=counted(len(show.hidden), "hex")) if show.hidden else tr("No hexes dug away")
+            tr("{count} hidden", count=counted(len(show.hidden), "hex")) if show.hidden else tr("No hexes hidden")
         )
         for button in (self._undo, self._restore):
             button.setEnabled(bool(show.hidden))

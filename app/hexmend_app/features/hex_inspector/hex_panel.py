@@ -33,7 +33,7 @@ from hexmend_app.theme.style import (
 )
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
-from hexmend_app.widgets.metric_texts import described, metrics_offered
+from hexmend_app.widgets.metric_texts import described, metrics_offered, value_text
 from hexmend_app.widgets.wording import counted, figure
 
 _FACES = ("x−", "x+", "y−", "y+", "z−", "z+")
@@ -194,7 +194,7 @@ class HexPanel(QWidget):
         self._state.setText(locked if details.locked else tr("inverted") if details.inverted else "")
         for name, label in self._values.items():
             value = details.values[name]
-            label.setText("∞" if value == np.inf else figure(value))
+            label.setText("∞" if value == np.inf else value_text(METRICS[name], value))
             tint(label, WORSE if METRICS[name].unacceptable(np.array(value)) else TEXT)
         worst = int(details.corners.argmin()) if np.ptp(details.corners) > 1e-9 else -1
         for k, (node, kind, quality) in enumerate(self._corners):
@@ -204,7 +204,7 @@ class HexPanel(QWidget):
             quality.setText(figure(float(details.corners[k]), 3))
             tint(quality, WORSE if details.corners[k] == 0 or k == worst else TEXT)
         links = (
-            f'{face}&nbsp;<a href="{h}">{h:,}</a>' if h >= 0 else f"{face}&nbsp;–"
+            f'{face}:&nbsp;<a href="{h}">{h:,}</a>' if h >= 0 else f"{face}:&nbsp;{tr('boundary')}"
             for face, h in zip(_FACES, details.neighbours.tolist(), strict=True)
         )
         self._neighbours.setText("Neighbours: " + " &nbsp;&nbsp;".join(links))

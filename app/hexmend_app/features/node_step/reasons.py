@@ -17,8 +17,8 @@ _HINT = (
 )
 _INVALID = "Correct the marked parameter of the method first."
 _NO_FREE_NODES = (
-    "The hex has no free nodes. Peel, cut (C) or dig (Ctrl+click) to reach the hexes inside, or clear the selection "
-    "and press D."
+    "The hex has no free nodes. Peel, cut (C) or hide hexes (Ctrl+click) to reach the hexes inside, or clear the "
+    "selection and press D."
 )
 
 

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtGui import QDropEvent
 
 from hexmend.errors import FileError
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
+from hexmend_app.features.open.opening_card import card
 from hexmend_app.features.open.opening_texts import missing_mesh_message, restored_message, stage_text
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.features.open.welcome import Welcome
@@ -19,6 +22,12 @@ from hexmend_app.state.settings.recent_files import RecentFiles
 from hexmend_app.state.tasks.mesh_opener import LoadProgress, LoadStage
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_mesh, remember_folder
+
+#: Milliseconds for which the card of a mesh without findings is shown.
+_CARD_MS = 10_000
+
+#: Most hexes of a mesh that the doctor checks unasked.
+_CHECKED = 300_000
 
 
 class FeatureOpen(Feature):
@@ -43,6 +52,8 @@ class FeatureOpen(Feature):
         opener.restored.connect(self._on_restored)
         opener.mesh_missing.connect(self._on_mesh_missing)
         opener.ended.connect(self._on_ended)
+        self._carded: Mesh | None = None  # whose card may be extended
+        self.session.mesh_checker.found.connect(self._on_found)
         opener.cancelled.connect(self._on_cancelled)
         opener.failed.connect(self._on_failed)
         host.dialog_parent.setAcceptDrops(True)
@@ -122,11 +133,32 @@ class FeatureOpen(Feature):
             self._restored = None
             show = self.host.messages.show_info if restored.matches else self.host.messages.show_warning
             show(*restored_message(restored))
-        elif notes := self._document.start.mesh.notes:
-            self.host.messages.show_info(" ".join(notes), timeout_ms=0)
+        else:
+            self._show_card()
         if path.resolve() != demo_mesh().resolve():
             remember_folder(path)
             self.recent.add(path)
+
+    def _show_card(self) -> None:
+        """Show what was opened, until it is dismissed if something was changed or is wrong with it."""
+        state, host = self._document.start, self.host
+        findings = self.session.mesh_checker.of(state.mesh) or ()
+        title, text = card(self._document.name, state, findings)
+        choices = [(tr("Show worst"), lambda: host.action("next_worst").trigger())]
+        choices += [(tr("Doctor"), partial(host.show_panel, "doctor"))] if findings else []
+        stays = bool(state.mesh.notes or findings)
+        host.messages.show_result(title, text, choices, 0 if stays else _CARD_MS)
+        self._carded = state.mesh
+        if state.mesh.n_hexes <= _CHECKED:
+            self.session.mesh_checker.ask(state.mesh)
+
+    def _on_found(self) -> None:
+        """Show the findings of the doctor on the card, as long as the mesh is as it was opened."""
+        mesh = self._carded
+        if mesh is not None and self._document.is_open and self._document.now.mesh is mesh:
+            if self.session.mesh_checker.of(mesh):
+                self._show_card()
+            self._carded = None
 
     def _on_restored(self, restored: RestoredPicture) -> None:
         self._restored = restored

@@ -17,7 +17,7 @@ _STEPS = (
     ("play", "&Play/Pause", "K", "play", "Play or pause the iterations."),
     ("on", "&Next iteration", ".", "step-forward", "Show the next iteration."),
     ("newest", "&Latest iteration", "Alt+End", "skip-forward", "Show the latest iteration and follow the run."),
-    ("branch", "&Run from here", "Ctrl+F5", "source-branch", "Start a new run from the displayed iteration."),
+    ("branch", "&Branch from here", "Ctrl+F5", "source-branch", "Start a new run from the displayed iteration."),
 )
 
 #: Number of times left out that a message explains.

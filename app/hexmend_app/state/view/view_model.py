@@ -53,7 +53,7 @@ class ViewData:
 class ViewModel(QObject):
     """Model of the 3D view.
 
-    Requests to isolate or dig away hexes that the open mesh does not have are ignored.
+    Requests to isolate or hide hexes that the open mesh does not have are ignored.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ class ViewModel(QObject):
         self.change(show={"isolate": None})
 
     def dig(self, hex: int) -> None:
-        """Dig away a hex."""
+        """Hide a hex."""
         hidden = self.look.show.hidden
         if hex not in hidden and self._document.has_hex(hex):
             self._dug.append(int(hex))

@@ -22,7 +22,7 @@ from tests.app.driving import LEFT, choose, click, named, open_and_wait, press, 
 from tests.patience import PATIENCE
 
 PEEL, SHRINK, RINGS = "Peel layers", "Shrink hexes", "Rings around isolated hexes"
-BUTTONS = ("Show all", "Undo dig", "Restore all")
+BUTTONS = ("Show all", "Show last", "Show hidden")
 
 
 @pytest.fixture
@@ -121,7 +121,7 @@ def test_buttons_are_enabled_if_hexes_are_isolated_or_dug_away(panel):
     assert all(button.isEnabled() for button in buttons)
     assert named(panel, QSpinBox, RINGS).value() == 2
     assert panel.isolated.text() == "1 hex isolated"
-    assert panel.dug.text() == "3 hexes dug away"
+    assert panel.dug.text() == "3 hexes hidden"
     emitted = []
     panel.all_requested.connect(lambda: emitted.append("all"))
     panel.undo_requested.connect(lambda: emitted.append("undo"))
@@ -171,11 +171,11 @@ def test_hexes_are_dug_away_and_restored(window):
     for h in (0, 1, 1, 2):
         view.dig(h)
     window.refresh()
-    assert [label for label in panel.findChildren(QLabel) if label.text() == "3 hexes dug away"]
+    assert [label for label in panel.findChildren(QLabel) if label.text() == "3 hexes hidden"]
     assert not {0, 1, 2} & set(faces(window))
-    press(named(panel, QPushButton, "Undo dig"))
+    press(named(panel, QPushButton, "Show last"))
     assert view.look.show.hidden == {0, 1}
-    press(named(panel, QPushButton, "Restore all"))
+    press(named(panel, QPushButton, "Show hidden"))
     assert not view.look.show.hidden
     view.dig(7)
     view.undig_last()

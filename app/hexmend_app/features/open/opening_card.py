@@ -1,0 +1,51 @@
+"""Card after opening a mesh: what it is, what is wrong with it, and what to do next."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hexmend.doctor import Finding
+from hexmend_app.state.mesh.document import State
+from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import counted, figure
+
+#: Least scaled Jacobian above which a mesh without inverted hexes is called sound.
+_SOUND = 0.2
+
+
+def card(name: str, state: State, findings: Sequence[Finding]) -> tuple[str, str]:
+    """Return title and text of the card.
+
+    Parameters
+    ----------
+    name : str
+        Name of the file.
+    state : State
+        The mesh as opened.
+    findings : sequence of Finding
+        Of the doctor, as far as they are known.
+    """
+    mesh, summary = state.mesh, state.summary
+    hexes = counted(summary.hexes, "hex")
+    title = tr("{name}: {hexes}, {inverted} inverted", name=name, hexes=hexes, inverted=figure(summary.inverted))
+    least = figure(summary.scaled_jacobian_min, 3)
+    sentences = [tr("{verdict} Least scaled Jacobian {least}.", verdict=_verdict(state), least=least)]
+    if mesh.materials is not None:
+        sentences.append(f"{counted(len(mesh.materials.names), 'material')}.")
+    sentences += mesh.notes
+    if findings:
+        sentences.append(tr("The doctor found: {findings}", findings=" ".join(one.message for one in findings)))
+    return title, " ".join(sentences)
+
+
+def _verdict(state: State) -> str:
+    summary = state.summary
+    if summary.inverted:
+        locked = summary.locked_inverted
+        if locked == summary.inverted:
+            return tr("Solvers refuse it; fixed nodes hold all inverted hexes: let the boundary slide or unpin nodes.")
+        held = tr(", {count} of them held by fixed nodes", count=figure(locked)) if locked else ""
+        return tr("Solvers refuse inverted hexes{held}: run Mend to untangle them.", held=held)
+    if summary.scaled_jacobian_min < _SOUND:
+        return tr("No hex is inverted, but some are bad: run Mend to improve them.")
+    return tr("No hex is inverted.")
