@@ -26,7 +26,7 @@ class Fuselage:
     stern: float = 0.98
     nose: float = 0.22  # the ellipsoid's length
     tail: float = 0.6  # x at which it begins to narrow
-    narrowing: float = 0.75  # of the radius, at x = 1
+    narrowing: float = 0.5  # of the radius, at x = 1
     cone: float = 0.05  # protrusion of the last section's centre
 
     @property
@@ -63,13 +63,13 @@ class Wing:
     tip: float  # chord
     sweep: float  # distance of the tip's leading edge aft of the root's
     span: float  # from the fuselage's axis to the tip
+    thickness: float = 0.13  # half the maximum thickness over the chord
     rise: float = 0.0  # height of the tip above the root
     fuselage: Fuselage = Fuselage()
 
-    thickness = 0.12  # half the maximum thickness over the chord
     edge = 0.8  # thickness of the leading and trailing edge over the maximum
     crest = 0.35  # position of the maximum thickness over the chord
-    bulge = 0.6  # rounding of edges and tip over half the thickness
+    bulge = 0.1  # rounding of edges and tip over half the thickness
 
     @property
     def boxes(self) -> tuple[np.ndarray, ...]:
@@ -107,9 +107,9 @@ class Wing:
 
 
 FUSELAGE = Fuselage()
-WINGS = Wing(axis=1, leading=0.33, root=0.22, tip=0.14, sweep=0.18, span=0.47, rise=0.066)
-TAILPLANE = Wing(axis=1, leading=0.79, root=0.14, tip=0.105, sweep=0.11, span=0.22, rise=0.031)
-FIN = Wing(axis=2, leading=0.79, root=0.14, tip=0.135, sweep=0.09, span=0.21)
+WINGS = Wing(axis=1, leading=0.26, root=0.22, tip=0.14, sweep=0.11, span=0.43, rise=0.066)
+TAILPLANE = Wing(axis=1, leading=0.77, root=0.14, tip=0.125, sweep=0.09, span=0.195, thickness=0.17, rise=0.031)
+FIN = Wing(axis=2, leading=0.77, root=0.14, tip=0.125, sweep=0.07, span=0.18, thickness=0.19)
 PARTS = (FUSELAGE, WINGS, TAILPLANE, FIN)
 
 

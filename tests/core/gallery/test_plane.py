@@ -7,7 +7,7 @@ import hexmend as hx
 from hexmend.doctor import examine
 from hexmend.gallery import make
 from hexmend.gallery.aeroplane import FUSELAGE, HALF_BOX, PARTS, TAILPLANE, WINGS, map_onto_aeroplane
-from hexmend.gallery.plane import BOX
+from hexmend.gallery.plane import BOX, Plane
 from hexmend.quality import measure, summarise
 from hexmend.run import StoppingCriteria
 
@@ -21,11 +21,13 @@ def test_counts_and_qualities_are_near_those_of_the_thesis(plane):
     summary = summarise(plane)
     assert examine(plane) == ()
     assert summary.hexes == 31760
-    assert summary.free_nodes == pytest.approx(30389, rel=0.001)
+    assert summary.free_nodes == pytest.approx(30389, rel=0.005)
     assert summary.nodes == pytest.approx(33411, rel=0.01)
     assert summary.inverted == pytest.approx(163, abs=5)
     assert summary.locked_inverted == 0
-    assert (summary.q_mean, summary.q_std) == pytest.approx((0.8164, 0.1276), abs=0.03)
+    assert (summary.q_min, summary.q_mean, summary.q_std) == pytest.approx((0.0945, 0.8164, 0.1276), abs=0.1)
+    assert summary.q_min > 0
+    assert summary.q_mean == pytest.approx(0.8164, abs=0.005)
 
 
 def test_it_is_the_same_each_time(plane):
@@ -72,7 +74,7 @@ def test_the_aeroplane_has_wings_a_tailplane_and_a_fin(plane):
     assert np.ptp(y) == pytest.approx(2 * WINGS.span, abs=0.05)
     tip = np.abs(y) > 0.9 * WINGS.span
     root = np.isclose(np.abs(y), FUSELAGE.radius, rtol=0.1)
-    assert x[tip].min() > x[root & (x > WINGS.leading)].min() + 0.1  # swept
+    assert x[tip].min() > x[root & (x > WINGS.leading)].min() + 0.05  # swept
     tail = x > TAILPLANE.leading
     assert FUSELAGE.radius < np.abs(y[tail & ~tip]).max() < WINGS.span
     assert z[tail].max() > 2 * FUSELAGE.radius > z[~tail].max()
@@ -88,10 +90,20 @@ def test_surfaces_are_where_the_parts_say():
     np.testing.assert_allclose(map_onto_aeroplane(corners), mirrored, atol=1e-12)
 
 
-def test_nodes_that_follow_further_invert_fewer_hexes():
-    counts = [summarise(make("plane", size=5000, follow=follow)).inverted for follow in (0, 4, 100)]
-    assert counts == sorted(counts, reverse=True)
-    assert counts[0] > counts[-1]
+def test_a_larger_jitter_inverts_more_hexes():
+    counts = [summarise(make("plane", size=5000, jitter=jitter)).inverted for jitter in (0, 0.24, 0.5)]
+    assert counts == sorted(counts)
+    assert counts[0] < 10 < counts[-1]
+
+
+def test_nodes_on_the_surfaces_stay_when_the_others_are_relaxed_and_displaced():
+    placed = Plane(size=2000).paved()
+    mesh = make("plane", size=2000)
+    np.testing.assert_array_equal(mesh.hexes, placed.hexes)
+    np.testing.assert_array_equal(mesh.points[mesh.fixed], placed.points[mesh.fixed])
+    relaxed = summarise(make("plane", size=2000, jitter=0))
+    assert relaxed.q_mean > summarise(placed).q_mean + 0.05
+    assert relaxed.q_mean > summarise(mesh).q_mean
 
 
 @pytest.mark.parametrize("size", [3000, 8000])
@@ -99,15 +111,22 @@ def test_local_descent_mends_all(size):
     mesh = make("plane", size=size)
     result = hx.smooth(mesh, "local-sd", StoppingCriteria(max_iterations=60))
     before, after = summarise(mesh), summarise(result.mesh)
-    assert before.inverted > 20
+    assert before.inverted > 10
     assert after.inverted == 0
-    assert after.q_min > 0.3
-    assert after.q_mean > before.q_mean + 0.05
+    assert after.q_min > max(before.q_min, 0.35)
+    assert after.q_mean > before.q_mean + 0.04
     np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
 
 
-def test_laplacian_smoothing_inverts_hexes_anew():
-    mesh = make("plane", size=8000)
-    smooth = hx.smooth(mesh, "laplacian").mesh
-    sound = ~measure(mesh.points, mesh.hexes).inverted.astype(bool)
-    assert (sound & measure(smooth.points, mesh.hexes).inverted.astype(bool)).any()
+def test_laplacian_smoothing_lowers_the_mean_and_inverts_hexes_as_in_the_thesis(plane):
+    smooth = hx.smooth(plane, "laplacian", StoppingCriteria(keep_last=True, max_iterations=300)).mesh
+    before, after = (measure(points, plane.hexes) for points in (plane.points, smooth.points))
+    assert after.q.mean() < before.q.mean() - 0.01
+    assert np.count_nonzero(after.inverted & ~before.inverted) > 1000
+
+
+def test_getme_raises_the_qualities_but_does_not_mend_all(plane):
+    after = summarise(hx.smooth(plane, "getme", StoppingCriteria(keep_last=True, max_iterations=5)).mesh)
+    before = summarise(plane)
+    assert after.q_mean > before.q_mean + 0.05
+    assert 0 < after.inverted < before.inverted / 2
