@@ -43,11 +43,11 @@ def grow_layers(points: np.ndarray, quads: np.ndarray, layers: int, thickness: f
         return values
 
     height = thickness * averaged(_normals(points, quads)[1][:, None])
-    grown = [points]
+    surfaces = [points]
     for _ in range(layers):
-        normal = averaged(_normals(grown[-1], quads)[0])
-        grown.append(grown[-1] + height * normal / np.linalg.norm(normal, axis=1, keepdims=True))
-    return np.array(grown)
+        normal = averaged(_normals(surfaces[-1], quads)[0])
+        surfaces.append(surfaces[-1] + height * normal / np.linalg.norm(normal, axis=1, keepdims=True))
+    return np.array(surfaces)
 
 
 def _normals(points: np.ndarray, quads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
