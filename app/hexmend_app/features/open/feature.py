@@ -52,7 +52,7 @@ class FeatureOpen(Feature):
         opener.restored.connect(self._on_restored)
         opener.mesh_missing.connect(self._on_mesh_missing)
         opener.ended.connect(self._on_ended)
-        self._carded: Mesh | None = None  # whose card may be extended
+        self._carded: tuple[Mesh | None, str] = (None, "")  # mesh and title of the card that may be extended
         self.session.mesh_checker.found.connect(self._on_found)
         opener.cancelled.connect(self._on_cancelled)
         opener.failed.connect(self._on_failed)
@@ -148,17 +148,17 @@ class FeatureOpen(Feature):
         choices += [(tr("Doctor"), partial(host.show_panel, "doctor"))] if findings else []
         stays = bool(state.mesh.notes or findings)
         host.messages.show_result(title, text, choices, 0 if stays else _CARD_MS)
-        self._carded = state.mesh
+        self._carded = state.mesh, title
         if state.mesh.n_hexes <= _CHECKED:
             self.session.mesh_checker.ask(state.mesh)
 
     def _on_found(self) -> None:
-        """Show the findings of the doctor on the card, as long as the mesh is as it was opened."""
-        mesh = self._carded
-        if mesh is not None and self._document.is_open and self._document.now.mesh is mesh:
-            if self.session.mesh_checker.of(mesh):
-                self._show_card()
-            self._carded = None
+        """Show the findings of the doctor on the card, as long as that is there and the mesh as it was opened."""
+        mesh, title = self._carded
+        self._carded = None, ""
+        there = any(title == one for _, one, _ in self.host.messages.messages())
+        if there and self._document.is_open and self._document.now.mesh is mesh and self.session.mesh_checker.of(mesh):
+            self._show_card()
 
     def _on_restored(self, restored: RestoredPicture) -> None:
         self._restored = restored

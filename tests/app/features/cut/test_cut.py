@@ -54,7 +54,7 @@ def test_the_plane_is_dragged_in_the_view(window, qtbot):
     window.canvas.draw_still()
     before = window.session.view.look.cut
     x, y, z = before.planes[0].point
-    place = seen_at(window, (x + 0.3, y - 0.3, z))  # on the plane, next to its arrow
+    place = seen_at(window, (x + 3, y - 3, z))  # on the plane, next to its arrow
     drag(window.canvas.interactor, place, place + QPoint(0, -60))
     after = window.session.view.look.cut
     assert after.planes[0].point[2] > z

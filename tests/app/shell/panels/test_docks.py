@@ -171,11 +171,11 @@ def test_a_closed_dock_can_be_shown_again(docks, qtbot):
 
 def test_reset_restores_the_default_layout(docks):
     before = visible(docks)
-    dock_of(docks, "Colour").setFloating(True)
+    dock_of(docks, "Look").setFloating(True)
     docks.show_panel("tags")
     docks.close_panel("histogram")
     docks.reset()
-    assert not dock_of(docks, "Colour").isFloating()
+    assert not dock_of(docks, "Look").isFloating()
     assert visible(docks) == before
     assert all(map(docks.is_open, docks.ids()))
 
@@ -207,12 +207,12 @@ def test_a_layout_is_restored(docks, another, folded, hidden):
 
 
 def test_a_floating_dock_is_restored_through_the_settings(docks, another):
-    dock_of(docks, "Colour").setFloating(True)
-    dock_of(docks, "Colour").resize(300, 250)
+    dock_of(docks, "Look").setFloating(True)
+    dock_of(docks, "Look").resize(300, 250)
     docks.show_panel("look")
     settings.PANELS.set(docks.state())
     another.restore(settings.PANELS.get())
-    assert dock_of(another, "Colour").isFloating()
+    assert dock_of(another, "Look").isFloating()
     assert visible(another) == visible(docks) == {"run", "recipe", "look", "histogram"}
     for one in (docks, another):
         one.set_hidden(True)
@@ -234,7 +234,7 @@ def test_an_invalid_layout_is_ignored(docks, another, broken):
 
 def test_closed_and_front_panels_of_an_older_layout_are_restored(docks):
     old = {"layout": "7", "all": b"", "right": b"", "hidden": False, "drawer": 300, "folded": False}
-    docks.restore(old | {"fronts": ["Colour", "Quality", "Tags"], "closed": ["worst", "gone"]})
+    docks.restore(old | {"fronts": ["Look", "Quality", "Tags"], "closed": ["worst", "gone"]})
     assert visible(docks) == {"look", "quality", "tags"}
     assert not docks.is_open("worst")
 
