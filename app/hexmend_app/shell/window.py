@@ -20,6 +20,7 @@ from hexmend_app.shell.features import (
     first_names,
     in_order,
 )
+from hexmend_app.shell.focus_after_return import FocusAfterReturn
 from hexmend_app.shell.geometry import lay_out_status_bar, restore_geometry, save_geometry
 from hexmend_app.shell.palette.type_to_find import TypeToFind
 from hexmend_app.shell.panels.docks import Docks
@@ -78,6 +79,7 @@ class Window(QMainWindow):
         Overlay(self.messages, self.docks.centre, (0.5, 0.0), width=560)
         reserve_opengl(self)
         TypeToFind(self)
+        FocusAfterReturn(self, lambda: None if self.canvas is None else self.canvas.interactor)
         self._counts = HexCounts()
         lay_out_status_bar(self.statusBar(), self.docks.row, self.busy, self._counts)
         self.session: Session | None = None

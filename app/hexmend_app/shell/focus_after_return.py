@@ -1,0 +1,33 @@
+"""Return in a field ends typing: the keyboard goes back to the view, whose keys are single letters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLineEdit, QWidget
+
+
+class FocusAfterReturn(QObject):
+    """Event filter that gives the focus to the view after Return in a field of the window.
+
+    Parameters
+    ----------
+    window : QWidget
+        Receives keys that its fields do not keep for themselves.
+    view : callable
+        Returns the widget that gets the focus, or None.
+    """
+
+    def __init__(self, window: QWidget, view: Callable[[], QWidget | None]):
+        super().__init__(window)
+        self._view = view
+        window.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Move the focus on a Return that the field has acted on and passed on."""
+        if event.type() == QEvent.Type.KeyPress and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            view = self._view()
+            if view is not None and isinstance(QApplication.focusWidget(), (QLineEdit, QAbstractSpinBox)):
+                view.setFocus(Qt.FocusReason.OtherFocusReason)
+        return super().eventFilter(watched, event)
