@@ -14,6 +14,7 @@ from hexmend.kernels import objective as kernels
 if TYPE_CHECKING:
     from hexmend.energy.floor_barrier import FloorBarrier
     from hexmend.energy.norm import ObjectiveNorm
+    from hexmend.energy.quads.surface_term import SurfaceTerm
     from hexmend.energy.sparsity import BlockSparsity
     from hexmend.kernels.target import TargetMatrices
     from hexmend.mesh.mesh import Mesh
@@ -29,6 +30,7 @@ class EnergyOfHexes(Protocol):
     slots: np.ndarray
     target: TargetMatrices | None
     barrier: FloorBarrier | None
+    surface: SurfaceTerm | None
     sparsity: BlockSparsity
     precision: type
     corner_buffer: np.ndarray
@@ -56,7 +58,7 @@ class Hessian(SymmetricOperator):
 
     def _product(self, v: np.ndarray) -> np.ndarray:
         energy, v = self.energy, v.reshape(-1, 3)
-        if energy.barrier is not None:
+        if energy.barrier is not None or energy.surface is not None:
             return self.assembled(np.float64) @ v.ravel()
         kernels.hessian_product(
             self.x,
@@ -107,4 +109,6 @@ class Hessian(SymmetricOperator):
         assembly.assemble(self.x, self.delta, energy.norm, energy.omitted, shares, *blocks, energy.target)
         if energy.barrier is not None:
             energy.barrier.assemble(self.x, energy.omitted, shares, blocks, energy.target)
+        if energy.surface is not None:
+            energy.surface.assemble(self.x, energy.norm, matrix)
         matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from hexmend.arrays import dot, mask
@@ -14,6 +16,9 @@ from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.reduction import Reduction
 from hexmend.energy.sliding_energy import SlidingEnergy
 from hexmend.mesh.mesh import Mesh
+
+if TYPE_CHECKING:
+    from hexmend.energy.quads.surface_term import SurfaceTerm
 
 
 def energy_of(mesh: Mesh, norm: ObjectiveNorm = SQUARES, sliding: SlidingBoundary | None = None) -> MeshEnergy:
@@ -58,6 +63,7 @@ class LinearMotionEnergy(MeshEnergy):
     def __init__(self, energy: MeshEnergy):
         super().__init__(energy.mesh, energy.norm, energy.omitted)
         self.unit, self._lengths, self.target = energy.unit, energy._lengths, energy.target
+        self.surface = energy.surface
         self.energy, self.reduction = energy, Reduction(energy.mesh)
         self.nodes, self.faceted = self.reduction.nodes, energy.faceted
         self.slides = isinstance(energy, SlidingEnergy)
@@ -70,6 +76,11 @@ class LinearMotionEnergy(MeshEnergy):
     def with_barrier(self, barrier: FloorBarrier | None) -> LinearMotionEnergy:
         other = super().with_barrier(barrier)
         other.energy = self.energy.with_barrier(barrier)
+        return other
+
+    def with_surface(self, surface: SurfaceTerm | None) -> LinearMotionEnergy:
+        other = super().with_surface(surface)
+        other.energy = self.energy.with_surface(surface)
         return other
 
     def to_mesh_units(self, x: np.ndarray) -> np.ndarray:

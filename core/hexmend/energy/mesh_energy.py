@@ -6,6 +6,7 @@ import copy
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,6 +26,9 @@ from hexmend.kernels.local import NodeStepSettings
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
+
+if TYPE_CHECKING:
+    from hexmend.energy.quads.surface_term import SurfaceTerm
 
 #: Longest over shortest target length of a hex up to which single precision is enough for the Hessian: the terms of its
 #: directions differ by the square.
@@ -56,6 +60,8 @@ class MeshEnergy:
         Of the mesh, in the energy's unit of length.
     barrier : FloorBarrier or None
         Added to the energy; for delta = 0.
+    surface : SurfaceTerm or None
+        Energy of the boundary's quads, added to that of the hexes.
 
     Examples
     --------
@@ -84,6 +90,7 @@ class MeshEnergy:
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
         self._set_target(mesh)
         self.barrier: FloorBarrier | None = None
+        self.surface: SurfaceTerm | None = None
         self._workspace = Workspace()
 
     @cached_property
@@ -213,6 +220,12 @@ class MeshEnergy:
         other.barrier = barrier
         return other
 
+    def with_surface(self, surface: SurfaceTerm | None) -> MeshEnergy:
+        """Return a copy with a term of boundary quads in place of its own; see `with_objective`."""
+        other = copy.copy(self)
+        other.surface = surface
+        return other
+
     def to_edge_units(self, points: np.ndarray) -> np.ndarray:
         """Points in mean edge lengths, (n, 3)."""
         return self.as_points(points) / self.unit
@@ -247,6 +260,8 @@ class MeshEnergy:
             values = (np.square(eta) if p == 2 else np.power(eta, p))[self.counted]
             barriers = self.barriers(x)
             own = float(values.sum() + (0.0 if np.isscalar(barriers) else barriers[self.counted].sum()))
+        if self.surface is not None:
+            own += self.surface.value(self.as_points(x), self.norm)
         return self.ranks.sum(own)
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
@@ -255,7 +270,10 @@ class MeshEnergy:
         kernels.gradient(x, self.mesh.hexes, delta, self.norm, self.omitted, shares, self.target)
         if self.barrier is not None:
             self.barrier.add_gradient(x, self.mesh.hexes, self.omitted, shares, self.target)
-        return self.sum_at_nodes()
+        gradient = self.sum_at_nodes()
+        if self.surface is not None:
+            gradient += self.surface.gradient(x, self.norm)[self.nodes]
+        return gradient
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
         """Return the Hessian with respect to the free nodes at points x (n, 3)."""

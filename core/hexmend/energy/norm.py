@@ -46,9 +46,40 @@ class ObjectiveNorm(NamedTuple):
         >>> ObjectiveNorm().formula, ObjectiveNorm(4.0, 0.0).formula, ObjectiveNorm(1.5).formula
         ('Σ η²', 'Σ η⁴, offset 0', 'Σ η^1.5')
         """
+        return self.formula_with(0.0)
+
+    def formula_with(self, weight: float) -> str:
+        """Formula of the objective with boundary quads of some weight.
+
+        >>> ObjectiveNorm(4.0, 0.0).formula_with(0.1)
+        'Σ η⁴ + 0.1 Σ η⁴ of quads, offset 0'
+        """
         number = f"{self.p:g}"
         power = "" if number == "1" else number.translate(_SUPERSCRIPTS) if number.isdigit() else f"^{number}"
-        return f"Σ η{power}" + ("" if self.offset == 1 else f", offset {self.offset:g}")
+        quads = f" + {weight:g} Σ η{power} of quads" if weight else ""
+        return f"Σ η{power}{quads}" + ("" if self.offset == 1 else f", offset {self.offset:g}")
+
+
+class SurfaceObjective(NamedTuple):
+    """Term of the objective over the quads of a sliding boundary: weight times the sum of eta(Q)^p, at delta = 0.
+
+    Parameters
+    ----------
+    weight : float
+        Weight of a quad relative to a hex.
+    quads : int
+        Number of quads.
+    value : float or None
+        The term; None while a quad is flipped.
+    """
+
+    weight: float
+    quads: int
+    value: float | None
+
+    def square_value(self, norm: ObjectiveNorm) -> float:
+        """Value of the term if all quads are squares."""
+        return self.weight * self.quads * norm.cube_value
 
 
 #: Sum of squares of (B.20).

@@ -8,19 +8,29 @@ from typing import Protocol
 
 import numpy as np
 
-from hexmend.quality import ElementQuality
+
+class Determinants(Protocol):
+    """Determinants of elements, such as `hexmend.quality.ElementQuality` has."""
+
+    @property
+    def sigma(self) -> np.ndarray:
+        """The least of each element, (m,)."""
+
+    @property
+    def n_inverted(self) -> int:
+        """Number of inverted elements."""
 
 
 class DeltaPolicy(Protocol):
     """Policy that chooses delta for each iteration."""
 
-    def at(self, quality: ElementQuality, unit: np.ndarray | float) -> float:
+    def at(self, quality: Determinants, unit: np.ndarray | float) -> float:
         """Choose delta for a mesh.
 
         Parameters
         ----------
-        quality : ElementQuality
-            Quality of its hexes.
+        quality : Determinants
+            Of its hexes.
         unit : (m,) float64 or float
             Lengths to whose cubes sigma of the hexes is relative: the mean edge length of the mesh, or those of a
             target; see `hexmend.energy.target.hex_sizes`.
@@ -45,7 +55,7 @@ class FixedDelta:
 
     value: float = 0.01
 
-    def at(self, quality: ElementQuality, unit: np.ndarray | float) -> float:
+    def at(self, quality: Determinants, unit: np.ndarray | float) -> float:
         return self.value if quality.n_inverted else 0.0
 
 
@@ -64,7 +74,7 @@ class AdaptiveDelta:
 
     least: float = 0.01
 
-    def at(self, quality: ElementQuality, unit: np.ndarray | float) -> float:
+    def at(self, quality: Determinants, unit: np.ndarray | float) -> float:
         if not quality.n_inverted:
             return 0.0
         worst = min(float((quality.sigma / np.power(unit, 3)).min()), 0.0)

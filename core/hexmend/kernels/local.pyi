@@ -51,14 +51,15 @@ class NodeStepSettings:
         of the objective.
         """
 
-def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], mesh: hexmend.kernels.hex_mesh.HexMesh, groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: NodeStepSettings, surface: hexmend.kernels.sliding_surface.SlidingSurface | None = None, tangents: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)] | None = None) -> int:
+def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], mesh: hexmend.kernels.hex_mesh.HexMesh, groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: NodeStepSettings, surface: hexmend.kernels.sliding_surface.SlidingSurface | None = None, tangents: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)] | None = None, term: hexmend.kernels.sliding_surface.SurfaceTerm | None = None) -> int:
     """
     Move each of `nodes` once, in place: one pass of Algorithm 3.2.
 
     points (n, 3) float64, changed. Group k is nodes[groups[k]:groups[k + 1]]; nodes of one group share no
     hex, so that the result is that of a sequential sweep for any number of threads. With a surface, nodes
     that slide step along it: T'g and T'HT are the derivatives, tangents (k, 6) float64 the two unit tangents
-    T of each, the second 0 on a curve, and the line search evaluates the energy at projected points.
+    T of each, the second 0 on a curve, and the line search evaluates the energy at projected points. With a
+    term the quads of the surface count in their objective.
 
     Returns the number of evaluations of a hex's energy in line searches.
     """

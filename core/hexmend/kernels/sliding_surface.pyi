@@ -35,6 +35,17 @@ class SlidingSurface:
         shortens searches. Arrays are not copied.
         """
 
+class SurfaceTerm:
+    """Term of the objective over the boundary quads of a sliding surface."""
+
+    def __init__(self, counted: Annotated[NDArray[numpy.uint8], dict(shape=(None, 4), order='C', device='cpu', writable=False)], normals: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], inverse_lengths: Annotated[NDArray[numpy.float64], dict(shape=(None, 8), order='C', device='cpu', writable=False)] | None, weight: float, delta: float) -> None:
+        """
+        counted (f, 4) uint8 is 0 for corners of quads that count as perfect; normals (f, 3) float64 are the
+        outward unit normals of the surface at the quads; inverse_lengths (f, 8) float64 those that the
+        edges from each corner to the next and the previous are to have, with a target. weight is that of a quad
+        relative to a hex; delta as of hexes. Arrays are not copied.
+        """
+
 def flipped_quads(before: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], after: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], quads: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], outward: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], flipped: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
     Write flipped (f,) bool: True for a quad that is flipped at the points after and was not before.

@@ -212,4 +212,5 @@ def is_perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
     eta = DESCENT.cube_rounding * np.finfo(float).eps
     # Softened, a hex may have less energy than a cube.
     highest = energy.norm.contribution(eta) if delta == 0 else eta**energy.norm.p
-    return bool(value <= energy.n_hexes * highest)
+    count = energy.n_hexes if energy.surface is None else energy.n_hexes + energy.surface.total_weight
+    return bool(value <= count * highest)

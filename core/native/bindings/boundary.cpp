@@ -1,3 +1,5 @@
+#include <nanobind/stl/optional.h>
+
 #include "bindings/arrays.hpp"
 #include "boundary/closest_point.hpp"
 #include "smoothers/sliding.hpp"
@@ -79,6 +81,24 @@ void bind_sliding_surface(nb::module_ m) {
             "slots (n,) int32 numbers the nodes that slide, -1 for others; roots (k,) int32 are the roots of the\n"
             "trees of their curves and patches; known (k,) int32 has a piece near to each, or -1, and is changed: it\n"
             "shortens searches. Arrays are not copied.");
+    nb::class_<SurfaceTerm>(m, "SurfaceTerm", "Term of the objective over the boundary quads of a sliding surface.")
+        .def(
+            "__init__",
+            [](SurfaceTerm *self, std::span<const std::array<std::uint8_t, 4>> counted,
+               std::span<const std::array<double, 3>> normals,
+               std::optional<std::span<const std::array<double, 8>>> inverse_lengths, double weight, double delta) {
+                expect(normals.size() == counted.size(), "normals: a row for each quad is expected");
+                expect(!inverse_lengths || inverse_lengths->size() == counted.size(),
+                       "inverse_lengths: a row for each quad is expected");
+                new (self) SurfaceTerm{counted, normals, {}, weight, delta};
+                if (inverse_lengths) self->inverse_lengths = *inverse_lengths;
+            },
+            "counted"_a, "normals"_a, "inverse_lengths"_a.none(), "weight"_a, "delta"_a, nb::keep_alive<1, 2>(),
+            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+            "counted (f, 4) uint8 is 0 for corners of quads that count as perfect; normals (f, 3) float64 are the\n"
+            "outward unit normals of the surface at the quads; inverse_lengths (f, 8) float64 those that the\n"
+            "edges from each corner to the next and the previous are to have, with a target. weight is that of a quad\n"
+            "relative to a hex; delta as of hexes. Arrays are not copied.");
     m.def("flipped_quads", &flipped_quads, "before"_a, "after"_a, "quads"_a, "outward"_a, "flipped"_a, ReleaseGil(),
           "Write flipped (f,) bool: True for a quad that is flipped at the points after and was not before.");
 }

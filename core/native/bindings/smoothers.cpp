@@ -109,18 +109,20 @@ void bind_local(nb::module_ m) {
         "sweep",
         [](std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
            const NodeStepSettings &settings, const SlidingSurface *surface,
-           std::optional<std::span<const Tangents>> tangents) {
+           std::optional<std::span<const Tangents>> tangents, const SurfaceTerm *term) {
             expect(!surface == !tangents, "surface and tangents: both or none are expected");
-            return surface ? sliding_sweep(points, mesh, groups, nodes, settings, *surface, *tangents)
+            expect(surface || !term, "term: it counts on a surface alone");
+            return surface ? sliding_sweep(points, mesh, groups, nodes, settings, *surface, *tangents, term)
                            : local_sweep(points, mesh, groups, nodes, settings);
         },
         "points"_a, "mesh"_a, "groups"_a, "nodes"_a, "settings"_a, "surface"_a.none() = nb::none(),
-        "tangents"_a = nb::none(), ReleaseGil(),
+        "tangents"_a = nb::none(), "term"_a.none() = nb::none(), ReleaseGil(),
         "Move each of `nodes` once, in place: one pass of Algorithm 3.2.\n\n"
         "points (n, 3) float64, changed. Group k is nodes[groups[k]:groups[k + 1]]; nodes of one group share no\n"
         "hex, so that the result is that of a sequential sweep for any number of threads. With a surface, nodes\n"
         "that slide step along it: T'g and T'HT are the derivatives, tangents (k, 6) float64 the two unit tangents\n"
-        "T of each, the second 0 on a curve, and the line search evaluates the energy at projected points.\n\n"
+        "T of each, the second 0 on a curve, and the line search evaluates the energy at projected points. With a\n"
+        "term the quads of the surface count in their objective.\n\n"
         "Returns the number of evaluations of a hex's energy in line searches.");
     nb::class_<PatchEnergy>(m, "PatchEnergy", "Energy of a node's patch, its gradient and Hessian by the node.")
         .def_ro("factor", &PatchEnergy::factor, "Factor by which lengths are multiplied; 0 for a patch without extent.")

@@ -1,5 +1,6 @@
 #include "smoothers/sliding.hpp"
 
+#include "energy/node_quads.hpp"
 #include "smoothers/node_step.hpp"
 
 namespace hexmend {
@@ -9,6 +10,14 @@ namespace {
 constexpr double PROBE_LENGTH = 1e-5;
 // Quads that one thread takes at a time.
 constexpr std::int64_t QUADS_PER_CHUNK = 4096;
+
+// Arguments of a sweep that are the same for all its nodes.
+struct SlidingSweep {
+    Hexes hexes;
+    const NodeStepSettings &settings;
+    const SlidingSurface &surface;
+    std::span<const Tangents> tangents;
+};
 
 // A node and its patch as a function of the node's position on the surface. Vectors (d.x, d.y, 0) are coordinates along
 // the node's two tangents; lengths are in mean edge lengths of the patch.
@@ -64,21 +73,37 @@ class SlidingNode {
     bool on_curve_;
 };
 
+// The boundary quads of a sweep in which they do not count.
+struct NoQuads {};
+
 // Take a step at a node that slides: Algorithms A.2 to A.5 in the tangent space, every trial projected onto the
-// surface. A trial that flips a boundary quad is rejected.
-template <bool soft, class Patch>
-void slide(Patch &patch, std::span<Point> points, Hexes hexes, Star star, const NodeStepSettings &settings,
-           const SlidingSurface &surface, std::span<const Tangents> tangents, NodeMover &mover) {
-    double scale = patch.load(points, hexes, star);
+// surface. A trial that flips a boundary quad is rejected. `quads` are those of the node that count.
+template <bool soft, class Patch, class Quads>
+void slide(Patch &patch, Quads &quads, const SurfaceTerm *term, std::span<Point> points, Star star,
+           const SlidingSweep &sweep, NodeMover &mover) {
+    constexpr bool with_quads = !std::is_same_v<Quads, NoQuads>;
+    const NodeStepSettings &settings = sweep.settings;
+    const SlidingSurface &surface = sweep.surface;
+    double scale = patch.load(points, sweep.hexes, star);
     patch.template tabulate<soft>(settings.delta);
     ValueAndGradient at = patch.template value_and_gradient<soft>(settings.delta, settings.norm);
-    if (scale == 0 || at.value == 0 || !(at.value < INF)) return;
-    Node i = node_of(hexes, star);
-    SlidingNode node(surface, points, i, scale, tangents[surface.slots[i]]);
+    if (scale == 0) return;
+    Node i = node_of(sweep.hexes, star);
+    if constexpr (with_quads) {
+        quads.load(points, surface.quads, surface.slots[i], *term, scale);
+        quads.add_to(at, settings.norm);
+    }
+    if (at.value == 0 || !(at.value < INF)) return;
+    SlidingNode node(surface, points, i, scale, sweep.tangents[surface.slots[i]]);
     V3<double> gradient = node.tangential(at.gradient);
     if (gradient.x == 0 && gradient.y == 0) return;
     SearchDirection chosen = choose_direction(
-        at.value, gradient, settings, [&] { return node.tangential(patch.hessian()); },
+        at.value, gradient, settings,
+        [&] {
+            SymmetricMatrix hessian = patch.hessian();
+            if constexpr (with_quads) quads.add_to(hessian, settings.norm);
+            return node.tangential(hessian);
+        },
         [&](const V3<double> &d) { return node.slope(d, at.gradient); });
     if (!(chosen.slope < 0)) return;
     Point place;
@@ -87,24 +112,25 @@ void slide(Patch &patch, std::span<Point> points, Hexes hexes, Star star, const 
         if (node.flips_quad(place)) return INF;
         patch.set_direction(node.displacement(place));
         double value = patch.template value_along<soft>(1, settings.delta, settings.norm);
+        if constexpr (with_quads) value += quads.value_at(node.displacement(place), settings.norm);
         mover.on_trial(patch.size(), alpha, value, bound);
         return value;
     });
     if (alpha > 0) points[i] = place;
 }
 
-template <bool soft, class Target>
+template <bool soft, class Quads, class Target>
 std::int64_t sliding_sweep_of(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
-                              const NodeStepSettings &settings, const SlidingSurface &surface,
-                              std::span<const Tangents> tangents, const Target &target) {
+                              const SlidingSweep &sweep, const SurfaceTerm *term, const Target &target) {
     std::int64_t most = largest_star(mesh, nodes);
     return sum_over_groups(groups, nodes, [&](Indices chunk) {
         NodePatch<Lanes, Target> patch[1]{{most, target}};
+        [[maybe_unused]] Quads quads;
         NodeMover mover{points};
         for (Node i : chunk) {
             Star star = mesh.star(i);
-            if (surface.slides(i)) slide<soft>(patch[0], points, mesh.hexes, star, settings, surface, tangents, mover);
-            else step_nodes<soft>(patch, points, mesh.hexes, {star}, settings, mover);
+            if (sweep.surface.slides(i)) slide<soft>(patch[0], quads, term, points, star, sweep, mover);
+            else step_nodes<soft>(patch, points, mesh.hexes, {star}, sweep.settings, mover);
         }
         return mover.evaluations;
     });
@@ -114,14 +140,18 @@ std::int64_t sliding_sweep_of(std::span<Point> points, const HexMesh &mesh, Indi
 
 std::int64_t sliding_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                            const NodeStepSettings &settings, const SlidingSurface &surface,
-                           std::span<const Tangents> tangents) {
+                           std::span<const Tangents> tangents, const SurfaceTerm *term) {
     expect(tangents.size() == surface.roots.size(), "tangents: two for each sliding node are expected");
     expect_rows(settings.target, mesh.hexes.size());
+    expect(!term || term->counted.size() == surface.quads.quads.size(), "term: a row for each quad is expected");
+    SlidingSweep sweep{mesh.hexes, settings, surface, tangents};
     return with_target(settings.target, [&](const auto &target) {
         using Target = std::remove_cvref_t<decltype(target)>;
-        return (settings.delta != 0 ? sliding_sweep_of<true, Target>
-                                    : sliding_sweep_of<false, Target>)(points, mesh, groups, nodes, settings, surface,
-                                                                       tangents, target);
+        auto sweep_of = [&](auto soft) {
+            auto run = term ? sliding_sweep_of<soft, NodeQuads, Target> : sliding_sweep_of<soft, NoQuads, Target>;
+            return run(points, mesh, groups, nodes, sweep, term, target);
+        };
+        return settings.delta != 0 ? sweep_of(std::true_type{}) : sweep_of(std::false_type{});
     });
 }
 

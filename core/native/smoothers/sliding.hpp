@@ -2,6 +2,7 @@
 #pragma once
 
 #include "boundary/sliding_surface.hpp"
+#include "boundary/surface_term.hpp"
 #include "smoothers/local.hpp"
 
 namespace hexmend {
@@ -10,10 +11,11 @@ namespace hexmend {
 using Tangents = std::array<double, 6>;
 
 // `local_sweep`, in which the nodes that slide step along their tangents and every trial is projected onto the
-// surface. tangents (k, 6) are those of each sliding node, by its slot.
+// surface. tangents (k, 6) are those of each sliding node, by its slot. With a `term`, the quads of the surface count
+// in the objective of the nodes that slide.
 std::int64_t sliding_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                            const NodeStepSettings &settings, const SlidingSurface &surface,
-                           std::span<const Tangents> tangents);
+                           std::span<const Tangents> tangents, const SurfaceTerm *term = nullptr);
 
 // Write flipped (f,): whether a quad is flipped after and was not before.
 void flipped_quads(Points before, Points after, std::span<const Quad> quads, Points outward, std::span<bool> flipped);

@@ -2,6 +2,7 @@
 #include <nanobind/stl/array.h>
 
 #include "bindings/arrays.hpp"
+#include "energy/node_quads.hpp"
 #include "smoothers/element_step.hpp"
 #include "smoothers/node_step.hpp"
 #include "smoothers/worst_first.hpp"
@@ -82,6 +83,31 @@ std::array<double, 3> direction(std::array<double, 6> hessian, std::array<double
     return {p.x, p.y, p.z};
 }
 
+// Value, gradient and second derivatives (xx, xy, xz, yy, yz, zz) of the quads at node 0, and their value at y.
+std::tuple<double, std::array<double, 3>, std::array<double, 6>, double> quads_at_node(
+    Points points, std::span<const Quad> quads, Indices corners, std::span<const std::array<std::uint8_t, 4>> counted,
+    std::span<const std::array<double, 3>> normals, std::span<const std::array<double, 8>> inverse_lengths,
+    std::array<double, 3> weight_delta_factor, ObjectiveNorm norm, std::array<double, 3> y) {
+    auto [weight, delta, factor] = weight_delta_factor;
+    SurfaceTerm term{counted, normals, inverse_lengths, weight, delta};
+    const std::int32_t start[] = {0, static_cast<std::int32_t>(corners.size())};
+    NodeQuads at_node;
+    at_node.load(points, {start, corners, quads, {}}, 0, term, factor);
+    ValueAndGradient at{};
+    SymmetricMatrix h{};
+    at_node.add_to(at, norm);
+    at_node.add_to(h, norm);
+    return {at.value, point(at.gradient), {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz}, at_node.value_at(vector_of(y), norm)};
+}
+
+void bind_node_quads(nb::module_ m) {
+    m.doc() = "The energy of the boundary quads at a node as a function of that node.";
+    m.def("quads_at_node", &quads_at_node, "points"_a, "quads"_a, "corners"_a, "counted"_a, "normals"_a,
+          "inverse_lengths"_a, "weight_delta_factor"_a, "norm"_a, "y"_a,
+          "Value, gradient and Hessian of the quads whose corners (4 * quad + corner) are the node, and their value\n"
+          "at its displacement y; lengths are multiplied by the factor.");
+}
+
 void bind_symmetric(nb::module_ m) {
     m.doc() = "Symmetric 3 x 3 matrices, given as (xx, xy, xz, yy, yz, zz).";
     m.def("extreme_eigenvalues", &extremes, "a"_a, "Smallest and largest eigenvalue (Smith 1961).");
@@ -106,6 +132,7 @@ NB_MODULE(hexmend_test_kernels, m) {
     bind_barrier(m.def_submodule("barrier"));
     bind_element_step(m.def_submodule("element_step"));
     bind_hexahedron(m.def_submodule("hexahedron"));
+    bind_node_quads(m.def_submodule("node_quads"));
     bind_symmetric(m.def_submodule("symmetric"));
     bind_tournament(m.def_submodule("tournament"));
 }

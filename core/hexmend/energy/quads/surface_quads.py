@@ -1,0 +1,148 @@
+"""Quads of a sliding boundary whose shape counts in the objective (Wilson 5.2.1)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hexmend.arrays import row_norms
+from hexmend.boundary import SlidingBoundary
+from hexmend.boundary.sliding.quad_normals import QuadNormals
+from hexmend.energy.norm import ObjectiveNorm, SurfaceObjective
+from hexmend.energy.quads.quad_energy import QuadCorners
+from hexmend.energy.quads.surface_term import QuadBlocks, SurfaceTerm
+from hexmend.energy.regularisation import DeltaPolicy
+from hexmend.energy.target import wanted_lengths
+from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
+
+#: Unit normals shorter than this are those of a surface so small that numbers underflow.
+_LEAST_NORMAL = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class QuadDeterminants:
+    """Determinants of quads, by which a policy chooses delta.
+
+    Parameters
+    ----------
+    sigma : (f,) float64
+        The least of each quad's counted corners.
+    """
+
+    sigma: np.ndarray
+
+    @property
+    def n_inverted(self) -> int:
+        """Number of flipped quads."""
+        return int(np.count_nonzero(~(self.sigma > 0)))
+
+
+class SurfaceQuads:
+    """Quads of a boundary whose nodes slide, as a term of the objective: weight times the sum of eta(Q)^p.
+
+    Corners between two edges of curves count as perfect, as the curves determine their angle, and so do those whose
+    three nodes stay.
+
+    Parameters
+    ----------
+    sliding : SlidingBoundary
+    norm : ObjectiveNorm
+        p and offset of the objective, of hexes and of quads.
+    weight : float
+        Weight of a quad relative to a hex, greater than 0.
+
+    Attributes
+    ----------
+    unit : float
+        Mean edge length of the mesh, the unit of the term.
+    """
+
+    def __init__(self, sliding: SlidingBoundary, norm: ObjectiveNorm, weight: float):
+        mesh = sliding.mesh
+        quads = np.ascontiguousarray(sliding.boundary.faces, dtype=np.int32)
+        self.norm, self.weight, self.unit = norm, weight, mesh.mean_edge_length or 1.0
+        self._normals = QuadNormals(sliding)
+        lengths = wanted_lengths(mesh)
+        scales = _scales(mesh.hexes, quads, lengths, self.unit)
+        counted, normals = _counted_corners(sliding), np.zeros((len(quads), 3))
+        self._term = SurfaceTerm(quads, counted, normals, scales, weight, 0.0, QuadBlocks(quads), lengths is not None)
+        self._last: tuple[np.ndarray | None, SurfaceTerm] = None, self._term
+
+    def at(self, points: np.ndarray, delta: float, policy: DeltaPolicy) -> SurfaceTerm:
+        """Return the term for a step from some points: normals are held, and quads softened while one is flipped.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            In the mesh's unit of length.
+        delta : float
+            That of the hexes, which quads have too if it is greater than theirs.
+        policy : DeltaPolicy
+            Chooses the delta of the quads by their determinants.
+        """
+        term = self._with_normals(points)
+        found = QuadDeterminants(term.sigma(points / self.unit))
+        return replace(term, delta=max(delta, policy.at(found, 1.0)))
+
+    def objective(self, points: np.ndarray) -> SurfaceObjective:
+        """Compute the term at points (n, 3) in the mesh's unit, for delta = 0; no value if they are not finite."""
+        if not np.isfinite(points).all():
+            return SurfaceObjective(self.weight, len(self._term.quads), None)
+        term = self._with_normals(points)
+        value = term.value(points / self.unit, self.norm)
+        return SurfaceObjective(self.weight, len(term.quads), value if np.isfinite(value) else None)
+
+    def corners(self, points: np.ndarray) -> QuadCorners:
+        """Compute the corners of the quads at points (n, 3) in the mesh's unit, with their qualities."""
+        return self._with_normals(points).corners(points / self.unit)
+
+    def _with_normals(self, points: np.ndarray) -> SurfaceTerm:
+        """Return the term with the normals at some points (n, 3), and delta = 0; that of the last call is kept."""
+        known, term = self._last
+        if known is not points:
+            normals = self._normals(points)
+            counted = self._term.counted & (row_norms(normals) > _LEAST_NORMAL)[:, None]
+            term = replace(self._term, normals=normals, counted=counted)
+            self._last = points, term
+        return term
+
+
+def _counted_corners(sliding: SlidingBoundary) -> np.ndarray:
+    """Mark the corners of boundary quads whose shape sliding nodes can change, (f, 4) bool."""
+    faces, free = sliding.boundary.faces, sliding.mesh.free[sliding.boundary.faces]
+    n, segments = sliding.mesh.n_nodes, np.sort(sliding.boundary.segments.astype(np.int64), axis=1)
+    sides = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).astype(np.int64), axis=2)
+    on_curve = np.isin(sides[:, :, 0] * n + sides[:, :, 1], segments[:, 0] * n + segments[:, 1])
+    moves = free | np.roll(free, -1, axis=1) | np.roll(free, 1, axis=1)
+    return moves & ~(on_curve & np.roll(on_curve, 1, axis=1))
+
+
+def _scales(hexes: np.ndarray, quads: np.ndarray, lengths: np.ndarray | None, unit: float) -> np.ndarray:
+    """Inverse lengths that edges of quads (f, 4) are to have, in mean edge lengths; see `SurfaceTerm`.
+
+    Parameters
+    ----------
+    hexes : (m, 8) int32
+    quads : (f, 4) int32
+    lengths : (m, 3) float64 or None
+        Lengths of the targets of the hexes; of the two hexes at an interface those of the later.
+    unit : float
+        Mean edge length.
+
+    Returns
+    -------
+    (2, f, 4) float64
+    """
+    if lengths is None:
+        return np.ones((2, len(quads), 4))
+    corners = np.sort(hexes[:, FACES].reshape(-1, 4), axis=1)
+    _, number = np.unique(np.concatenate([corners, np.sort(quads, axis=1)]), axis=0, return_inverse=True)
+    number = number.ravel()
+    face_of = np.empty(number.max(initial=-1) + 1, dtype=np.int64)
+    face_of[number[: len(corners)]] = np.arange(len(corners))
+    hex_of = face_of[number[len(corners) :]] // len(FACES)
+    local = (hexes[hex_of][:, None, :] == quads[:, :, None]).argmax(axis=2)  # corner of the hex, (f, 4)
+    along = np.abs(UNIT_CUBE[np.roll(local, -1, axis=1)] - UNIT_CUBE[local]).argmax(axis=2)
+    to_next = unit / lengths[hex_of[:, None], along]
+    return np.stack([to_next, np.roll(to_next, 1, axis=1)])
