@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.aliases import exports, reads_old_names
 from hexmend.boundary import Departures, SurfaceChange
-from hexmend.energy.norm import SQUARES, ObjectiveNorm
+from hexmend.energy.norm import SQUARES, ObjectiveNorm, SurfaceObjective
 from hexmend.hooks import hook
 from hexmend.iteration.step import ActiveSet, Outcome
 from hexmend.iteration.stopping import StoppingCriteria
@@ -45,6 +45,8 @@ class Iteration:
         first smoother.
     target_quality : ElementQuality, optional
         Quality against the target of the mesh, by which iterations are compared; `quality` if it has none.
+    surface : SurfaceObjective, optional
+        Term of the objective over the quads of the boundary, if they count.
     """
 
     number: int
@@ -55,6 +57,7 @@ class Iteration:
     diagnostics: Mapping[str, Any] = field(default_factory=dict)
     norm: ObjectiveNorm = SQUARES
     target_quality: ElementQuality | None = None
+    surface: SurfaceObjective | None = None
 
     @property
     def judged_quality(self) -> ElementQuality:
@@ -65,9 +68,17 @@ class Iteration:
     def objective(self) -> float | None:
         """The objective of `norm`, at delta = 0, against the target of the mesh; None while any hex is inverted.
 
-        It may rise where a step does not minimise it, such as while mend raises the least scaled Jacobian.
+        Where the quads of the boundary count, their term is in it, and it is None while one of them is flipped. It may
+        rise where a step does not minimise it, such as while mend raises the least scaled Jacobian.
         """
-        return objective(self.judged_quality, *self.norm)
+        return self.objective_by(self.norm)
+
+    def objective_by(self, norm: ObjectiveNorm) -> float | None:
+        """Compute the objective of another norm; see `objective`."""
+        hexes = objective(self.judged_quality, *norm)
+        if self.surface is None or hexes is None:
+            return hexes
+        return None if self.surface.value is None else hexes + self.surface.value
 
     def row(self) -> dict[str, float | int | str | None]:
         """Row of the history: `iteration seconds objective q_min q_mean scaled_jacobian_min inverted largest_move`.
@@ -78,7 +89,7 @@ class Iteration:
             "iteration": self.number,
             "seconds": self.seconds,
             "objective": self.objective,
-            "objective_formula": self.norm.formula,
+            "objective_formula": self.norm.formula_with(0.0 if self.surface is None else self.surface.weight),
             "q_min": float(self.quality.q.min()),
             "q_mean": float(self.quality.q.mean()),
             "scaled_jacobian_min": float(self.quality.scaled_jacobian.min()),

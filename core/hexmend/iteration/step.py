@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.aliases import reads_old_names
-from hexmend.energy.norm import ObjectiveNorm
+from hexmend.energy.norm import ObjectiveNorm, SurfaceObjective
 from hexmend.quality import ElementQuality
 
 
@@ -75,6 +75,8 @@ class Step:
         Active corners, which prevent further progress, if the method reports them.
     norm : ObjectiveNorm, optional
         p and offset of the objective that this step lowers, if they differ from the smoother's `norm`.
+    surface : SurfaceObjective, optional
+        Term of the objective over the quads of the boundary, if they count, at these points.
     begins : bool
         True where the run is judged from this step on: no earlier one is its result, as their boundaries are not yet on
         the surface that was given.
@@ -88,4 +90,5 @@ class Step:
     infeasible: bool = False
     active: ActiveSet | None = None
     norm: ObjectiveNorm | None = None
+    surface: SurfaceObjective | None = None
     begins: bool = False

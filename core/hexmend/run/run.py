@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from hexmend.aliases import reads_old_names
@@ -72,10 +73,10 @@ class Run(Iterator[Iteration]):
         smoother = self._stages[0].smoother
         judged = measure_against_target(self._shapes.with_target(smoother), mesh.points, quality)
         self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, smoother.norm, judged)
-        self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
         self._stage_runs = [self._stage_of(self._stages[0], 1, self.start, self.start)]
+        self.history = [replace(self.start, surface=self._stage_run.start_surface).row()]
         self._note_ignored()
         self._end_if_done()
 

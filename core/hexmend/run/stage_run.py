@@ -13,7 +13,7 @@ from hexmend.energy.target import node_sizes
 from hexmend.iteration import ActiveSet, Iteration, Outcome, StageResult, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
-from hexmend.quality import ElementQuality, measure, measure_against_target, objective
+from hexmend.quality import ElementQuality, measure, measure_against_target
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.constrained_steps import constrained_steps
@@ -55,6 +55,8 @@ class StageRun:
     outcome : Outcome or None
         None until it ends.
     setup_seconds : float
+    start_surface : SurfaceObjective or None
+        Term of the objective over boundary quads, if they count, at the points of `start`.
     decision : str
         The method's decision at its newest step, as a sentence.
     active : ActiveSet or None
@@ -89,7 +91,7 @@ class StageRun:
         self._update_best(start)
         began = perf_counter()
         self._steps = constrained_steps(self.smoother, mesh.keeping_surface().with_points(start.points))
-        next(self._steps)
+        self.start_surface = next(self._steps).surface
         self.setup_seconds = perf_counter() - began
         if not mesh.free.any() and not self.smoother.movable(mesh).any():
             self.end(Outcome.NOTHING_FREE)
@@ -131,8 +133,9 @@ class StageRun:
         quality = step.quality if step.quality is not None else measure(points, self._mesh.hexes)
         diagnostics = {**step.diagnostics, "stage": self.number, "method": self.smoother.name}
         judged = measure_against_target(self._mesh, points, quality)
+        number, norm = self.last.number + 1, step.norm or self.smoother.norm
         now = self.last = self.current = Iteration(
-            self.last.number + 1, points, quality, seconds, move, diagnostics, step.norm or self.smoother.norm, judged
+            number, points, quality, seconds, move, diagnostics, norm, judged, step.surface
         )
         self.decision, self.active = step.decision, step.active or self.active
         if step.begins:
@@ -215,10 +218,13 @@ class StageRun:
         if not self.smoother.optimises:
             return False
         norm = now.norm  # the previous step may have had another objective
-        then, later = objective(self._judged_quality(before), *norm), now.objective
+        surface = self.start_surface if before is self.start else before.surface
+        judged = replace(before, target_quality=self._judged_quality(before), surface=surface)
+        then, later = judged.objective_by(norm), now.objective
         if then is None or later is None:
             return False
-        excess = then - norm.cube_value * now.quality.q.size
+        squares = 0.0 if now.surface is None else now.surface.square_value(norm)
+        excess = then - norm.cube_value * now.quality.q.size - squares
         least = max(_MIN_RELATIVE_FALL * excess, _MIN_FALL * (norm.contribution(1.0) - norm.cube_value))
         return then - later > least
 

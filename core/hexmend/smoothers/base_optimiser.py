@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from hexmend.boundary import SlidingBoundary
 from hexmend.energy import POLICIES, ObjectiveNorm
+from hexmend.energy.quads import SurfaceQuads
 from hexmend.kernels.line_search import LineSearch
 from hexmend.parameters import parameter
 from hexmend.smoothers.targeted_smoother import TargetedSmoother
@@ -59,6 +61,26 @@ class Optimiser(ObjectiveSmoother):
     )
     c1: float = parameter(1e-4, low=0, high=0.5, help="Fraction c₁ of the slope required of a step (Armijo, A.5).")
     max_backtracks: int = parameter(100, low=1, high=500, help="Backtracks of a step after which the method gives up.")
+
+    surface_weight: float = parameter(
+        0.0,
+        low=0,
+        high=1e6,
+        help="Weight of the shape of the boundary's quads in the objective, of a quad relative to a hex, where the "
+        "boundary slides (5.2.1): 0 leaves them out.",
+    )
+
+    @property
+    def ignored_parameters(self) -> str:
+        ignored = self.surface_weight > 0 and not self.slides
+        own = f"surface_weight has no effect with boundary = {self.boundary}." if ignored else ""
+        return " ".join(filter(None, [super().ignored_parameters, own]))
+
+    def surface_quads(self, sliding: SlidingBoundary | None) -> SurfaceQuads | None:
+        """The boundary's quads as a term of the objective; None where they do not count."""
+        if sliding is None or not self.slides or self.surface_weight == 0:
+            return None
+        return SurfaceQuads(sliding, self.norm, self.surface_weight)
 
     @property
     def line_search(self) -> LineSearch:

@@ -49,13 +49,16 @@ def _steps_in_turns(smoother: Smoother, mesh: Mesh, linear: np.ndarray, sweep: S
     """Move the other nodes by the method, then the constrained ones by a sweep."""
     points, others = mesh.constrained(mesh.points), mesh.with_fixed(mesh.fixed | linear)
     any_other = smoother.movable(others).any()
-    yield Step(points)
+    surface = _first_step(smoother, others.with_points(points)).surface if any_other else None
+    yield Step(points, surface=surface)
     while True:
         step = _next_step(smoother, others.with_points(points)) if any_other else Step(points)
         if step is None:
             return Outcome.FINISHED
         points = mesh.constrained(sweep(step.points))
-        yield Step(points, step.diagnostics)
+        if surface is not None:
+            surface = _first_step(smoother, others.with_points(points)).surface
+        yield Step(points, step.diagnostics, surface=surface)
 
 
 def _projected_steps(smoother: Smoother, mesh: Mesh) -> Steps:
@@ -74,6 +77,14 @@ def _projected_steps(smoother: Smoother, mesh: Mesh) -> Steps:
         best = np.maximum(best, now)
         yield Step(points, step.diagnostics, quality=quality)
     return Outcome.NO_IMPROVEMENT
+
+
+def _first_step(smoother: Smoother, mesh: Mesh) -> Step:
+    """Return the step that a method yields before it moves a node."""
+    steps = smoother.steps(mesh)
+    first = next(steps)
+    steps.close()
+    return first
 
 
 def _next_step(smoother: Smoother, mesh: Mesh) -> Step | None:

@@ -42,16 +42,18 @@ class GlobalDescent(Optimiser):
         energy = energy_of(mesh, self.norm, sliding)
         find, policy, search = self.direction(), self.policy(energy), self.search(energy)
         points = energy.mesh.points
-        x = energy.to_edge_units(points)
-        yield Step(points)
+        x, quads = energy.to_edge_units(points), self.surface_quads(sliding)
+        yield Step(points, surface=quads and quads.objective(points))
         while True:
             delta = policy.at(measure(points, mesh.hexes), energy.hex_sizes)  # zero in the feasible region, 3.2.4
+            if quads is not None:
+                energy = energy.with_surface(quads.at(points, delta, policy))
             taken = descend(energy, x, delta, find, search)
             if taken is None or (taken.alpha == 0 and taken.slope < 0):  # None: inverted, and delta is zero
                 return Outcome.NO_DESCENT
             x = taken.x
             points = energy.to_mesh_units(x)
-            yield Step(points, taken.diagnostics(delta))
+            yield Step(points, taken.diagnostics(delta), surface=quads and quads.objective(points))
 
 
 SOLVERS = {"minres": Minres, "cg": ConjugateGradients}

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
-from hexmend.energy import POLICIES, MeshEnergy
+from hexmend.boundary import SlidingBoundary
+from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy
+from hexmend.energy.quads import SurfaceQuads
 from hexmend.energy.target import hex_sizes
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
@@ -57,5 +60,34 @@ class LocalOptimiser(Optimiser):
 
     def delta_at(self, mesh: Mesh, points: np.ndarray) -> float:
         """delta of a sweep that begins with the nodes at points (n, 3): zero in the feasible region, 3.2.4."""
-        policy = POLICIES[self.delta_policy](self.delta * DELTA_UNITS[self.delta_unit] ** 3)
-        return policy.at(measure(points, mesh.hexes), hex_sizes(mesh))
+        return self.policy.at(measure(points, mesh.hexes), hex_sizes(mesh))
+
+    @property
+    def policy(self) -> DeltaPolicy:
+        """Policy of delta, in mean edge lengths."""
+        return POLICIES[self.delta_policy](self.delta * DELTA_UNITS[self.delta_unit] ** 3)
+
+    def surface_arguments(
+        self, sliding: SlidingBoundary | None, quads: SurfaceQuads | None, points: np.ndarray, delta: float
+    ) -> Callable[[np.ndarray], tuple]:
+        """Make a function that returns the arguments of `local.sweep` about the surface, for a sweep from some points.
+
+        Parameters
+        ----------
+        sliding : SlidingBoundary or None
+        quads : SurfaceQuads or None
+            If they count.
+        points : (n, 3) float64
+            At which their normals are held.
+        delta : float
+            Of the hexes.
+
+        Returns
+        -------
+        callable
+            Maps the points (n, 3) that are to be swept to the arguments.
+        """
+        if sliding is None:
+            return lambda moved: ()
+        term = None if quads is None else quads.at(points, delta, self.policy).of_kernels(quads.unit)
+        return lambda moved: (sliding.sliding_surface, sliding.tangents(moved), term)

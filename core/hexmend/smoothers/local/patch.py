@@ -52,16 +52,18 @@ class LocalPatch(LocalOptimiser):
         def slide(moved: np.ndarray, stays: np.ndarray) -> int:
             groups = alone.without(stays)
             settings = local.NodeStepSettings(local.Direction.NEWTON, delta, self.norm, search, target)
-            surface, tangents = sliding.sliding_surface, sliding.tangents(moved)
-            return local.sweep(moved, mesh.topology.hex_mesh, groups.start, groups.items, settings, surface, tangents)
+            return local.sweep(moved, mesh.topology.hex_mesh, groups.start, groups.items, settings, *surface(moved))
 
-        yield Step(points)
+        quads = self.surface_quads(sliding)
+        yield Step(points, surface=quads and quads.objective(points))
         while True:
             delta = self.delta_at(mesh, points)
             points = points.copy()
             settings = kernels.PatchStepSettings(delta, self.norm, search, of_patches)
             energies, derivatives = kernels.sweep(points, partition, colours.start, colours.items, settings)
             if sliding is not None:
+                surface = self.surface_arguments(sliding, quads, points, delta)
                 points, more = sweeps(points, slide)
                 energies, derivatives = energies + more, derivatives + derived
-            yield Step(points, {"delta": delta, "energy_evaluations": energies, "derivative_evaluations": derivatives})
+            counts = {"energy_evaluations": energies, "derivative_evaluations": derivatives}
+            yield Step(points, {"delta": delta, **counts}, surface=quads and quads.objective(points))

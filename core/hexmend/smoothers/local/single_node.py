@@ -40,19 +40,20 @@ class LocalDescent(LocalOptimiser):
         # Each visit asks the hexes at its node.
         derivatives = self.steps_per_node * int(np.diff(corners.start)[mesh.free].sum())
         points, number, sweeps = mesh.points, 0, Sweeps(sliding, mesh.n_nodes)
-        target = target_matrices(mesh)
+        target, quads = target_matrices(mesh), self.surface_quads(sliding)
 
         def sweep(moved: np.ndarray, stays: np.ndarray) -> int:
             visited, settings = groups.without(stays), self.step_settings(delta, target)
-            surface = () if sliding is None else (sliding.sliding_surface, sliding.tangents(moved))
-            return local.sweep(moved, mesh.topology.hex_mesh, visited.start, visited.items, settings, *surface)
+            return local.sweep(moved, mesh.topology.hex_mesh, visited.start, visited.items, settings, *surface(moved))
 
         visits.groups(points, number)
-        yield Step(points)
+        yield Step(points, surface=quads and quads.objective(points))
         while True:
             delta, groups = self.delta_at(mesh, points), visits.groups(points, number)
+            surface = self.surface_arguments(sliding, quads, points, delta)
             points, energies = sweeps(points, sweep)
-            yield Step(points, {"delta": delta, "energy_evaluations": energies, "derivative_evaluations": derivatives})
+            counts = {"energy_evaluations": energies, "derivative_evaluations": derivatives}
+            yield Step(points, {"delta": delta, **counts}, surface=quads and quads.objective(points))
             number += 1
 
     @property

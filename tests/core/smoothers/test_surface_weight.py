@@ -1,0 +1,225 @@
+"""Methods whose objective counts the quads of a sliding boundary too: over the registry."""
+
+import itertools
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend import io, kernels
+from hexmend.boundary import SlidingBoundary
+from hexmend.cli.main import main
+from hexmend.energy import FixedDelta, ObjectiveNorm
+from hexmend.energy.quads import SurfaceQuads
+from hexmend.mesh.element_target import Target
+from hexmend.quality import measure, objective
+from hexmend.run import StoppingCriteria, iterate, smooth
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.run.recipe_files import read_recipe, write_recipe
+from hexmend.smoothers import METHODS
+from tests.core.boundary.solids import ball, cylinder, slid
+from tests.core.grids import grid
+from tests.core.linear_motions import planes
+from tests.core.smoothers.test_sliding_on_surface import skin_of
+
+WEIGHTED = sorted(name for name, method in METHODS.items() if hasattr(method, "surface_weight"))
+DESCENTS = [name for name in WEIGHTED if name != "local-patch"]
+SOLIDS = {"block": lambda: grid(3, 2, 4), "cylinder": lambda: cylinder(16, 3), "ball": lambda: ball(3)}
+FEW = StoppingCriteria(max_iterations=20)
+
+
+def sliding(name, weight, **values):
+    return METHODS[name](boundary="slide", surface_weight=weight, **values)
+
+
+def quads_of(mesh, points=None):
+    """The corners of the quads of the boundary at some points, on the surface of a mesh."""
+    return SurfaceQuads(SlidingBoundary(mesh), ObjectiveNorm(), 1.0).corners(mesh.points if points is None else points)
+
+
+def test_the_optimisers_of_the_thesis_have_it():
+    descents = {f"{scope}-{step}" for scope in ("local", "global") for step in ("sd", "nr", "mnr")}
+    assert set(WEIGHTED) == descents | {"local-patch"}
+
+
+@pytest.mark.parametrize("name", WEIGHTED)
+def test_without_weight_nothing_changes_and_the_quads_are_not_recorded(name):
+    mesh = slid(cylinder(16, 3), 0.3)
+    default, zero = (
+        list(itertools.islice(method.steps(mesh), 4)) for method in (METHODS[name](boundary="slide"), sliding(name, 0))
+    )
+    for one, other in zip(default, zero, strict=True):
+        assert one.surface is None is other.surface
+        np.testing.assert_array_equal(one.points, other.points)
+
+
+@pytest.mark.parametrize("name", WEIGHTED)
+def test_a_fixed_boundary_ignores_it_and_says_so(name):
+    mesh = slid(grid(3), 0.3)
+    one, other = (smooth(mesh, METHODS[name](surface_weight=weight), FEW) for weight in (0, 5))
+    np.testing.assert_array_equal(one.mesh.points, other.mesh.points)
+    assert "surface_weight has no effect with boundary = fixed." in other.message
+    assert "surface_weight" not in one.message
+    assert "surface_weight" not in smooth(mesh, sliding(name, 5), FEW).message
+
+
+def test_the_command_says_that_a_fixed_boundary_ignores_it(tmp_path, capsys):
+    io.write(tmp_path / "cube.vtk", grid(3))
+    words = ["smooth", str(tmp_path / "cube.vtk"), "-o", str(tmp_path / "out.vtk"), "--method", "local-nr"]
+    assert main([*words, "--set", "surface_weight=2"]) == 0
+    assert "surface_weight has no effect with boundary = fixed." in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", DESCENTS)
+@pytest.mark.parametrize("solid", sorted(SOLIDS))
+def test_the_recorded_objective_is_the_one_that_is_minimised(name, solid):
+    mesh, weight = slid(SOLIDS[solid](), 0.25, 1), 2.0
+    run = iterate(mesh, sliding(name, weight, p=3.0), StoppingCriteria(max_iterations=6))
+    points = [mesh.points, *(iteration.points for iteration in run)]
+    quads = SurfaceQuads(SlidingBoundary(mesh), ObjectiveNorm(3.0), weight)
+    for row, x in zip(run.history, points, strict=True):
+        expected = objective(measure(x, mesh.hexes), 3.0) + quads.objective(x).value
+        assert row["objective"] == pytest.approx(expected, rel=1e-12)
+        assert row["objective_formula"] == "Σ η³ + 2 Σ η³ of quads"
+    for before, after in itertools.pairwise(points):
+        term = quads.at(before, 0.0, FixedDelta())  # with the normals that are held in the step
+        assert term.delta == 0
+        then, now = (
+            objective(measure(x, mesh.hexes), 3.0) + term.value(x / quads.unit, quads.norm) for x in (before, after)
+        )
+        assert now <= then * (1 + 1e-12)
+    values = [row["objective"] for row in run.history]
+    assert values[-1] < 0.8 * values[0]
+
+
+@pytest.mark.parametrize("name", WEIGHTED)
+def test_a_skewed_surface_gets_better_quads_than_without(name):
+    mesh = cylinder(24, 4)
+    twist = 0.5 * mesh.points[:, 2:] ** 2 * np.array([-mesh.points[:, 1], mesh.points[:, 0]]).T
+    mesh = mesh.with_points(mesh.points + np.column_stack([twist, np.zeros(mesh.n_nodes)]))
+    mesh = slid(mesh.keeping_surface(), 0.2, 3)
+    stop = StoppingCriteria(max_iterations=60, keep_last=True)
+    without, with_quads = (
+        quads_of(mesh, smooth(mesh, sliding(name, weight), stop).mesh.points).qualities for weight in (0, 10)
+    )
+    assert with_quads.mean() > without.mean() + 1e-4
+    assert with_quads.mean() > quads_of(mesh).qualities.mean() + 0.01
+
+
+def with_a_flipped_quad():
+    """A cube in which a node of a face is beyond a diagonal of its quads, but so little inside that no hex is inverted."""
+    cube = grid(4)
+    node = int(np.flatnonzero((cube.points == [2, 2, 0]).all(axis=1))[0])
+    points = cube.points.copy()
+    points[node] += [0.8, 0.8, 0]
+    return cube.with_points(points), node
+
+
+@pytest.mark.parametrize("name", WEIGHTED)
+def test_a_flipped_quad_is_untangled(name):
+    mesh, node = with_a_flipped_quad()
+    assert (quads_of(mesh).sigma <= 0).any()
+    result = smooth(mesh, sliding(name, 1.0), StoppingCriteria(max_iterations=60))
+    assert result.after.inverted == 0
+    assert quads_of(mesh, result.mesh.points).sigma.min() > 0.5
+    assert np.abs(result.mesh.points[node] - [2, 2, 0]).max() < 0.2
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    name=st.sampled_from(WEIGHTED),
+    solid=st.sampled_from(sorted(SOLIDS)),
+    amplitude=st.sampled_from([0.1, 0.3, 0.6]),
+    weight=st.sampled_from([0.1, 1.0, 100.0]),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_nodes_stay_on_their_surface_and_the_objective_ends_no_higher(name, solid, amplitude, weight, seed):
+    mesh = slid(SOLIDS[solid](), amplitude, seed)
+    boundary = SlidingBoundary(mesh)
+    run = iterate(mesh, sliding(name, weight), StoppingCriteria(max_iterations=5))
+    for iteration in run:
+        np.testing.assert_array_equal(iteration.points[boundary.mesh.fixed], mesh.points[boundary.mesh.fixed])
+        x = iteration.points[boundary.nodes]
+        assert np.linalg.norm(boundary.project(x) - x, axis=1).max() < 1e-9
+    values = [row["objective"] for row in run.history]
+    if values[0] is not None and values[-1] is not None and solid == "block" and name != "local-patch":
+        assert values[-1] <= values[0] * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("name", ["local-nr", "local-mnr", "global-nr", "global-mnr"])
+def test_a_scrambled_cube_goes_back_to_the_grid(name):
+    cube = grid(4)
+    stop = StoppingCriteria(tolerance=1e-9, max_iterations=500)
+    result = smooth(slid(cube, 0.3, seed=3), sliding(name, 1.0), stop)
+    np.testing.assert_allclose(result.mesh.points, cube.points, atol=1e-6)
+
+
+def test_local_and_global_steps_reach_the_same_optimum():
+    mesh = slid(grid(4, 3, 2).with_points(grid(4, 3, 2).points * [1, 1.4, 1]), 0.2, 2)
+    stop = StoppingCriteria(tolerance=1e-9, max_iterations=600)
+    ends = [smooth(mesh, sliding(name, 3.0), stop).mesh.points for name in ("local-nr", "global-nr")]
+    np.testing.assert_allclose(*ends, atol=1e-5)
+
+
+@pytest.mark.parametrize("name", WEIGHTED)
+def test_the_number_of_threads_does_not_matter(name):
+    mesh, most, results = slid(cylinder(32, 6), 0.3), kernels.threads(), []
+    try:
+        for threads in (1, 3):
+            kernels.set_threads(threads)
+            results.append(next(itertools.islice(sliding(name, 1.0).steps(mesh), 3, None)).points)
+    finally:
+        kernels.set_threads(most)
+    np.testing.assert_array_equal(*results)
+
+
+@pytest.mark.parametrize("name", ["local-nr", "global-nr"])
+def test_with_a_target_the_quads_are_to_have_its_lengths(name):
+    block = grid(4).with_points(grid(4).points * [1, 1, 0.1])
+    mesh = block.with_element_target(Target(np.tile([1.0, 1.0, 0.1], (block.n_hexes, 1))))
+    for step in itertools.islice(sliding(name, 1.0).steps(mesh), 3):
+        assert step.surface.value == pytest.approx(0, abs=1e-12)
+    moved = slid(block, 0.02, 1)
+    steps = sliding(name, 1.0).steps(moved.with_element_target(mesh.element_target))
+    values = [step.surface.value for step in itertools.islice(steps, 12)]
+    assert values[-1] < 0.01 * values[0]
+
+
+@pytest.mark.parametrize("name", ["local-nr", "global-sd"])
+def test_a_surface_of_its_own_gives_the_normals(name):
+    mesh = slid(ball(4), 0.2).sliding_on(skin_of(ball(8)))
+    run = iterate(mesh, sliding(name, 1.0), StoppingCriteria(max_iterations=5))
+    values = [it.surface.value for it in run]
+    assert values[-1] < 0.9 * values[0]
+
+
+@pytest.mark.parametrize("name", ["local-nr", "local-patch", "global-nr"])
+def test_nodes_with_a_linear_motion_keep_it(name):
+    cube = grid(4)
+    mesh = cube.with_linear_motion(planes(cube, axes=(0,)))
+    shift = np.random.default_rng(0).uniform(-0.2, 0.2, mesh.points.shape) * mesh.free[:, None]
+    mesh = mesh.with_points(mesh.constrained(mesh.points + shift))
+    run = iterate(mesh, sliding(name, 1.0), StoppingCriteria(max_iterations=8))
+    formulas = [run.history[0]["objective_formula"], *(it.row()["objective_formula"] for it in run)]
+    assert set(formulas) == {"Σ η² + 1 Σ η² of quads"}
+    ends = np.isin(cube.points[:, 0], (0, 4))
+    np.testing.assert_array_equal(run.last.points[ends, 0], cube.points[ends, 0])
+    assert run.history[-1]["objective"] < 0.5 * run.history[0]["objective"]
+
+
+def test_a_recipe_and_a_report_have_it(tmp_path):
+    recipe = Recipe.of(Stage(sliding("local-nr", 0.5), FEW), Stage(sliding("global-nr", 2.0), FEW))
+    write_recipe(tmp_path / "recipe.toml", recipe)
+    assert read_recipe(tmp_path / "recipe.toml") == recipe
+    io.write(tmp_path / "cube.vtk", slid(grid(3), 0.3))
+    words = ["smooth", str(tmp_path / "cube.vtk"), "-o", str(tmp_path / "out.vtk"), "--method", "local-nr"]
+    words += ["--boundary", "slide", "--set", "surface_weight=0.5", "--json", str(tmp_path / "report.json")]
+    assert main(words) == 0
+    report = json.loads((tmp_path / "report.json").read_text("utf-8"))
+    assert report["parameters"]["surface_weight"] == 0.5
+    result = smooth(slid(grid(3), 0.3), recipe)
+    formulas = [row["objective_formula"] for row in result.history]
+    assert formulas[0] == "Σ η² + 0.5 Σ η² of quads"
+    assert formulas[-1] == "Σ η² + 2 Σ η² of quads"
