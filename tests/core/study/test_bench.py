@@ -9,9 +9,10 @@ from hexmend.boundary import SkinSurface
 from hexmend.cli.commands.bench import command
 from hexmend.gallery import make
 from hexmend.ranks.launching import launcher
-from hexmend.study.bench import scale, surfaces
+from hexmend.study.bench import scale, surface_quality, surfaces
 from hexmend.study.bench.scale import SCALE, measure_process
 from hexmend.study.bench.sections import sections
+from hexmend.study.bench.surface_quality import SURFACE_QUALITY
 from hexmend.study.bench.surfaces import SURFACES
 
 
@@ -58,3 +59,15 @@ def test_a_skin_is_divided_until_it_has_enough_triangles_and_stays_where_it_is(m
     head, _, row = SURFACES.lines(SURFACES.measure())
     assert head.count("|") == row.count("|")
     assert "| laplacian |" in row
+
+
+def test_quads_of_the_surface_end_better_with_weight(monkeypatch):
+    monkeypatch.delenv("HEXMEND_MESHES", raising=False)
+    for name, value in {"_SIZE": 300, "_ITERATIONS": 40, "_METHODS": ("local-nr",), "_WEIGHTS": (0.0, 10.0)}.items():
+        monkeypatch.setattr(surface_quality, name, value)
+    figures = SURFACE_QUALITY.measure()
+    given, without, with_quads = figures["runs"]
+    assert given["flipped_quads"] > 0 == without["inverted"] == with_quads["inverted"] == with_quads["flipped_quads"]
+    assert with_quads["quad_q_mean"] > without["quad_q_mean"]
+    head, _, *rows = SURFACE_QUALITY.lines(figures)
+    assert {head.count("|")} == {row.count("|") for row in rows}

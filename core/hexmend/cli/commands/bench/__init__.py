@@ -8,8 +8,8 @@ from hexmend.cli.arguments.options import add_repeated
 from hexmend.cli.command import CoreCommand
 
 _PARTS = (
-    "kernels, processes, iterations, preconditioners, optima, tangled, goals, boundaries, surfaces, offsets, remarks, "
-    "sizes, scaling, scale, files, memory, peers, start, viewer, filters, views or watching"
+    "kernels, processes, iterations, preconditioners, optima, tangled, goals, boundaries, surfaces, surface-quality, "
+    "offsets, remarks, sizes, scaling, scale, files, memory, peers, start, viewer, filters, views or watching"
 )
 
 
