@@ -14,7 +14,7 @@ from hexmend_app.canvas.name_list import NameList
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
 from hexmend_app.scene.colour.colouring import end_label
 from hexmend_app.scene.colour.ticks import ticks_with_ends
-from hexmend_app.theme.style import INVERTED, LINE, MUTED, PANEL, TEXT, on_theme_change, set_help, smaller, tabular
+from hexmend_app.theme.style import INVERTED, LINE, MUTED, TEXT, set_help, smaller, tabular
 from hexmend_app.translation import tr
 
 #: Sizes in pixels: height, width of the gradient, length of a tick, gap between tick and number, maximum title width.
@@ -53,14 +53,12 @@ class ColourBar(QFrame):
         self._names.hide()
         self.swatches: list[SwatchButton] = []
         self._layout = QVBoxLayout(self)
-        self._layout.setContentsMargins(8, 6, 6, 5)
-        self._layout.setSpacing(3)
+        self._layout.setContentsMargins(8, 8, 8, 4)
+        self._layout.setSpacing(4)
         self._layout.addWidget(self._title)
         self._layout.addWidget(self._gradient, 1)
         self._layout.addWidget(self._names, 1)
         self.set_special([("inverted", 0, INVERTED)])
-        sheet = "#colour_bar {{ background: {0}; border: 1px solid {1}; border-radius: 7px; }}"
-        on_theme_change(self, lambda: self.setStyleSheet(sheet.format(PANEL, LINE)))
 
     def set_table(self, table: np.ndarray) -> None:
         """Set the colours, (256, 3) uint8, from the lowest to the highest value."""

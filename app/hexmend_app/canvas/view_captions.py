@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QWidget
 
 from hexmend_app.theme.palette import Role
 from hexmend_app.theme.style import MUTED, WORSE, icon, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
+from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.legend import Swatch
 from hexmend_app.widgets.wording import figure
 
@@ -124,10 +125,10 @@ class WipeRow(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         row = QHBoxLayout(self)
-        row.setContentsMargins(6, 0, 6, 0)
+        row.setContentsMargins(8, 0, 8, 0)
         self._sides, self._figures = [], []
         for side in ("left", "right"):
-            box, label = QComboBox(), _figures()
+            box, label = ComboBox(), _figures()
             set_help(
                 box,
                 tr("{side} view", side=side.capitalize()),
@@ -161,7 +162,7 @@ class _Entry(QWidget):
         super().__init__()
         row = QHBoxLayout(self)
         row.setContentsMargins(8, 0, 4, 0)
-        row.setSpacing(5)
+        row.setSpacing(4)
         if caption.colour is not None:
             row.addWidget(Swatch(caption.colour))
         name = QLabel(caption.name)

@@ -23,7 +23,7 @@ def lay_out_status_bar(bar: QStatusBar, row: QWidget, *parts: QWidget) -> None:
     """Add a row of buttons on the left of a status bar, and parts on its right."""
     bar.setSizeGripEnabled(False)
     bar.setMaximumHeight(24)
-    bar.layout().setContentsMargins(0, 0, 6, 0)
     bar.addWidget(row, 1)
     for part in parts:
         bar.addPermanentWidget(part)
+    bar.layout().setContentsMargins(0, 0, 8, 0)  # after the widgets, as adding one makes a new layout

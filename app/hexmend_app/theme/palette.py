@@ -56,6 +56,7 @@ FIELD = Role("#ffffff", "#181c22")
 STRIPE = Role("#f1f3f6", "#1d2128")  # every other row of a list
 BUTTON = Role("#f1f3f6", "#2c323b")
 HOVER = Role("#e9ecf1", "#333a44")
+PRESSED = Role("#dde2e9", "#3b434e")
 WRONG = Role("#fdeee5", "#3d261a")  # an invalid value or an error
 WARNED = Role("#fff6dc", "#372e17")
 INFO = Role("#e8f2f9", "#1c3040")
@@ -67,11 +68,11 @@ INACTIVE = Role("#e6e9ee", "#2a3038")  # a disabled button
 
 # Texts
 _NEUTRAL = (PANEL, FIELD, STRIPE, BUTTON)
-TEXT = Role("#1f2630", "#e3e7ed", on=(*_NEUTRAL, HOVER, WRONG, WARNED, INFO))
+TEXT = Role("#1f2630", "#e3e7ed", on=(*_NEUTRAL, HOVER, PRESSED, WRONG, WARNED, INFO))
 MUTED = Role("#56606d", "#a7b0bc", on=_NEUTRAL)
 ON_ACCENT = Role("#ffffff", "#ffffff", on=(ACCENT, ACCENT_HOVER, ACCENT_PRESSED))
 ON_CHOSEN = Role("#003f66", "#d3e9fb", on=(CHOSEN,))
-FAINT = Role("#a3abb6", "#69737f")  # disabled texts
+FAINT = Role("#79828e", "#828d9a")  # disabled texts: a contrast of at least 3 suffices
 
 # Colours of Okabe and Ito, which can be distinguished with all kinds of colour vision; BETTER and WORSE are bluish
 # green and vermilion, darkened or lightened to be legible.
@@ -85,11 +86,10 @@ INVERTED_TEXT = Role("#b80f6c", "#ff85c6", on=_NEUTRAL)
 INVERTED = "#e6198a"
 
 # Lines and areas
-FRAME = Role("#f7f8fa", "#8b95a3")  # Fusion draws frames of controls in a darker shade of it
-GLEAM = Role("#ffffff", "#39404a")  # the bright side of grooves in Fusion; SHEEN is between it and the panel
-SHEEN = Role("#f4f5f7", "#2e343d")
-SHADOW = Role("#9a9da3", "#14171c")
 LINE = Role("#c3c9d2", "#434b57")
+OUTLINE = Role("#858e9a", "#737e8b")  # frames of controls that take a value
+ACCENT_LINE = Role("#0072b2", "#6cb9f0")  # frames of focused controls, and the line under the tab in front
+TRACK = Role("#b4bbc6", "#4d5663")  # grooves of sliders, and handles of scroll bars
 GREY = Role("#8f98a3", "#8f98a3")
 RIM = Role("#11151c", "#8b95a3")  # around swatches
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QObject, QPoint, QRect, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFont, QIcon, QIconEngine, QPainter, QPalette, QPixmap
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QPalette
 from PySide6.QtWidgets import QApplication, QLabel, QSizePolicy, QToolTip, QWidget
 
+from hexmend_app.theme.icons import icon
 from hexmend_app.theme.palette import (
     ACCENT,
     AMBER,
@@ -16,8 +17,6 @@ from hexmend_app.theme.palette import (
     BUTTON,
     FAINT,
     FIELD,
-    FRAME,
-    GLEAM,
     GREY,
     INVERTED,
     INVERTED_TEXT,
@@ -25,14 +24,13 @@ from hexmend_app.theme.palette import (
     MUTED,
     ON_ACCENT,
     PANEL,
-    SHADOW,
-    SHEEN,
     STRIPE,
     TEXT,
     THEME,
     WORSE,
     Role,
 )
+from hexmend_app.theme.sheet import control_sheet
 
 _ROLE = QPalette.ColorRole
 _PALETTE = (
@@ -44,9 +42,10 @@ _PALETTE = (
     (_ROLE.Button, BUTTON),
     (_ROLE.ButtonText, TEXT),
     (_ROLE.BrightText, ON_ACCENT),
-    (_ROLE.Light, GLEAM),
-    (_ROLE.Midlight, SHEEN),
-    (_ROLE.Dark, SHADOW),
+    (_ROLE.Light, PANEL),
+    (_ROLE.Midlight, PANEL),
+    (_ROLE.Mid, LINE),
+    (_ROLE.Dark, LINE),
     (_ROLE.ToolTipBase, FIELD),
     (_ROLE.ToolTipText, TEXT),
     (_ROLE.PlaceholderText, MUTED),
@@ -56,9 +55,6 @@ _PALETTE = (
     (_ROLE.Link, BLUE),
     (_ROLE.LinkVisited, BLUE),
 )
-
-#: Controls that use the window colour of their palette for frames only.
-_FRAMED = ("QCheckBox", "QPushButton", "QComboBox", "QAbstractSpinBox", "QLineEdit", "QSlider", "QMenu")
 
 
 class _ThemeNotifier(QObject):
@@ -71,7 +67,7 @@ _NOTIFIER = _ThemeNotifier()
 
 
 def apply_style(app: QApplication, dark: bool) -> None:
-    """Set the Fusion style with the light or the dark theme, and update all widgets."""
+    """Set the palette and the style sheet of the light or the dark theme, and update all widgets."""
     if app.property("dark") is dark:
         return
     if app.property("dark") is None:  # only once, as it polishes all widgets, which is slow
@@ -84,10 +80,8 @@ def apply_style(app: QApplication, dark: bool) -> None:
         palette.setColor(QPalette.ColorGroup.Disabled, role, QColor(FAINT.of(dark)))
     app.setPalette(palette)
     QToolTip.setPalette(palette)
-    palette.setColor(_ROLE.Window, QColor(FRAME.of(dark)))
-    for control in _FRAMED:
-        app.setPalette(palette, control)
     THEME.dark = dark
+    app.setStyleSheet(control_sheet(dark))
     _NOTIFIER.changed.emit()
 
 
@@ -110,6 +104,25 @@ def on_theme_change(widget: QWidget, apply_colours: Callable[[], object]) -> Non
     _ThemeListener(widget, apply_colours)
 
 
+def set_variant(widget: QWidget, value: str | bool, name: str = "variant") -> None:
+    """Set a property that selects rules of the style sheet, and apply them.
+
+    Parameters
+    ----------
+    widget : QWidget
+    value : str or bool
+        For `variant`: "main", "small", "section", "link", "segment", "name", "panel" or "lined".
+    name : str
+        Name of the property.
+    """
+    if widget.property(name) == value:
+        return
+    widget.setProperty(name, value)
+    if widget.testAttribute(Qt.WidgetAttribute.WA_WState_Polished):  # otherwise Qt applies them when it is first shown
+        widget.style().unpolish(widget)
+        widget.style().polish(widget)
+
+
 def tabular(font: QFont) -> QFont:
     """Return a copy of `font` with tabular digits, so that columns are aligned and changing numbers do not move."""
     font = QFont(font)
@@ -122,39 +135,6 @@ def smaller(font: QFont) -> QFont:
     font = QFont(font)
     font.setPointSizeF(max(font.pointSizeF() * 0.88, 7.0))
     return font
-
-
-class _IconEngine(QIconEngine):
-    """Paints a glyph in the current colour of a role."""
-
-    def __init__(self, name: str, role: Role):
-        super().__init__()
-        self._name, self._role = name, role
-
-    def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
-        """Paint the glyph in the size of the rectangle."""
-        import qtawesome  # imported late, as it loads fonts
-
-        glyph = qtawesome.icon(self._name, color=str(self._role), color_disabled=str(FAINT))
-        glyph.paint(painter, rect, Qt.AlignmentFlag.AlignCenter, mode, state)
-
-    def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
-        """Return the glyph on a transparent background; `size` is in device pixels."""
-        pixmap = QPixmap(size)
-        pixmap.fill(Qt.GlobalColor.transparent)
-        painter = QPainter(pixmap)
-        self.paint(painter, QRect(QPoint(0, 0), size), mode, state)
-        painter.end()
-        return pixmap
-
-    def clone(self) -> QIconEngine:
-        """Return a copy."""
-        return _IconEngine(self._name, self._role)
-
-
-def icon(name: str, role: Role = TEXT) -> QIcon:
-    """Return a Material Design icon by name, which is sharp at all scales and follows the theme."""
-    return QIcon(_IconEngine(f"mdi6.{name}", role))
 
 
 def set_help(widget: QWidget, name: str, help: str) -> None:
@@ -223,6 +203,7 @@ __all__ = [
     "note",
     "on_theme_change",
     "set_help",
+    "set_variant",
     "smaller",
     "tabular",
     "tint",

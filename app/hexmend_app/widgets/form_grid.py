@@ -10,7 +10,7 @@ def form_grid(parent: QWidget, widest_label: str = "") -> QGridLayout:
     grid = QGridLayout(parent)
     grid.setContentsMargins(0, 0, 0, 0)
     grid.setHorizontalSpacing(8)
-    grid.setVerticalSpacing(7)
+    grid.setVerticalSpacing(8)
     grid.setColumnStretch(1, 1)
     grid.setColumnMinimumWidth(0, parent.fontMetrics().horizontalAdvance(widest_label))
     return grid

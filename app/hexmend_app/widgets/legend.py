@@ -33,7 +33,7 @@ def legend_entry(text: str, colour: Role | str) -> QWidget:
     entry = QWidget()
     layout = QHBoxLayout(entry)
     layout.setContentsMargins(0, 0, 8, 0)
-    layout.setSpacing(5)
+    layout.setSpacing(4)
     label = note(text)
     label.setWordWrap(False)
     label.setSizePolicy(entry.sizePolicy())

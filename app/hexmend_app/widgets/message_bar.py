@@ -108,9 +108,9 @@ class MessageBar(QFrame):
         for button in (self._next, self._copy, self._dismiss):
             buttons.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
         layout = QGridLayout(self)
-        layout.setContentsMargins(10, 6, 6, 6)
+        layout.setContentsMargins(12, 8, 8, 8)
         layout.setHorizontalSpacing(8)
-        layout.setVerticalSpacing(2)
+        layout.setVerticalSpacing(4)
         layout.setColumnStretch(1, 1)
         layout.addWidget(self._icon, 0, 0, Qt.AlignmentFlag.AlignTop)
         layout.addWidget(self.title, 0, 1)
@@ -212,8 +212,8 @@ class MessageBar(QFrame):
         if self._messages:
             icon_name, colour, background = _KINDS[self._messages[self._at].kind]
             self.setStyleSheet(
-                f"#message_bar {{ background: {background}; border: 1px solid {colour}; border-radius: 5px;"
-                " border-left-width: 5px; }"
+                f"#message_bar {{ background: {background}; border: 1px solid {colour}; border-radius: 4px;"
+                " border-left-width: 4px; }"
             )
             self._icon.setPixmap(icon(icon_name, colour).pixmap(QSize(20, 20), self.devicePixelRatioF()))
 

@@ -6,8 +6,8 @@ from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from superqt import QCollapsible
 
-from hexmend_app.theme.palette import BLUE, HOVER, MUTED
-from hexmend_app.theme.style import icon, on_theme_change, set_help
+from hexmend_app.theme.palette import MUTED
+from hexmend_app.theme.style import icon, set_help, set_variant
 
 # QWIDGETSIZE_MAX of Qt, which PySide6 does not provide.
 _UNBOUNDED = (1 << 24) - 1
@@ -29,15 +29,16 @@ class Section(QCollapsible):
         # An animation would end with a fixed height, which is too small for lines that appear later.
         self.setDuration(0)
         self.layout().setContentsMargins(0, 0, 0, 0)
-        self.layout().setSpacing(2)
+        self.layout().setSpacing(4)
         inside = QWidget()
         inner = QVBoxLayout(inside)
-        inner.setContentsMargins(6, 2, 0, 6)
+        inner.setContentsMargins(4, 4, 0, 8)
         inner.addWidget(content)
         inside.setMaximumHeight(0)
         self.setContent(inside)
         button = self.toggleButton()
-        on_theme_change(button, lambda: button.setStyleSheet(_sheet()))
+        button.setStyleSheet("")  # that of superqt has no states
+        set_variant(button, "section")
         set_help(button, title, help)
         self.toggled.connect(self._fit)
         self._fit(False)
@@ -51,11 +52,3 @@ class Section(QCollapsible):
         # Hidden, not only of zero height, so that Tab does not reach collapsed widgets.
         self.content().setVisible(open_)
         self.content().setMaximumHeight(_UNBOUNDED if open_ else 0)
-
-
-def _sheet() -> str:
-    return (
-        "QPushButton { text-align: left; border: 1px solid transparent; border-radius: 3px; padding: 3px 1px;"
-        f" font-weight: 600; }} QPushButton:hover {{ background: {HOVER}; }}"
-        f" QPushButton:focus {{ border-color: {BLUE}; outline: none; }}"
-    )

@@ -6,7 +6,7 @@ import dataclasses
 from html import escape
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.parameters import Parameter
@@ -19,7 +19,7 @@ from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.style import WORSE, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
-from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.metric_texts import metrics_offered
@@ -61,7 +61,7 @@ class ColourPanel(QWidget):
         self._before_material = Colours()  # before the colours showed materials, which have no range
         self._ends = (0.0, 1.0)  # of the current range
         self._pinned: dict[str, tuple[float, float]] = {}  # limits that the user set, by metric
-        self._metric = QComboBox()
+        self._metric = ComboBox()
         let_shrink(self._metric, 7)
         self._metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for metric in (*metrics_offered(), *DISPLACEMENT_QUANTITIES.values(), MATERIAL):

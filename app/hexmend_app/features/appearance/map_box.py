@@ -5,18 +5,18 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QColor, QIcon, QImage, QPainter, QPixmap
-from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS, value_maps
 from hexmend_app.theme.style import LINE, on_theme_change, set_help
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 
 _SWATCH = QSize(48, 12)
 _VALUE_MAPS_HELP = "All maps are perceptually uniform and readable with red-green colour blindness."
 
 
-class MapBox(QComboBox):
+class MapBox(ComboBox):
     """Combo box that selects a colour map for values; changes have one fixed map.
 
     Signals

@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 
 #: Direction, id, text, keys, icon and text in the tool bar.
 _DIRECTIONS = (
-    ("iso", "view_iso", "&Isometric", "0", "axis-arrow", "Iso"),
-    ("+x", "view_x", "From +&X", "1", "axis-x-arrow", "X"),
-    ("+y", "view_y", "From +&Y", "2", "axis-y-arrow", "Y"),
-    ("+z", "view_z", "From +&Z", "3", "axis-z-arrow", "Z"),
-    ("-x", "view_minus_x", "From −X", "4", "axis-x-arrow", ""),
-    ("-y", "view_minus_y", "From −Y", "5", "axis-y-arrow", ""),
-    ("-z", "view_minus_z", "From −Z", "6", "axis-z-arrow", ""),
+    ("iso", "view_iso", "&Isometric", "0", "cube-outline", "Iso"),
+    ("+x", "view_x", "From +&X", "1", "plus-x", "X"),
+    ("+y", "view_y", "From +&Y", "2", "plus-y", "Y"),
+    ("+z", "view_z", "From +&Z", "3", "plus-z", "Z"),
+    ("-x", "view_minus_x", "From −X", "4", "minus-x", ""),
+    ("-y", "view_minus_y", "From −Y", "5", "minus-y", ""),
+    ("-z", "view_minus_z", "From −Z", "6", "minus-z", ""),
 )
 
 #: Step of a roll in degrees.
@@ -55,7 +55,7 @@ class FeatureCamera(Feature):
                 text=tr("&Fit"),
                 menu="View",
                 keys="F",
-                icon="fit-to-page-outline",
+                icon="arrow-expand-all",
                 help=tr("Fit the visible mesh to the view."),
                 tool=tr("Fit"),
                 handle=lambda: self.canvas.fit(),
@@ -131,7 +131,7 @@ class FeatureCamera(Feature):
                 menu="View/Camera",
                 part=2,
                 keys="Ctrl+Shift+K",
-                icon="camera-plus-outline",
+                icon="bookmark-plus-outline",
                 help=tr("Save the camera under a name, for views, pictures and the session."),
                 handle=self.ask_name,
                 enabled=lambda: self._draws,

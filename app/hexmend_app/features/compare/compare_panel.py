@@ -6,14 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_known
 from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
-from hexmend_app.theme.palette import CHOSEN, FRAME, ON_CHOSEN
-from hexmend_app.theme.style import MUTED, icon, on_theme_change, set_help, smaller, tabular, tint
+from hexmend_app.theme.style import MUTED, icon, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.tables.hex_table import shape_table
@@ -85,8 +83,6 @@ class ComparePanel(QWidget):
         self._wipe = QPushButton(icon("compare"), tr("Wipe"))
         self._wipe.setCheckable(True)
         set_help(self._wipe, tr("Wipe"), tr("Show two views in one, with an edge between them to drag (W)."))
-        self._wipe.toggled.connect(self._paint_wipe)
-        on_theme_change(self._wipe, self._paint_wipe)
         self._use = QPushButton(tr("Use result"))
         set_help(self._use, tr("Use result"), tr("Replace the mesh by the result of the selected row. Can be undone."))
         self._save = QPushButton(icon("content-save-outline"), "")
@@ -104,14 +100,6 @@ class ComparePanel(QWidget):
         self._save.clicked.connect(self.save_requested)
         self.set_status()
 
-    def _paint_wipe(self) -> None:
-        """Colour the pressed button: the shade of the Fusion style is invisible in the dark theme."""
-        palette = QPalette()
-        if self._wipe.isChecked():
-            palette.setColor(QPalette.ColorRole.Button, QColor(str(CHOSEN)))
-            palette.setColor(QPalette.ColorRole.ButtonText, QColor(str(ON_CHOSEN)))
-        self._wipe.setPalette(palette)
-
     def _make_table(self) -> QTableView:
         table = QTableView()
         table.setModel(self._model)
@@ -121,18 +109,10 @@ class ComparePanel(QWidget):
         header.setSortIndicator(METHOD, Qt.SortOrder.AscendingOrder)
         header.setSectionsClickable(True)
         table.setSortingEnabled(True)
-        on_theme_change(table, lambda: self._frame_checks(table))
         table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         table.selectionModel().selectionChanged.connect(self._enable)
         table.doubleClicked.connect(self._toggle)
         return table
-
-    @staticmethod
-    def _frame_checks(table: QTableView) -> None:
-        """Set the frame colour of the check boxes, a darker shade of the window colour in the Fusion style."""
-        palette = table.palette()
-        palette.setColor(QPalette.ColorRole.Window, QColor(str(FRAME)))
-        table.setPalette(palette)
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()
@@ -143,7 +123,7 @@ class ComparePanel(QWidget):
             head.addWidget(button)
         head.insertStretch(2)
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setContentsMargins(8, 4, 8, 4)
         layout.setSpacing(4)
         layout.addLayout(head)
         layout.addWidget(self._table, 1)

@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QFontDatabase, QKeyEvent, QTextCharFormat, QTe
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
 from hexmend_app.theme.palette import MUTED, TEXT, WORSE
-from hexmend_app.theme.style import BLUE, LINE, icon, on_theme_change, set_help
+from hexmend_app.theme.style import BLUE, icon, set_help
 from hexmend_app.translation import tr
 
 _WELCOME = (
@@ -57,14 +57,13 @@ class ConsolePanel(QWidget):
         set_help(clear, tr("Clear output"), tr("Clear the output of the console."))
         clear.clicked.connect(self.output.clear)
         self._prompt = QLabel(">>>", font=font)
-        on_theme_change(self, self._apply_theme)
         line = QHBoxLayout()
         line.addWidget(self._prompt)
         line.addWidget(self.input, 1)
         line.addWidget(self._interrupt)
         line.addWidget(clear)
         column = QVBoxLayout(self)
-        column.setContentsMargins(8, 6, 8, 6)
+        column.setContentsMargins(8, 8, 8, 8)
         column.addWidget(self.output, 1)
         column.addLayout(line)
         self._history: list[str] = []
@@ -73,11 +72,6 @@ class ConsolePanel(QWidget):
         self.set_running(False)
         self._fit()
         self.print_text(tr(_WELCOME), MUTED)
-
-    def _apply_theme(self) -> None:
-        sheet = f"QPlainTextEdit {{ border: 1px solid {LINE}; }} QPlainTextEdit:focus {{ border-color: {BLUE}; }}"
-        self.output.setStyleSheet(sheet)
-        self.input.setStyleSheet(sheet)
 
     # Output
 

@@ -81,7 +81,7 @@ class ConvergencePanel(QWidget):
         stack = QWidget()
         charts = QVBoxLayout(stack)
         charts.setContentsMargins(0, 0, 0, 0)
-        charts.setSpacing(2)
+        charts.setSpacing(4)
         for plot in self.plots.values():
             charts.addWidget(plot, 1)
         self._empty = note(tr(_EMPTY))
@@ -94,7 +94,7 @@ class ConvergencePanel(QWidget):
         self.side = QWidget()
         self.side.setLayout(side)
         self._layout = QBoxLayout(QBoxLayout.Direction.RightToLeft, self)
-        self._layout.setContentsMargins(6, 4, 6, 4)
+        self._layout.setContentsMargins(8, 4, 8, 4)
         for widget, stretch in ((self.side, 0), (self.plotting, 1), (self._empty, 1)):
             self._layout.addWidget(widget, stretch)
 

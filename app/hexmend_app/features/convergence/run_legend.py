@@ -9,19 +9,10 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSizePolicy, QToolButton, 
 
 from hexmend_app.features.convergence.curves import Curve, colour_of
 from hexmend_app.state.mesh.history import RunRecord
-from hexmend_app.theme.palette import HOVER
-from hexmend_app.theme.style import BLUE, MUTED, icon, on_theme_change, set_help, smaller
+from hexmend_app.theme.style import MUTED, icon, set_help, set_variant, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.legend import Swatch
 from hexmend_app.widgets.wording import counted
-
-
-def _sheet() -> str:
-    return f"""
-QToolButton {{ border: none; border-radius: 3px; padding: 0; }}
-QToolButton:hover {{ background: {HOVER}; }}
-QToolButton:focus {{ border: 1px solid {BLUE}; }}
-"""
 
 
 class RunLegend(QWidget):
@@ -43,9 +34,8 @@ class RunLegend(QWidget):
         self.rows: dict[RunRecord, RunRow] = {}
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
-        self._layout.setSpacing(1)
+        self._layout.setSpacing(0)
         self._layout.addStretch()
-        on_theme_change(self, lambda: self.setStyleSheet(_sheet()))
 
     def set_curves(self, curves: Sequence[Curve]) -> None:
         """List these runs."""
@@ -80,6 +70,7 @@ class RunRow(QWidget):
         self.box.setFont(smaller(self.font()))
         self.box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.cross = QToolButton()
+        set_variant(self.cross, "small")
         self.cross.setIcon(icon("close", MUTED))
         self.cross.setIconSize(QSize(11, 11))
         self.cross.setFixedSize(16, 16)

@@ -54,7 +54,7 @@ class FeatureCut(Feature):
                 menu="View",
                 part=1,
                 keys="C",
-                icon="box-cutter",
+                icon="cut",
                 help=tr("Cut the mesh open along planes or a box."),
                 tool=tr("Cut"),
                 handle=self._switch,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QTabBar, QWidget
 
 from hexmend_app.theme.style import icon, set_help
@@ -40,7 +40,8 @@ class PlaneRow(QWidget):
         self._tabs = QTabBar()
         self._tabs.setDrawBase(False)
         self._tabs.setExpanding(False)
-        self._tabs.setUsesScrollButtons(True)
+        self._tabs.setUsesScrollButtons(False)
+        self._tabs.setElideMode(Qt.TextElideMode.ElideRight)
         self._tabs.setMinimumWidth(64)  # its hint for one tab is twice as wide
         set_help(self._tabs, tr("Plane"), tr("Plane that is edited here and in the view."))
         self._add, self._remove = QPushButton(icon("plus"), ""), QPushButton(icon("minus"), "")

@@ -51,7 +51,7 @@ class DoctorPanel(QWidget):
         self._repair_buttons: list[QPushButton] = []
         inside = QWidget()
         column = QVBoxLayout(inside)
-        column.setContentsMargins(8, 6, 8, 6)
+        column.setContentsMargins(8, 8, 8, 8)
         head = QHBoxLayout()
         head.addWidget(self._head, 1)
         head.addWidget(self._all)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from PySide6.QtWidgets import (
     QCheckBox,
-    QComboBox,
     QDialog,
     QDialogButtonBox,
     QFormLayout,
@@ -17,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from hexmend_app.theme.style import note, set_help
 from hexmend_app.translation import tr
+from hexmend_app.widgets.inputs.combo import ComboBox
 
 #: Widths to choose from, in pixels.
 WIDTHS = (640, 960, 1280, 1920, 2560)
@@ -71,7 +71,7 @@ class FilmDialog(QDialog):
     def __init__(self, choice: FilmChoice, view: tuple[int, int], iterations: int, parent: QWidget | None = None):
         super().__init__(parent)
         self.setWindowTitle(tr("Save film"))
-        self._size, self._rate, self._frames = QComboBox(), QSpinBox(), QSpinBox()
+        self._size, self._rate, self._frames = ComboBox(), QSpinBox(), QSpinBox()
         for width in WIDTHS:
             self._size.addItem("{} × {} pixels".format(*FilmChoice(width).size(view)), width)
         self._size.setCurrentIndex(max(0, self._size.findData(choice.width)))

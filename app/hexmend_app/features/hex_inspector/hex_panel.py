@@ -136,8 +136,8 @@ class HexPanel(QWidget):
         rows = -(-len(metrics) // _METRIC_COLUMNS)
         values = [self._metric_grid(metrics[first : first + rows]) for first in range(0, len(metrics), rows)]
         corners = QGridLayout()
-        corners.setVerticalSpacing(2)
-        corners.setHorizontalSpacing(14)
+        corners.setVerticalSpacing(4)
+        corners.setHorizontalSpacing(16)
         for column, text in enumerate((tr("Node"), "", "q(T)")):
             title = QLabel(text)
             title.setAlignment(Qt.AlignmentFlag.AlignRight)
@@ -153,7 +153,7 @@ class HexPanel(QWidget):
         for widget in (self._state, self._in_view, self._neighbours, self._about_node, self._pin):
             texts.addWidget(widget)
         columns = QFlowLayout(page)
-        columns.setContentsMargins(8, 6, 8, 6)
+        columns.setContentsMargins(8, 8, 8, 8)
         columns.setHorizontalSpacing(20)
         columns.setVerticalSpacing(8)
         for layout in (texts, corners, *values):
@@ -167,7 +167,7 @@ class HexPanel(QWidget):
     def _metric_grid(self, metrics: Sequence[Metric]) -> QGridLayout:
         """Lay out titles and values of metrics, one below the other."""
         grid = QGridLayout()
-        grid.setVerticalSpacing(2)
+        grid.setVerticalSpacing(4)
         for row, metric in enumerate(metrics):
             title = QLabel(metric.title)
             set_help(title, metric.title, described(metric).removeprefix("<qt>").removesuffix("</qt>"))

@@ -9,7 +9,6 @@ from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, Qt,
 from PySide6.QtGui import QAction, QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
-    QComboBox,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -26,6 +25,7 @@ from hexmend_app.state.mesh.worst_hexes import WorstHexes
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
+from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.metric_texts import described, metrics_offered
 from hexmend_app.widgets.tables.hex_table import shape_table
 from hexmend_app.widgets.wording import counted
@@ -65,7 +65,7 @@ class WorstList(QWidget):
         self._figures: ElementQuality | None = None
         self._selected: int | None = None
         self._stale = False
-        self._metric = QComboBox()
+        self._metric = ComboBox()
         for metric in metrics_offered():
             self._metric.addItem(metric.title, metric.name)
             self._metric.setItemData(self._metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
@@ -120,7 +120,7 @@ class WorstList(QWidget):
         for widget in (self._isolate, self._previous, self._next, self._save):
             head.addWidget(widget)
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setContentsMargins(8, 4, 8, 4)
         layout.setSpacing(4)
         layout.addLayout(head)
         layout.addWidget(self._table, 1)

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QSpinBox, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QSpinBox, QToolButton, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.codec.checks import check_count
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, MAX_BINS, MIN_BINS
 from hexmend_app.theme.style import icon, set_help, smaller, tabular
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.inputs.menu_button import MenuButton
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.metric_texts import described, metrics_offered
@@ -60,7 +60,7 @@ class HistogramHead(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.metric_box = QComboBox()
+        self.metric_box = ComboBox()
         let_shrink(self.metric_box, 9)
         self.metric_box.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.metric_box.setMaximumWidth(240)
@@ -133,7 +133,7 @@ class HistogramHead(QWidget):
         self._optional = (self.bins, buttons[self.cumulative], buttons[self.keep])
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(6)
+        layout.setSpacing(8)
         layout.addWidget(self.metric_box, 1)
         layout.addStretch()
         for control in (self.scale, buttons[self.cumulative], self.bins, buttons[self.keep], self.more):

@@ -9,23 +9,12 @@ from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
 from superqt import QFlowLayout
 
-from hexmend_app.theme.palette import HOVER, KEPT
-from hexmend_app.theme.style import BLUE, FIELD, GREY, LINE, MUTED, icon, note, on_theme_change, set_help, smaller
+from hexmend_app.theme.palette import KEPT
+from hexmend_app.theme.style import BLUE, GREY, MUTED, icon, note, set_help, set_variant, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.legend import Swatch, legend_entry
 
 _MAX_NAME_WIDTH, _HEIGHT = 150, 18
-
-
-def _sheet() -> str:
-    return f"""
-QLineEdit {{ border: 1px solid transparent; border-radius: 3px; background: transparent; color: {MUTED}; padding: 0; }}
-QLineEdit:hover {{ border-color: {LINE}; }}
-QLineEdit:focus {{ border-color: {BLUE}; background: {FIELD}; }}
-QToolButton {{ border: none; border-radius: 3px; padding: 0; }}
-QToolButton:hover {{ background: {HOVER}; }}
-QToolButton:focus {{ border: 1px solid {BLUE}; }}
-"""
 
 
 class HistogramLegend(QWidget):
@@ -46,15 +35,14 @@ class HistogramLegend(QWidget):
         super().__init__(parent)
         self._flow = QFlowLayout(self)
         self._flow.setContentsMargins(0, 0, 0, 0)
-        self._flow.setHorizontalSpacing(2)
-        self._flow.setVerticalSpacing(1)
-        on_theme_change(self, lambda: self.setStyleSheet(_sheet()))
+        self._flow.setHorizontalSpacing(4)
+        self._flow.setVerticalSpacing(0)
         self.entries: dict[int, SnapshotEntry] = {}
         self._title = note()
         self._title.setWordWrap(False)
         self._title.setSizePolicy(self.sizePolicy())
         self._title.setMinimumHeight(_HEIGHT)
-        self._title.setContentsMargins(0, 0, 6, 0)
+        self._title.setContentsMargins(0, 0, 8, 0)
         set_help(self._title, tr("Axis of values"), help)
         self._flow.addWidget(self._title)
         for text, colour in ((tr("at the start"), GREY), ("now", BLUE)):
@@ -102,6 +90,7 @@ class SnapshotEntry(QWidget):
         super().__init__()
         self.name = _Name()
         self.cross = QToolButton()
+        set_variant(self.cross, "small")
         self.cross.setIcon(icon("close", MUTED))
         self.cross.setIconSize(QSize(11, 11))
         self.cross.setFixedSize(16, 16)
@@ -109,7 +98,7 @@ class SnapshotEntry(QWidget):
         self.setFixedHeight(_HEIGHT)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 4, 0)
-        layout.setSpacing(2)
+        layout.setSpacing(4)
         for widget in (Swatch(KEPT[slot]), self.name, self.cross):
             layout.addWidget(widget)
 
@@ -122,6 +111,7 @@ class _Name(QLineEdit):
     def __init__(self) -> None:
         super().__init__()
         self._name = ""
+        set_variant(self, "name")
         self.setFont(smaller(self.font()))
         self.setTextMargins(0, 0, 0, 0)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)

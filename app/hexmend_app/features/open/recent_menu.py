@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QMenu, QWidget
 
 from hexmend_app.state.settings.recent_files import RecentFiles
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_folder
+
+#: Maximum width of a file's name and folder, in average letters.
+_MAX_LETTERS = 60
+
+
+def elide(text: str, widget: QWidget) -> str:
+    """Return the name and folder of a file, elided in the middle if they are long, in the font of a widget."""
+    metrics = widget.fontMetrics()
+    return metrics.elidedText(text, Qt.TextElideMode.ElideMiddle, _MAX_LETTERS * metrics.averageCharWidth())
 
 
 class RecentMenu(QMenu):
@@ -42,7 +51,7 @@ class RecentMenu(QMenu):
         files = self._recent.files()
         for number, path in enumerate(files, start=1):
             exists = path.exists()
-            name = f"{path.name}  ({short_folder(path)})".replace("&", "&&")
+            name = elide(f"{path.name}  ({short_folder(path)})", self).replace("&", "&&")
             action = self.addAction(f"&{number % 10}  {name}" + ("" if exists else tr(": not found")))
             action.setEnabled(exists)
             action.setToolTip(str(path) if exists else tr("{path} was moved, renamed or deleted.", path=path))

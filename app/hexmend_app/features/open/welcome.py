@@ -7,8 +7,9 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from hexmend_app.features.open.recent_menu import elide
 from hexmend_app.state.settings.recent_files import RecentFiles
-from hexmend_app.theme.style import BLUE, MUTED, icon, on_theme_change, set_help, tint
+from hexmend_app.theme.style import MUTED, icon, set_help, set_variant, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_folder
 
@@ -53,14 +54,14 @@ class Welcome(QWidget):
         buttons.addWidget(self._demo)
         buttons.addStretch()
         layout = QVBoxLayout(self)
-        layout.setSpacing(14)
+        layout.setSpacing(16)
         layout.addStretch()
         for label in (self._title, self._hint):
             label.setAlignment(Qt.AlignmentFlag.AlignCenter)
             layout.addWidget(label)
         layout.addLayout(buttons)
         self._links = QVBoxLayout()
-        self._links.setSpacing(2)
+        self._links.setSpacing(4)
         layout.addLayout(self._links)
         layout.addStretch()
         recent.changed.connect(self._show_recent)
@@ -72,17 +73,10 @@ class Welcome(QWidget):
             item.widget().deleteLater()
         for path in self._recent.files():
             if path.exists():
-                link = QPushButton(f"{path.name}  ({short_folder(path)})".replace("&", "&&"))
+                link = QPushButton(elide(f"{path.name}  ({short_folder(path)})", self).replace("&", "&&"))
                 link.setFlat(True)
                 link.setCursor(Qt.CursorShape.PointingHandCursor)
                 set_help(link, tr("Open {name}", name=path.name), escape(str(path)))
-                on_theme_change(link, lambda link=link: link.setStyleSheet(_link_style()))
+                set_variant(link, "link")
                 link.clicked.connect(lambda _=False, path=path: self.recent_requested.emit(path))
                 self._links.addWidget(link, 0, Qt.AlignmentFlag.AlignHCenter)
-
-
-def _link_style() -> str:
-    return (
-        f"QPushButton {{ color: {BLUE}; border: 1px solid transparent; padding: 2px 6px; }}"
-        f" QPushButton:hover {{ text-decoration: underline; }} QPushButton:focus {{ border-color: {BLUE}; }}"
-    )

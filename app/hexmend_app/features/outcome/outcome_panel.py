@@ -81,7 +81,7 @@ class OutcomePanel(QWidget):
         self._view_note.hide()
         self._suggestions = QGridLayout()
         self._suggestions.setColumnStretch(0, 1)
-        self._suggestions.setVerticalSpacing(6)
+        self._suggestions.setVerticalSpacing(8)
         self._buttons: list[QPushButton] = []
         self._stack = QStackedLayout(self)
         self._stack.addWidget(self._hint)
@@ -96,8 +96,8 @@ class OutcomePanel(QWidget):
     def _page(self) -> QWidget:
         page = QWidget()
         column = QVBoxLayout(page)
-        column.setContentsMargins(8, 6, 8, 6)
-        column.setSpacing(6)
+        column.setContentsMargins(8, 8, 8, 8)
+        column.setSpacing(8)
         summary = (self._title, self._view_note, self._reason, self._state, self._regressions)
         for widget in (*summary, *self._hex_lists, self._surface, self._suggestions_title, self._no_suggestion):
             column.addWidget(widget)

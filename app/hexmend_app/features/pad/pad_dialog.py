@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from PySide6.QtWidgets import (
-    QComboBox,
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
@@ -20,6 +19,7 @@ from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.state.tasks.mesh_padder import PaddingChoice
 from hexmend_app.theme.style import note, set_help
 from hexmend_app.translation import tr
+from hexmend_app.widgets.inputs.combo import ComboBox
 
 #: Largest thickness, and the step of the box, in mean edge lengths.
 _MAX_THICKNESS, _STEP = 2.0, 0.05
@@ -38,7 +38,7 @@ class PadDialog(QDialog):
     def __init__(self, mesh: Mesh, locked: int, inverted: int, parent: QWidget | None = None):
         super().__init__(parent)
         self.setWindowTitle(tr("Pad"))
-        self.where, self.rings, self.thickness = QComboBox(), QSpinBox(), QDoubleSpinBox()
+        self.where, self.rings, self.thickness = ComboBox(), QSpinBox(), QDoubleSpinBox()
         self.where.addItem(tr("Whole boundary"), (None, None))
         if locked:
             self.where.addItem(tr("Around the {count:,} locked hexes", count=locked), (None, "locked"))

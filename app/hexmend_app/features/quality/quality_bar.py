@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QWidget
 from hexmend.quality import SUMMARY_QUANTITIES
 from hexmend.quantity import Quantity
 from hexmend_app.theme.palette import Role
-from hexmend_app.theme.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, on_theme_change, smaller, tabular
+from hexmend_app.theme.style import BETTER, MUTED, TEXT, WORSE, on_theme_change, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import figure
 
@@ -37,7 +37,7 @@ class QualityBar(QFrame):
         self._label.setAccessibleName(tr("Key figures"))
         self._label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self._layout = QHBoxLayout(self)
-        self._layout.setContentsMargins(8, 2, 8, 2)
+        self._layout.setContentsMargins(8, 4, 8, 4)
         self._layout.addWidget(self._label)
         on_theme_change(self, self._paint)
 
@@ -67,7 +67,6 @@ class QualityBar(QFrame):
         return QSize(0, 0)
 
     def _paint(self) -> None:
-        self.setStyleSheet(f"#quality_bar {{ background: {PANEL}; border: 1px solid {LINE}; border-radius: 5px; }}")
         self._show()
 
     def _show(self) -> None:

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QBrush, QColor, QGuiApplication, QKeySequence, QPalette
+from PySide6.QtGui import QAction, QBrush, QColor, QGuiApplication, QKeySequence
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QFrame,
@@ -19,7 +19,17 @@ from PySide6.QtWidgets import (
 
 from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, regressions
 from hexmend.quantity import Quantity
-from hexmend_app.theme.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, icon, on_theme_change, smaller, tabular
+from hexmend_app.theme.style import (
+    BETTER,
+    MUTED,
+    TEXT,
+    WORSE,
+    icon,
+    on_theme_change,
+    set_variant,
+    smaller,
+    tabular,
+)
 from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.link_table import LinkTable
 from hexmend_app.widgets.wording import figure
@@ -92,6 +102,7 @@ class StatisticsTable(QWidget):
         table.setFont(tabular(smaller(table.font())))
         table.setShowGrid(False)
         table.setFrameShape(QFrame.Shape.NoFrame)
+        set_variant(table, "panel")
         table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         table.setTabKeyNavigation(False)  # Tab leaves the table; arrow keys move in it
@@ -109,7 +120,7 @@ class StatisticsTable(QWidget):
         self._copy.triggered.connect(self.copy)
         self.addAction(self._copy)
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(2, 4, 2, 4)
+        layout.setContentsMargins(4, 4, 4, 4)
         layout.addWidget(table)
         layout.addStretch()
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
@@ -117,13 +128,6 @@ class StatisticsTable(QWidget):
         table.setMinimumWidth(self._title_width() + self._figures_width() - 32)  # the longest titles may be elided
 
     def _paint(self) -> None:
-        palette = QPalette()
-        palette.setColor(QPalette.ColorRole.Base, QColor(str(PANEL)))
-        self._table.setPalette(palette)
-        self._table.horizontalHeader().setStyleSheet(
-            f"QHeaderView::section {{ background: {PANEL}; padding: 2px 4px;"
-            f" border: none; border-bottom: 1px solid {LINE}; }}"
-        )
         for column in range(len(_COLUMNS)):
             self._table.horizontalHeaderItem(column).setForeground(QBrush(QColor(str(MUTED))))
         self.set_summaries(*self._summaries)
@@ -143,6 +147,7 @@ class StatisticsTable(QWidget):
 
     def _shape_columns(self) -> None:
         header = self._table.horizontalHeader()
+        set_variant(header, "lined")
         header.setHighlightSections(False)
         header.setSectionsClickable(False)
         header.setMinimumSectionSize(20)

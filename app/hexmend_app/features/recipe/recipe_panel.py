@@ -120,7 +120,7 @@ class RecipePanel(QWidget):
         edit.addWidget(self._add, 1)
         for button in (self._replace, self._up, self._down, self._remove):
             edit.addWidget(button)
-        foot.setSpacing(6)
+        foot.setSpacing(8)
         for column, button in enumerate((self._run, self._load)):
             button.setMinimumWidth(button.minimumSizeHint().width())
             foot.addWidget(button, 0, column)

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize, Signal
 from PySide6.QtWidgets import (
-    QComboBox,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -29,6 +28,7 @@ from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_scene, ask_scene_target
 from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
+from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.inputs.key_form import KeyForm
 from hexmend_app.widgets.scrolled import scrolled
 
@@ -91,7 +91,7 @@ class PictureDialog(SaveDialog):
         self.preview = Preview(draw)
         self._page_size = QLabel()
         self.size_form = SizeForm(view, scene.page)
-        self.camera = QComboBox()
+        self.camera = ComboBox()
         set_help(
             self.camera, tr("Camera"), tr("Camera of the window, a saved camera, or a standard view of the whole mesh.")
         )

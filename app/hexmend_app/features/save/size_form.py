@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from PySide6.QtCore import QSize, Signal
-from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QWidget
 
 from hexmend_app.picture import Page
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
+from hexmend_app.widgets.inputs.combo import ComboBox
 
 #: Title, size in pixels, size in millimetres; one of the sizes is None.
 _PRESETS = (
@@ -46,7 +47,7 @@ class SizeForm(QWidget):
 
     def __init__(self, view: QSize, page: Page, parent: QWidget | None = None):
         super().__init__(parent)
-        self.preset, self.unit = QComboBox(), QComboBox()
+        self.preset, self.unit = ComboBox(), ComboBox()
         size = view.width(), view.height()
         self.preset.addItem(tr("Current view, {width} × {height} pixels", width=size[0], height=size[1]), (size, None))
         for title, pixels, mm in _PRESETS:

@@ -9,7 +9,7 @@ from PySide6.QtGui import QFontDatabase, QTextCursor
 from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
 from hexmend_app.features.script.view_lines import VIEW
-from hexmend_app.theme.style import BLUE, LINE, icon, note, on_theme_change, set_help
+from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 
 _HELP = "Your actions as a Python script that repeats them bit for bit, and the current view."
@@ -37,7 +37,6 @@ class ScriptPanel(QWidget):
         self._text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self._text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self._text.setAccessibleName(tr("Script"))
-        on_theme_change(self._text, lambda: self._text.setStyleSheet(_sheet()))
         restart = QPushButton(icon("restart"), tr("Restart"))
         set_help(restart, tr("Restart the script"), tr("Clear the script; it continues from the current mesh."))
         restart.clicked.connect(self.restart_requested)
@@ -53,7 +52,7 @@ class ScriptPanel(QWidget):
         head.addWidget(copy)
         head.addWidget(save)
         column = QVBoxLayout(self)
-        column.setContentsMargins(8, 6, 8, 6)
+        column.setContentsMargins(8, 8, 8, 8)
         column.addLayout(head)
         column.addWidget(self._text, 1)
 
@@ -88,8 +87,3 @@ def _common_length(text: str, other: str) -> int:
 def _units(text: str) -> int:
     """Return the length of a text in UTF-16 units, in which Qt counts."""
     return len(text.encode("utf-16-le", "surrogatepass")) // 2
-
-
-def _sheet() -> str:
-    """Return a style sheet with a frame that shows the keyboard focus."""
-    return f"QPlainTextEdit {{ border: 1px solid {LINE}; }} QPlainTextEdit:focus {{ border-color: {BLUE}; }}"

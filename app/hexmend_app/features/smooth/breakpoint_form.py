@@ -42,7 +42,7 @@ class BreakpointForm(QWidget):
         self._selected_node: int | None = None
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(6)
+        grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(4)
         self._inverts = self._check(grid, 0, tr("A hex inverts"), tr(_INVERTS))
         self._falls = self._check(grid, 1, tr("Minimum q drops"), tr(_FALLS))
@@ -137,7 +137,7 @@ class BreakpointForm(QWidget):
     def _add_limit(grid: QGridLayout, row: int, label: str, box: QWidget) -> None:
         """Add an indented row with a label and the box of a limit."""
         line = QHBoxLayout()
-        line.setContentsMargins(22, 0, 0, 0)
+        line.setContentsMargins(24, 0, 0, 0)
         line.addWidget(QLabel(label))
         grid.addLayout(line, row, 0)
         grid.addWidget(box, row, 1)

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QStandardItemModel, QWheelEvent
-from PySide6.QtWidgets import QComboBox, QGridLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
@@ -28,7 +28,7 @@ from hexmend_app.features.smooth.set_rules import (
 from hexmend_app.theme.style import WORSE, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
-from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import counted
 
@@ -79,12 +79,12 @@ class RuleForm(QWidget):
     def _lay_out(self) -> None:
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setHorizontalSpacing(8)
-        self._grid.setVerticalSpacing(3)
+        self._grid.setVerticalSpacing(4)
         self._grid.setColumnStretch(0, 1)
         self._grid.setColumnStretch(1, 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(5)
+        layout.setSpacing(4)
         for widget in (self._found, self.interfaces, self._filter, self._list, self._more, self._problem):
             layout.addWidget(widget)
 
@@ -188,7 +188,7 @@ class RuleForm(QWidget):
         self._problem.setVisible(bool(text))
 
 
-class _RuleBox(QComboBox):
+class _RuleBox(ComboBox):
     """Combo box that finds its choices when it is opened or focused, as finding them takes time.
 
     Parameters

@@ -8,8 +8,8 @@ from typing import NamedTuple
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
-from hexmend_app.theme.palette import ACCENT, ACCENT_HOVER, ACCENT_PRESSED, FAINT, INACTIVE, LINE, ON_ACCENT, TEXT
-from hexmend_app.theme.style import on_theme_change
+from hexmend_app.theme.palette import ON_ACCENT
+from hexmend_app.theme.style import set_variant
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 
@@ -56,10 +56,10 @@ class RunButtons(QWidget):
             "reset": ActionButton(),
         }
         run = self._buttons["run"]
-        on_theme_change(self, lambda: run.setStyleSheet(_main_button()))
+        set_variant(run, "main")
         row = QGridLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(6)
+        row.setSpacing(8)
         for column, (name, button) in enumerate(self._buttons.items()):
             if name in ("run", "step"):
                 button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -82,15 +82,3 @@ class RunButtons(QWidget):
     def button(self, name: str) -> ActionButton:
         """Return the button of an action."""
         return self._buttons[name]
-
-
-def _main_button() -> str:
-    """Return the style sheet of the main button."""
-    return f"""
-QToolButton {{ background: {ACCENT}; color: {ON_ACCENT}; border: 1px solid {ACCENT}; border-radius: 3px;
-    padding: 4px 6px; }}
-QToolButton:hover {{ background: {ACCENT_HOVER}; }}
-QToolButton:pressed {{ background: {ACCENT_PRESSED}; }}
-QToolButton:focus {{ border: 2px solid {TEXT}; padding: 3px 5px; outline: none; }}
-QToolButton:disabled {{ background: {INACTIVE}; color: {FAINT}; border-color: {LINE}; }}
-"""

@@ -7,7 +7,6 @@ from html import escape
 from typing import Any
 
 from PySide6.QtCore import QObject, QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QComboBox
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import declared
@@ -17,7 +16,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.style import note, set_help
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 
 
@@ -48,7 +47,7 @@ class StageForm(QObject):
         super().__init__(parent)
         self._setup = setup
         self._name = ""
-        self.method = QComboBox()
+        self.method = ComboBox()
         let_shrink(self.method, 14)
         set_help(self.method, tr("Method"), tr("Smoothing method; it is described below."))
         for at, method in enumerate(METHODS.values()):

@@ -47,9 +47,9 @@ class LayerRow:
         self.box = QCheckBox(name)
         self.entries = QWidget()
         self._grid = QGridLayout(self.entries)
-        self._grid.setContentsMargins(0, 2, 0, 0)
+        self._grid.setContentsMargins(0, 4, 0, 0)
         self._grid.setHorizontalSpacing(4)
-        self._grid.setVerticalSpacing(3)
+        self._grid.setVerticalSpacing(4)
         for column in range(_COLUMNS):
             self._grid.setColumnStretch(column, 1)
 

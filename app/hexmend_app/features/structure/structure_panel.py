@@ -63,8 +63,8 @@ class StructurePanel(QWidget):
         }
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(6)
-        grid.setVerticalSpacing(5)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(4)
         grid.setColumnStretch(1, 1)
         for row, (name, layer) in enumerate(self.layers.items()):
             grid.addWidget(layer.box, row, 0, Qt.AlignmentFlag.AlignTop)

@@ -121,7 +121,7 @@ class TagPanel(QWidget):
         for button in (self._isolate, self._remove):
             foot.addWidget(button)
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setContentsMargins(8, 4, 8, 4)
         layout.setSpacing(4)
         layout.addLayout(head)
         layout.addWidget(self._table, 1)

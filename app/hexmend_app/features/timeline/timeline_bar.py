@@ -7,14 +7,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
 from hexmend_app.features.timeline.run_bar import RunBar
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.theme.style import icon, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
-from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.wording import counted, size
 
 #: Options for the memory of node positions, in MB, and for the playback speed, in iterations per second.
@@ -53,7 +53,7 @@ class TimelineBar(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.run_bar = RunBar()
-        self._runs = QComboBox()
+        self._runs = ComboBox()
         let_shrink(self._runs, 12)
         self._runs.activated.connect(self.run_chosen)
         set_help(self._runs, tr("Run"), tr("Run shown in the timeline."))
@@ -74,8 +74,8 @@ class TimelineBar(QWidget):
         self._more.setMenu(self._menu())
         set_help(self._more, tr("Timeline settings"), tr("Memory limit and playback speed."))
         layout = QHBoxLayout(self)
-        layout.setContentsMargins(8, 1, 8, 1)
-        layout.setSpacing(2)
+        layout.setContentsMargins(8, 0, 8, 0)
+        layout.setSpacing(4)
         layout.addWidget(self.run_bar)
         layout.addSpacing(8)
         layout.addWidget(self._runs)

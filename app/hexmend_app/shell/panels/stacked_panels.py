@@ -33,8 +33,8 @@ def stack(panels: Sequence[Panel]) -> QScrollArea:
     """Return a scroll area with panels one below the other; all but the first can be collapsed under their titles."""
     page = QWidget()
     layout = QVBoxLayout(page)
-    layout.setContentsMargins(6, 6, 6, 6)
-    layout.setSpacing(6)
+    layout.setContentsMargins(4, 8, 4, 8)
+    layout.setSpacing(8)
     for at, panel in enumerate(panels):
         layout.addWidget(Section(panel.title, panel.widget, panel.help) if at else panel.widget)
     layout.addStretch()

@@ -40,8 +40,8 @@ class TabBars:
             if first is None or bar.accessibleName() == tr(_NAMES[first.place]):
                 continue
             if not bar.accessibleName():
-                bar.setElideMode(Qt.TextElideMode.ElideNone)
-                bar.setUsesScrollButtons(True)
+                bar.setElideMode(Qt.TextElideMode.ElideRight)
+                bar.setUsesScrollButtons(False)
                 bar.setDrawBase(False)
                 bar.tabBarDoubleClicked.connect(lambda _, bar=bar: self._on_double_click(bar))
             bar.setAccessibleName(tr(_NAMES[first.place]))

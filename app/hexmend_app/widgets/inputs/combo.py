@@ -2,7 +2,32 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QComboBox
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QPaintEvent, QPalette
+from PySide6.QtWidgets import QComboBox, QStyle, QStyleOptionComboBox, QStylePainter
+
+#: Pixels between the icon and the text of a combo box.
+_ICON_GAP = 4
+
+
+class ComboBox(QComboBox):
+    """Combo box whose text is elided if the box is too narrow; Qt would clip it."""
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the box with the elided text."""
+        option, style = QStyleOptionComboBox(), self.style()
+        self.initStyleOption(option)
+        if self.currentIndex() < 0:
+            option.currentText = self.placeholderText()
+            option.palette.setBrush(QPalette.ColorRole.ButtonText, self.palette().placeholderText())
+        field = QStyle.SubControl.SC_ComboBoxEditField
+        width = style.subControlRect(QStyle.ComplexControl.CC_ComboBox, option, field, self).width()
+        if not option.currentIcon.isNull():
+            width -= option.iconSize.width() + _ICON_GAP
+        option.currentText = option.fontMetrics.elidedText(option.currentText, Qt.TextElideMode.ElideRight, width)
+        painter = QStylePainter(self)
+        painter.drawComplexControl(QStyle.ComplexControl.CC_ComboBox, option)
+        painter.drawControl(QStyle.ControlElement.CE_ComboBoxLabel, option)
 
 
 def let_shrink(combo: QComboBox, letters: int) -> None:

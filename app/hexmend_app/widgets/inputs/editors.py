@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QWidget
 
 from hexmend.parameters import Parameter
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.wording import name_in_words
 
@@ -33,7 +33,7 @@ class Switch(QCheckBox):
         self.setChecked(value)
 
 
-class ChoiceEditor(QComboBox):
+class ChoiceEditor(ComboBox):
     """Editor of a choice."""
 
     changed = Signal()

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QAbstractSpinBox, QHBoxLayout, QLabel, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
-from hexmend_app.theme.palette import FIELD, MUTED, PANEL, TEXT, WORSE, WRONG, Role
-from hexmend_app.theme.style import on_theme_change, smaller, tabular
+from hexmend_app.theme.palette import MUTED
+from hexmend_app.theme.style import on_theme_change, set_variant, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_number
 
@@ -53,14 +53,13 @@ class NumberBox(QAbstractSpinBox):
         line.editingFinished.connect(self._commit)
         self._show_unit(declaration.unit if len(declaration.unit) <= LONGEST_UNIT else "")
         self.set_value(declaration.default)
-        on_theme_change(self, self._apply_colours)
 
     def _show_unit(self, unit: str) -> None:
         line = self.lineEdit()
         suffix = QLabel(unit, line)
         suffix.setFont(smaller(suffix.font()))
         suffix.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        on_theme_change(suffix, lambda: suffix.setPalette(_enabled(QPalette.ColorRole.WindowText, MUTED)))
+        on_theme_change(suffix, lambda: _colour_unit(suffix))
         layout = QHBoxLayout(line)
         layout.setContentsMargins(0, 0, 4, 0)
         layout.addStretch()
@@ -108,13 +107,7 @@ class NumberBox(QAbstractSpinBox):
 
     def _set_problem(self, problem: str) -> None:
         self.problem = problem
-        self._apply_colours()
-
-    def _apply_colours(self) -> None:
-        text, background = (WORSE, WRONG) if self.problem else (TEXT, FIELD)
-        palette = _enabled(QPalette.ColorRole.Text, text, _enabled(QPalette.ColorRole.Base, background))
-        palette.setColor(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Base, QColor(str(PANEL)))
-        self.setPalette(palette)
+        set_variant(self, bool(problem), "invalid")
 
     def stepBy(self, steps: int) -> None:
         """Step an integer by one, another number by one in its leading digit; stop at the bounds.
@@ -193,9 +186,9 @@ def _text(value: float | int | str) -> str:
     return value if isinstance(value, str) else short_number(value)
 
 
-def _enabled(role: QPalette.ColorRole, colour: Role, palette: QPalette | None = None) -> QPalette:
-    """Return `palette`, by default a new one, with the colour of a role set except for disabled widgets."""
-    palette = palette or QPalette()
+def _colour_unit(label: QLabel) -> None:
+    """Set the colour of a unit, except that of disabled ones."""
+    palette = QPalette()
     for group in (QPalette.ColorGroup.Active, QPalette.ColorGroup.Inactive):
-        palette.setColor(group, role, QColor(str(colour)))
-    return palette
+        palette.setColor(group, QPalette.ColorRole.WindowText, QColor(str(MUTED)))
+    label.setPalette(palette)

@@ -8,25 +8,12 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
-from hexmend_app.theme.palette import BLUE, CHOSEN, FAINT, FIELD, HOVER, LINE, ON_CHOSEN, TEXT
-from hexmend_app.theme.style import on_theme_change, set_help, smaller
+from hexmend_app.theme.style import set_help, set_variant, smaller
 
 
 def _stop_at_checked(button: QAbstractButton, checked: bool) -> None:
     """Let Tab reach the checked button only; Qt would stop at the first button from either side."""
     button.setFocusPolicy(Qt.FocusPolicy.StrongFocus if checked else Qt.FocusPolicy.ClickFocus)
-
-
-def _sheet() -> str:
-    return f"""
-QPushButton {{ border: 1px solid {LINE}; border-right-width: 0; background: {FIELD}; color: {TEXT}; padding: 3px 6px; }}
-QPushButton[place="first"] {{ border-top-left-radius: 4px; border-bottom-left-radius: 4px; }}
-QPushButton[place="last"] {{ border-right-width: 1px; border-top-right-radius: 4px; border-bottom-right-radius: 4px; }}
-QPushButton:hover {{ background: {HOVER}; }}
-QPushButton:checked {{ background: {CHOSEN}; color: {ON_CHOSEN}; font-weight: 600; }}
-QPushButton:disabled {{ color: {FAINT}; }}
-QPushButton:focus {{ border: 1px solid {BLUE}; outline: none; }}
-"""
 
 
 class Segmented(QWidget):
@@ -49,7 +36,6 @@ class Segmented(QWidget):
     def __init__(self, name: str, options: Iterable[tuple[str, str, str]], parent: QWidget | None = None):
         super().__init__(parent)
         self.setAccessibleName(name)
-        on_theme_change(self, lambda: self.setStyleSheet(_sheet()))
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self._group = QButtonGroup(self)
         self._buttons: dict[str, QPushButton] = {}
@@ -60,6 +46,7 @@ class Segmented(QWidget):
         for at, (key, text, help) in enumerate(options):
             button = QPushButton(text)
             button.setCheckable(True)
+            set_variant(button, "segment")
             button.setProperty("place", "first" if at == 0 else "last" if at == len(options) - 1 else "")
             set_help(button, f"{name}: {text}", help)
             button.clicked.connect(lambda _=False, key=key: self.chosen.emit(key))

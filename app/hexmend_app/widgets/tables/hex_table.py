@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView
 
-from hexmend_app.theme.style import PANEL, on_theme_change, tabular
+from hexmend_app.theme.style import tabular
 
 
 def shape_table(table: QTableView, name: str, stretched: int) -> None:
@@ -33,5 +33,3 @@ def shape_table(table: QTableView, name: str, stretched: int) -> None:
     header.setHighlightSections(False)
     header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
     header.setSectionResizeMode(stretched, QHeaderView.ResizeMode.Stretch)
-    sheet = "QHeaderView::section {{ background: {0}; padding: 2px 4px; border: none; }}"
-    on_theme_change(header, lambda: header.setStyleSheet(sheet.format(PANEL)))

@@ -75,6 +75,19 @@ def test_a_missing_file_is_disabled_and_the_list_can_be_cleared(recent, menu, tm
     assert not menu.menuAction().isEnabled()
 
 
+def test_a_long_name_is_elided_and_its_tooltip_is_the_whole_path(recent, menu, tmp_path):
+    path = tmp_path / f"{'long' * 40}.vtu"
+    path.touch()
+    recent.add(path)
+    menu.popup(QPoint(50, 50))
+    entry = menu.actions()[0]
+    assert "…" in entry.text()
+    assert entry.text().startswith("&1  long")
+    assert entry.toolTip() == str(path)
+    assert menu.width() < 600
+    menu.close()
+
+
 def test_the_welcome_page_opens_recent_files(window, qtbot, mesh_file):
     welcome = window.features["open"].welcome
     assert not welcome.isVisible()

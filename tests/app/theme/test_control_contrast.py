@@ -1,0 +1,187 @@
+"""Texts of all controls are legible in all states: painted pixels are measured, in both themes."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QApplication, QComboBox, QLabel, QTextBrowser, QToolTip, QWidget
+
+from hexmend_app.theme.palette import THEME
+from hexmend_app.theme.style import apply_style
+from tests.app.driving import turn
+from tests.app.theme.contrasts import BLOCK, DISABLED, TEXT, contrast, painted, text_contrast
+from tests.app.theme.controls import CONTROLS, SIZE, menu
+
+STATES = ("enabled", "disabled", "hover", "pressed", "checked", "focus", "checked and disabled")
+THEMES = pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+WORDS = (BLOCK * 4, " " * 4)
+
+
+@pytest.fixture(autouse=True)
+def themed(request, qapp, shared):
+    """Use the theme of the parameter `dark`; close the shared window, which would take seconds to change its theme."""
+    if "dark" not in request.fixturenames:
+        yield
+        return
+    shared.forget()
+    apply_style(qapp, dark=request.getfixturevalue("dark"))
+    yield
+    apply_style(qapp, dark=False)
+
+
+def set_state(widget, state):
+    """Bring a control, or its part `target`, into a state; return False if it has no such state."""
+    part = getattr(widget, "target", widget)
+    if "disabled" in state:
+        widget.setEnabled(False)
+    if "checked" in state:
+        if not getattr(part, "isCheckable", lambda: False)():
+            return False
+        part.setChecked(True)
+    if state == "pressed":
+        if not hasattr(part, "setDown"):
+            return False
+        part.setDown(True)
+    if state == "hover":
+        part.setAttribute(Qt.WidgetAttribute.WA_UnderMouse)
+    if state == "focus":
+        if part.focusPolicy() == Qt.FocusPolicy.NoFocus:
+            return False
+        part.setFocus()
+    return True
+
+
+def grab(qtbot, make, state):
+    widget, page = make(), QWidget()
+    qtbot.addWidget(page)
+    page.resize(*SIZE)
+    widget.setParent(page, Qt.WindowType.Widget)
+    widget.resize(*SIZE)
+    page.show()
+    widget.show()
+    if not set_state(widget, state):
+        pytest.skip("the control has no such state")
+    if widget.focusPolicy() != Qt.FocusPolicy.NoFocus and state != "focus":
+        widget.clearFocus()
+    QApplication.sendPostedEvents()
+    turn()
+    image = painted(page)
+    page.hide()
+    return image
+
+
+@THEMES
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("name", CONTROLS)
+def test_texts_are_legible(qtbot, name, state, dark, record_property):
+    images = [grab(qtbot, lambda text=text: CONTROLS[name](text), state) for text in WORDS]
+    value = text_contrast(*images)
+    record_property("contrast", value)
+    assert value >= (DISABLED if "disabled" in state else TEXT)
+
+
+@THEMES
+@pytest.mark.parametrize("current", [0, 1], ids=["current", "other"])
+def test_texts_of_combo_popups_are_legible(qtbot, dark, current, record_property):
+    images = []
+    for text in WORDS:
+        box = QComboBox()
+        box.addItems([text, "another one"])
+        box.setCurrentIndex(current)
+        qtbot.addWidget(box)
+        box.resize(*SIZE)
+        box.show()
+        box.showPopup()
+        popup = box.view().window()
+        qtbot.waitExposed(popup)
+        popup.resize(200, 70)
+        turn()
+        images.append(painted(popup))
+        box.hidePopup()
+    value = text_contrast(*images)
+    record_property("contrast", value)
+    assert value >= TEXT
+
+
+@THEMES
+@pytest.mark.parametrize(
+    "options",
+    [{}, {"active": True}, {"enabled": False}, {"checkable": True}, {"checkable": True, "active": True}],
+    ids=["enabled", "active", "disabled", "checked", "checked and active"],
+)
+def test_texts_of_menus_are_legible(qtbot, dark, options, record_property):
+    images = []
+    for text in WORDS:
+        widget = menu(text, **options)
+        qtbot.addWidget(widget)
+        widget.setFixedSize(*SIZE)
+        widget.popup(QPoint(40, 40))
+        qtbot.waitExposed(widget)
+        widget.setActiveAction(widget.actions()[0] if options.get("active") else None)
+        turn()
+        images.append(painted(widget))
+        widget.close()
+    value = text_contrast(*images)
+    record_property("contrast", value)
+    assert value >= (TEXT if options.get("enabled", True) else DISABLED)
+
+
+@THEMES
+def test_texts_of_tooltips_are_legible(qtbot, dark, record_property):
+    images = []
+    for text in WORDS:
+        anchor = QWidget()
+        qtbot.addWidget(anchor)
+        anchor.show()
+        QToolTip.showText(anchor.mapToGlobal(QPoint(5, 5)), text + "<b>.</b>", anchor)
+        tip = next(
+            w for w in QApplication.topLevelWidgets() if w.metaObject().className() == "QTipLabel" and w.isVisible()
+        )
+        tip.resize(*SIZE)
+        images.append(painted(tip))
+        QToolTip.hideText()
+        tip.hide()
+    value = text_contrast(*images)
+    record_property("contrast", value)
+    assert value >= TEXT
+
+
+ROLE, GROUP = QPalette.ColorRole, QPalette.ColorGroup
+PAIRS = [
+    (ROLE.WindowText, ROLE.Window),
+    (ROLE.Text, ROLE.Base),
+    (ROLE.PlaceholderText, ROLE.Base),
+    (ROLE.ButtonText, ROLE.Button),
+    (ROLE.HighlightedText, ROLE.Highlight),
+    (ROLE.ToolTipText, ROLE.ToolTipBase),
+    (ROLE.Link, ROLE.Base),  # of rich texts
+]
+
+
+def palette_faults(widget):
+    """Return the pairs of colours of a widget's palette whose contrast is too low."""
+    palette = widget.palette()
+    for group, least in ((GROUP.Active, TEXT), (GROUP.Inactive, TEXT), (GROUP.Disabled, DISABLED)):
+        for text, ground in PAIRS if isinstance(widget, (QLabel, QTextBrowser)) else PAIRS[:-1]:
+            colours = palette.color(group, text), palette.color(group, ground)
+            if all(colour.alpha() == 255 for colour in colours):
+                value = contrast(*(colour.name() for colour in colours))
+                if value < least:
+                    yield f"{group.name}: {text.name} on {ground.name}: {value:.2f}"
+
+
+@pytest.mark.parametrize("choice", ["light", "dark"])
+def test_palettes_of_all_widgets_of_the_window_are_legible(window, choice):
+    window.window_actions[f"theme_{choice}"].trigger()
+    assert THEME.dark is (choice == "dark")
+    turn()
+    widgets = [window, *window.findChildren(QWidget)]
+    assert len(widgets) > 200
+    faults = {
+        f"{type(widget.parent()).__name__} {type(widget).__name__} {widget.objectName()} {widget.accessibleName()}: {fault}"
+        for widget in widgets
+        for fault in palette_faults(widget)
+    }
+    window.window_actions["theme_light"].trigger()
+    assert not faults
