@@ -30,7 +30,7 @@ from hexmend_app.theme.palette import (
     WORSE,
     Role,
 )
-from hexmend_app.theme.sheet import control_sheet
+from hexmend_app.theme.style_sheet import control_sheet
 
 _ROLE = QPalette.ColorRole
 _PALETTE = (

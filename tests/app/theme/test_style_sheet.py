@@ -8,7 +8,7 @@ import runpy
 import pytest
 
 from hexmend_app.resources import resource
-from hexmend_app.theme.sheet import control_sheet, tokens
+from hexmend_app.theme.style_sheet import control_sheet, tokens
 from tests.app.theme.contrasts import DISABLED, TEXT, contrast
 from tests.examples import ROOT
 
