@@ -9,8 +9,8 @@ from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QGuiApplication, QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QToolButton, QWidget
 
-from hexmend_app.theme.palette import AMBER, BLUE, INFO, WARNED, WORSE, WRONG
-from hexmend_app.theme.style import icon, on_theme_change, set_help
+from hexmend_app.theme.palette import AMBER, BLUE, WORSE
+from hexmend_app.theme.style import icon, on_theme_change, set_help, set_variant
 from hexmend_app.translation import tr
 
 #: Maximum number of letters of a text that are shown, and of messages that are stored.
@@ -31,11 +31,11 @@ class _Message:
     report: str = ""
 
 
-# Icon, colour of the icon and of the border, background; sorted by priority.
+# Icon and its colour; sorted by priority. The style sheet has the other colours.
 _KINDS = {
-    "error": ("alert-circle", WORSE, WRONG),
-    "warning": ("alert", AMBER, WARNED),
-    "info": ("information", BLUE, INFO),
+    "error": ("alert-circle", WORSE),
+    "warning": ("alert", AMBER),
+    "info": ("information", BLUE),
 }
 _PRIORITIES = list(_KINDS)
 
@@ -210,11 +210,9 @@ class MessageBar(QFrame):
 
     def _paint(self) -> None:
         if self._messages:
-            icon_name, colour, background = _KINDS[self._messages[self._at].kind]
-            self.setStyleSheet(
-                f"#message_bar {{ background: {background}; border: 1px solid {colour}; border-radius: 4px;"
-                " border-left-width: 4px; }"
-            )
+            kind = self._messages[self._at].kind
+            icon_name, colour = _KINDS[kind]
+            set_variant(self, kind, "kind")
             self._icon.setPixmap(icon(icon_name, colour).pixmap(QSize(20, 20), self.devicePixelRatioF()))
 
     def _refresh(self) -> None:
