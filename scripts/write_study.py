@@ -56,8 +56,8 @@ def main() -> None:
 
 ORIGIN = """
 The tables come from `hexmend study thesis --max-seconds 60`, the comparison of `offset` and the measured remarks from
-`hexmend bench --only offsets --only remarks`; `scripts/write_study.py` assembles this page. The section *Where ours differs*
-is written by hand.
+`hexmend bench --only offsets --only remarks`; `scripts/write_study.py` assembles this page. The section *Where ours
+differs* is written by hand.
 """
 
 ABOUT_OFFSETS = """

@@ -28,6 +28,7 @@ MENUS = (
     "File",
     "Edit",
     "Smooth",
+    "Smooth/Iterations in the view",
     "Timeline",
     "View",
     "View/Show",

@@ -13,6 +13,7 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_count
 from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.features.smooth.pace_actions import pace_actions
 from hexmend_app.features.smooth.run_buttons import STATES, RunState
 from hexmend_app.features.smooth.skip_on_input import SkipOnInput
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
@@ -29,12 +30,8 @@ from hexmend_app.widgets.wording import figure
 #: Actions whose keys are shown on the panel's buttons.
 _BUTTONS = ("run", "step", "stop", "reset")
 
-#: Texts and explanations of the paces.
-_PACES = {
-    Pace.FASTEST: ("&As fast as possible", "Show the newest iteration; short runs are over before the eye moves."),
-    Pace.EASED: ("&Eased", "Let iterations merge into one another; short runs are shown for two to three seconds."),
-    Pace.EVERY: ("E&very one", "Wait with the next iteration until the last one is shown: slower, none is skipped."),
-}
+#: Goal of Mend and metric of the colours.
+_SCALED_JACOBIAN = "scaled-jacobian"
 
 
 class FeatureSmooth(Feature):
@@ -113,20 +110,7 @@ class FeatureSmooth(Feature):
     def _option_actions(self) -> Sequence[Action]:
         """Return the actions for options of runs, and for their command."""
         return (
-            *(
-                Action(
-                    id=f"pace_{pace.value}",
-                    text=tr(text),
-                    menu="Smooth/Iterations in the view",
-                    part=3,
-                    help=tr(help),
-                    handle=lambda on, pace=pace: self._set_pace(pace, on),
-                    checked=lambda pace=pace: self._smoothing.pace is pace,
-                    needs_mesh=False,
-                    exclusive=True,
-                )
-                for pace, (text, help) in _PACES.items()
-            ),
+            *pace_actions(self._smoothing),
             Action(
                 id="copy_command",
                 text=tr("&Copy as command"),
@@ -137,11 +121,6 @@ class FeatureSmooth(Feature):
                 enabled=lambda: self._ready() and self.session.document.path is not None,
             ),
         )
-
-    def _set_pace(self, pace: Pace, on: bool) -> None:
-        if on and pace is not self._smoothing.pace:
-            self._smoothing.set_pace(pace)
-            settings.RUN_PACE.set(pace.value)
 
     def states(self) -> Sequence[StatePart]:
         """Return the number of iterations of a step."""
@@ -258,10 +237,17 @@ class FeatureSmooth(Feature):
         if phase is Phase.STOPPING:
             self.host.busy.show_work("run", tr("Stopping…"))
         elif phase is Phase.PREPARING:
+            self._colour_by_goal()
             help = tr("Stop the run before its first iteration (Shift+F5).")
             self.host.busy.show_work("run", tr("Preparing the method…"), tr("Stop"), help, self._smoothing.stop)
         else:
             self.host.busy.done("run")  # a busy animation would slow down a run that is visible anyway
+
+    def _colour_by_goal(self) -> None:
+        """Let the colours show what a run raises, if that is the scaled Jacobian and they show q."""
+        goal, view = getattr(self._smoothing.work, "goal", ""), self.session.view
+        if goal == _SCALED_JACOBIAN and view.look.colours.metric == "q":
+            view.change(colours={"metric": _SCALED_JACOBIAN})
 
     def _copy_command(self, stage: Stage) -> None:
         """Copy the command that runs a stage on the file of the mesh."""

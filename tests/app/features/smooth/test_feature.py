@@ -184,3 +184,12 @@ def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatc
         window.close()
         assert window.isVisible()
         assert window.session.run.phase is Phase.PAUSED
+
+
+@pytest.mark.parametrize(("metric", "shown"), [("q", "scaled-jacobian"), ("condition", "condition")])
+def test_a_run_that_raises_the_scaled_jacobian_is_coloured_by_it(window, qtbot, metric, shown):
+    window.session.view.change(colours={"metric": metric})
+    choose(window, "mend", goal="scaled-jacobian")
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    assert window.session.view.look.colours.metric == shown
