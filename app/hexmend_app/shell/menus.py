@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
@@ -22,6 +22,8 @@ class Menus:
     window : QMainWindow
     actions : sequence of Action
         Sorted by feature.
+    before : callable
+        Called before each action.
 
     Attributes
     ----------
@@ -29,8 +31,8 @@ class Menus:
         By id, sorted by menu.
     """
 
-    def __init__(self, window: QMainWindow, actions: Sequence[Action]):
-        self._window = window
+    def __init__(self, window: QMainWindow, actions: Sequence[Action], before: Callable[[], object]):
+        self._window, self._before = window, before
         self._declared: dict[str, Action] = {}
         self.actions: dict[str, QAction] = {}
         self._bar = QToolBar(tr("Tools"))
@@ -81,6 +83,7 @@ class Menus:
         _show_face(action, ActionFace(declared.tool, declared.icon, declared.help))
         action.setProperty("within", tr(declared.menu.rpartition("/")[2]) if "/" in declared.menu else "")
         action.setCheckable(declared.checked is not None)
+        action.triggered.connect(lambda checked=False: self._before())
         handle = declared.handle
         if declared.checked is not None:
             action.triggered.connect(handle)  # `refresh` would emit `toggled` too

@@ -116,7 +116,7 @@ class Recovery(QObject):
         """Write the session if it has unsaved data and no run is active; if it is being written, write it again."""
         session = self._session
         active = session.run.busy or session.node_sweep.sweep is not None or session.opener.busy
-        active = active or session.time_reader.busy
+        active = active or session.time_reader.busy or session.run.eased.active
         if not (self.watching and self._changed and self._has_unsaved_data) or active:
             return
         if self._task is not None:

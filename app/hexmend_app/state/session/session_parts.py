@@ -151,6 +151,7 @@ class SessionParts(QObject):
         """Return the data for a session file; a mesh is open, and no run and no sweep is active."""
         from hexmend_app.state.session.session_data import SessionData
 
+        self.run.skip_easing()
         self.about_to_save.emit()
         return SessionData(**{part.name: part.to_data() for part in self._parts})
 

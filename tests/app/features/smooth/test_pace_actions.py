@@ -2,8 +2,11 @@
 
 import pytest
 
+from hexmend.run import StoppingCriteria
 from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.settings import settings
+from tests.app.driving import choose
+from tests.patience import PATIENCE
 
 
 @pytest.mark.parametrize("pace", list(Pace))
@@ -26,3 +29,17 @@ def test_a_stored_pace_that_is_none_is_the_default(window):
     assert settings.RUN_PACE.get() == "fastest"
     with pytest.raises(ValueError, match="jump"):
         settings.RUN_PACE.decode("jump")
+
+
+def test_actions_and_sessions_have_the_result_and_not_what_is_shown_on_the_way(window, qtbot):
+    session = window.session
+    session.run.set_pace(Pace.EASED)
+    choose(window, "local-sd", StoppingCriteria(max_iterations=8, tolerance=0))
+    for act in (window.action("cut").trigger, session.to_data):
+        with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+            window.refresh()
+            window.action("run").trigger()
+        qtbot.waitUntil(lambda: session.document.now is not session.document.recorded, timeout=PATIENCE)
+        act()
+        assert session.document.now is session.document.recorded
+        assert not session.run.eased.active
