@@ -46,6 +46,7 @@ def _row(window: Window) -> dict[str, Any]:
         "limit_mb": history.limit / (1 << 20),
         "iteration_mb": history.bytes / (1 << 20) / (len(numbers) - 1),
         "run_s": seconds,
+        **_eased(window),
         "stop_ms": median(delay for delay, _ in stops),
         "stop_iteration_ms": median(iteration for _, iteration in stops),
     }
@@ -58,6 +59,23 @@ def _run(window: Window, iterations: int) -> float:
     while window.session.run.busy:
         run_event_loop(0.1)
     return perf_counter() - start
+
+
+def _eased(window: Window) -> dict[str, float]:
+    """Return the pictures of a short run that is shown eased: their rate, and the longest time between two."""
+    from hexmend_app.state.run.pace import Pace
+
+    run, document, times = window.session.run, window.session.document, []
+    document.preview(document.start)
+    run.set_pace(Pace.EASED)
+    shown = document.points_moved.connect(lambda: times.append(perf_counter()))
+    run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=20))
+    while run.busy or run.eased.active:
+        run_event_loop(0.1)
+    document.points_moved.disconnect(shown)
+    run.set_pace(Pace.FASTEST)
+    gaps = np.diff(times) if len(times) > 1 else np.array([np.nan])
+    return {"eased_fps": float(1 / np.mean(gaps)), "eased_worst_ms": float(1e3 * gaps.max())}
 
 
 def _scrub(window: Window, numbers: np.ndarray) -> float:
@@ -94,6 +112,8 @@ def _lines(row: dict[str, Any]) -> list[str]:
         f"({1000 / row['scrub_ms']:.0f} per second), {row['jump_ms']:.1f} ms in random order",
         f"  history of {row['iterations']} iterations: positions of {row['kept']} in {row['kept_mb']:.0f} MB "
         f"({row['iteration_mb']:.2f} each), limit {row['limit_mb']:.0f} MB; the run took {row['run_s']:.1f} s",
+        f"  a short run shown eased: {row['eased_fps']:.0f} pictures a second, at most {row['eased_worst_ms']:.0f} ms "
+        "apart",
         f"  stopped after {row['stop_ms']:.0f} ms; an iteration of local-sd takes {row['stop_iteration_ms']:.0f} ms",
     ]
 
