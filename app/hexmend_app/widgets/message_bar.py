@@ -96,7 +96,6 @@ class MessageBar(QFrame):
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             button.clicked.connect(slot)
         set_help(self._copy, tr("Copy message"), tr("Copy the whole message to the clipboard."))
-        set_help(self._dismiss, tr("Dismiss message"), tr("Dismiss this message (Esc)."))
         self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, self.dismiss)
         self._escape.setEnabled(False)
         self._timer = QTimer(self)
@@ -227,6 +226,8 @@ class MessageBar(QFrame):
         self._at %= len(self._messages)
         message = self._messages[self._at]
         self._escape.setEnabled(not message.timeout_ms)  # what goes by itself leaves Esc to others
+        help = tr("Dismiss this message (Esc).") if self.takes_escape else tr("Dismiss this message.")
+        set_help(self._dismiss, tr("Dismiss message"), help)
         if filled or self.takes_escape is not before:
             self.filled.emit()
         self._paint()

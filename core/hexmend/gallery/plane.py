@@ -30,8 +30,9 @@ BOX = np.array([[-1.8, -2.3, -1.44], [2.8, 2.3, 1.64]])
 SHELL, GROWTH = 11, 1.15
 #: Layers on the aeroplane at scale 1, and their thickness over the size of the quads beneath.
 COAT, THICKNESS = 10, 0.35
-#: Sweeps in which the nodes around follow the coat's outside, at scale 1; sweeps of relaxation; seed of the jitter.
-FOLLOW, RELAXATION, SEED = 30, 45, 37
+#: Sweeps in which the nodes around follow the outside of the coat, at scale 1, and at most; sweeps of relaxation; seed
+#: of the jitter.
+FOLLOW, MOST_SWEEPS, RELAXATION, SEED = 30, 1000, 45, 37
 
 
 @gallery_mesh
@@ -91,7 +92,7 @@ class Plane(GalleryMesh):
         move[skin] = layers[0] - grid[skin]
         fixed[skin] = fixed[box] = True
         around = np.concatenate([core.hexes, shell])
-        points += diffuse(move, fixed, around, round(FOLLOW * plan.scale**2))
+        points += diffuse(move, fixed, around, min(round(FOLLOW * plan.scale**2), MOST_SWEEPS))
 
         used, hexes = _compact(np.concatenate([around, coat]))  # without nodes inside the aeroplane
         return Mesh(

@@ -72,11 +72,12 @@ class Run(Iterator[Iteration]):
         self._shapes = ShapeWatch(mesh, quality)
         smoother = self._stages[0].smoother
         judged = measure_against_target(self._shapes.with_target(smoother), mesh.points, quality)
-        self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, smoother.norm, judged)
+        start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, smoother.norm, judged)
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
-        self._stage_runs = [self._stage_of(self._stages[0], 1, self.start, self.start)]
-        self.history = [replace(self.start, surface=self._stage_run.start_surface).row()]
+        self._stage_runs = [self._stage_of(self._stages[0], 1, start, start)]
+        self.start = replace(start, surface=self._stage_run.start_surface)
+        self.history = [self.start.row()]
         self._note_ignored()
         self._end_if_done()
 

@@ -56,6 +56,17 @@ def test_without_weight_nothing_changes_and_the_quads_are_not_recorded(name):
 
 
 @pytest.mark.parametrize("name", WEIGHTED)
+def test_a_weight_that_counts_nothing_gives_the_same_points(name):
+    """The quads are in the sums, with a share that no sum feels: what is summed besides is as without them."""
+    mesh = slid(cylinder(16, 3), 0.3)
+    without, with_quads = (
+        [step.points for step in itertools.islice(sliding(name, weight).steps(mesh), 3)] for weight in (0, 1e-300)
+    )
+    for one, other in zip(without, with_quads, strict=True):
+        np.testing.assert_allclose(one, other, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", WEIGHTED)
 def test_a_fixed_boundary_ignores_it_and_says_so(name):
     mesh = slid(grid(3), 0.3)
     one, other = (smooth(mesh, METHODS[name](surface_weight=weight), FEW) for weight in (0, 5))
@@ -223,3 +234,10 @@ def test_a_recipe_and_a_report_have_it(tmp_path):
     formulas = [row["objective_formula"] for row in result.history]
     assert formulas[0] == "Σ η² + 0.5 Σ η² of quads"
     assert formulas[-1] == "Σ η² + 2 Σ η² of quads"
+
+
+def test_the_start_of_a_run_counts_the_quads_as_its_history_does():
+    run = iterate(slid(grid(3, 2, 4), 0.2), sliding("local-sd", 10.0), FEW)
+    assert run.start.row() == run.history[0]
+    next(run)
+    assert run.history[1]["objective"] < run.start.row()["objective"]

@@ -183,7 +183,7 @@ class NodePanel(QWidget):
 
     def set_sweep(self, done: int = 0, total: int = 0) -> None:
         """Show the progress of the sweep."""
-        self._progress.setText(tr("{done:,} of {total:,} nodes", done=done, total=total) if done else "")
+        self._progress.setText(tr("{done:,} of {total:,} steps", done=done, total=total) if done else "")
 
     def set_patch(self, on: bool) -> None:
         """Show whether the patch is isolated in the view, without emitting a signal."""

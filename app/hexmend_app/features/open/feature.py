@@ -141,7 +141,7 @@ class FeatureOpen(Feature):
 
     def _show_card(self) -> None:
         """Show what was opened, until it is dismissed if something was changed or is wrong with it."""
-        state, host = self._document.start, self.host
+        state, host = self._document.now, self.host
         findings = self.session.mesh_checker.of(state.mesh) or ()
         title, text = card(self._document.name, state, findings)
         choices = [(tr("Show worst"), lambda: host.action("next_worst").trigger())]

@@ -99,6 +99,8 @@ class FeatureOutcome(Feature):
         """Trigger an action, if the result of a run is still the last change of the mesh."""
         if self.session.document.recorded is record.end:
             self.host.action(action).trigger()
+        else:
+            self.host.messages.show_info(tr("The mesh has changed since {name} ended.", name=record.name))
 
     def _compare(self, record: RunRecord) -> None:
         """Show the mesh before a run next to its result."""

@@ -28,4 +28,5 @@ def notice(record: RunRecord, before: Summary, after: Summary) -> tuple[str, str
     digits = 2 if seconds < 10 else 1 if seconds < 100 else 0
     effort = f"{counted(record.newest, 'iteration')} · {seconds:.{digits}f} s"
     reason = record.message.partition(". ")[0].rstrip(".")
-    return f"{tr('{count} inverted', count=inverted)} · {minima}", f"{effort} · {reason}"
+    kept = "" if record.result == record.newest else tr(" · iteration {number} was kept", number=record.result)
+    return f"{tr('{count} inverted', count=inverted)} · {minima}", f"{effort} · {reason}{kept}"

@@ -91,7 +91,7 @@ class Script(QObject):
         moment, known = self._session.history.iteration_of(now), self._names.name_of(now)
         name = self._document.name if moment is None else moment.name
         if (sweep := self._session.node_sweep.sweep) is not None:
-            name = f"{sweep.done} of {sweep.nodes.size} nodes of a sweep"
+            name = f"{sweep.done} of {sweep.nodes.size} steps of a sweep"
         return ViewLines(scene, f"{name}, {known}" if known else name)
 
     def restart(self) -> None:

@@ -20,7 +20,7 @@ class SkipOnInput(QObject):
     ----------
     run : RunController
     view : callable
-        Returns the view, in which the camera may be moved meanwhile, or None.
+        Returns the widget of the view, in which the camera may be moved meanwhile, or None.
     """
 
     def __init__(self, run: RunController, view: Callable[[], QWidget | None]):
@@ -35,10 +35,8 @@ class SkipOnInput(QObject):
         return False
 
     def _in_view(self, widget: QWidget, event: QEvent) -> bool:
-        """Return True for a button pressed in the view."""
-        view = self._view()
-        mouse = event.type() == QEvent.Type.MouseButtonPress
-        return mouse and view is not None and (widget is view or view.isAncestorOf(widget))
+        """Return True for a button pressed in the view, and not on what is laid over it."""
+        return event.type() == QEvent.Type.MouseButtonPress and widget is self._view()
 
     def _on_active(self) -> None:
         """Filter events while needed alone: each costs a call."""

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
 from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted
@@ -86,7 +87,9 @@ class FeatureTimeline(Feature):
         """Show the runs, and the run and iteration displayed."""
         timeline, history = self._timeline, self.session.history
         self.panel.setVisible(self.session.document.is_open)
-        self.panel.run_bar.set_state(self._smoothing.phase, self._smoothing.outcome)
+        smoothing = self._smoothing
+        failed = smoothing.phase is Phase.IDLE and smoothing.record is not None  # a run that ends otherwise is finished
+        self.panel.run_bar.set_state(smoothing.phase, smoothing.outcome, failed)
         if self._seen.changed("runs", tuple(history.records)):
             self.panel.set_runs([_text(record) for record in history.records])
         record = timeline.record

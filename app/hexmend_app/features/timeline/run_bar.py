@@ -9,14 +9,14 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from hexmend.iteration import Outcome
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.theme.palette import AMBER, BETTER, BLUE, MUTED, Role
+from hexmend_app.theme.palette import AMBER, BETTER, BLUE, MUTED, WORSE
 from hexmend_app.theme.style import tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 
 #: Words and colours of the phases of a run that has not ended.
 _PHASES = {
-    Phase.IDLE: ("Not run yet", MUTED),
+    Phase.IDLE: ("Ready", MUTED),
     Phase.PREPARING: ("Preparing", BLUE),
     Phase.RUNNING: ("Running", BLUE),
     Phase.PAUSED: ("Paused", AMBER),
@@ -36,6 +36,8 @@ _ENDS = {
     Outcome.NOT_FINITE: ("Not finite", AMBER),
     Outcome.NOTHING_FREE: ("Nothing free", AMBER),
 }
+
+_FAILED = "Failed", WORSE
 
 _BUTTONS = "run", "step", "stop"
 
@@ -67,9 +69,9 @@ class RunBar(QWidget):
         for name, button in self._buttons.items():
             button.show_action(actions[name])
 
-    def set_state(self, phase: Phase, outcome: Outcome | None) -> None:
-        """Show the word for a phase of a run, and for its outcome if it has ended."""
-        word, colour = _state(phase, outcome)
+    def set_state(self, phase: Phase, outcome: Outcome | None, failed: bool = False) -> None:
+        """Show the word for a phase of a run, for its outcome if it has ended, or that it failed."""
+        word, colour = _FAILED if failed else _ENDS[outcome] if phase is Phase.FINISHED else _PHASES[phase]
         if self._state.text() != tr(word):
             self._state.setText(tr(word))
             tint(self._state, colour)
@@ -89,9 +91,3 @@ class RunBar(QWidget):
         run.ensurePolished()
         text = max(run.fontMetrics().horizontalAdvance(tr(word)) for word in ("Run", "Pause", "Resume", "Preparing"))
         run.setMinimumWidth(text + run.iconSize().width() + 16)
-
-
-def _state(phase: Phase, outcome: Outcome | None) -> tuple[str, Role]:
-    if phase in _PHASES:
-        return _PHASES[phase]
-    return _ENDS[outcome] if outcome is not None else ("Failed", AMBER)

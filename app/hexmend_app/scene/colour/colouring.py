@@ -42,6 +42,9 @@ _CHANGED = (
 #: Percentiles of a robust range: its ends, and the middle half. Of larger meshes every so many values are taken.
 _PERCENTILES, _SAMPLE = (0.5, 25, 75, 99.5), 200_000
 
+#: Number of values below which all count.
+_FEW = 200
+
 #: Distance of far values from the middle half, in spans of it.
 _FAR = 6.0
 
@@ -155,7 +158,7 @@ def resolve(
     table = COLOUR_MAPS[CHANGE_MAP if change else colours.map].table
     if colours.reverse != (better(colours.metric) < 0):
         table = table[::-1]
-    title, chosen = title or colour_quantity(colours.metric).title, _ordinary(values, inverted)
+    title, chosen = title or colour_quantity(colours.metric).title, values[np.isfinite(values) & ~inverted]
     beyond = bool((chosen < ends[0]).any()), bool((chosen > ends[1]).any())
     return Colouring(title, *ends, table, _CHANGED if change else _INVERTED, beyond=beyond)
 
@@ -192,6 +195,8 @@ def _ordinary(values: np.ndarray, inverted: np.ndarray) -> np.ndarray:
 def _robust_ends(values: np.ndarray) -> tuple[float, float]:
     """Return the smallest and largest value, except a few that are far outside of most."""
     low, high = float(values.min()), float(values.max())
+    if values.size < _FEW:
+        return low, high
     first, lower, upper, last = (float(v) for v in np.percentile(values[:: 1 + values.size // _SAMPLE], _PERCENTILES))
     fence = _FAR * (upper - lower)
     if upper > lower:

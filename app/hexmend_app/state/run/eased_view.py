@@ -29,6 +29,8 @@ class EasedView(QObject):
     ----------
     active : bool
         True while iterations are shown.
+    advancing : bool
+        True while one is being shown.
 
     Signals
     -------
@@ -40,9 +42,10 @@ class EasedView(QObject):
     def __init__(self, document: Document, history: History, parent: QObject | None = None):
         super().__init__(parent)
         self._document, self._history = document, history
+        self.advancing = False
         self._record: RunRecord | None = None
         self._result: tuple[int, State] | None = None
-        self._easing, self._began = Easing(0.0), 0.0
+        self._easing, self._began, self._at = Easing(0.0), 0.0, 0.0
         self._shown: State | None = None
         self._timer = QTimer(self, interval=_PERIOD, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self._advance)
@@ -60,7 +63,7 @@ class EasedView(QObject):
         if self._document.now.mesh.n_hexes <= LIMIT:
             self._record, self._result = record, None
             self._began = perf_counter()
-            self._easing, self._shown = Easing(self._began), self._document.now
+            self._easing, self._shown, self._at = Easing(self._began), self._document.now, 0.0
             self._timer.start()
             self.active_changed.emit()
 
@@ -94,11 +97,12 @@ class EasedView(QObject):
             at = self._easing.rest(now, self._result[0])
         if at is None:
             self.skip()
-            return
-        state = self._history.state_between(record, at, self._document.now.mesh)
-        if state is not self._document.now:
-            self._shown = state
-            self._document.preview(state)
+        elif at != self._at:
+            self._at = at
+            self._shown = self._history.state_between(record, at, self._document.now.mesh)
+            self.advancing = True
+            self._document.preview(self._shown)
+            self.advancing = False
 
     def _on_changes(self) -> None:
         """End where the result is no longer the last change, as after undo."""

@@ -11,6 +11,9 @@ SHOWN, REST = 2.5, 0.5
 #: Seconds by which the shown iteration is behind the newest one of a run that goes on.
 _BEHIND = 1.0
 
+#: Part of an iteration within which the newest is shown.
+_NEAR = 0.01
+
 #: Iterations a second that are shown as a run begins; the first move most. After a second they are eight times as many.
 _FIRST = 4.0
 
@@ -53,6 +56,8 @@ class Easing:
         seconds, self._last = now - self._last, now
         most = seconds * _FIRST * (1 + now - self._first) ** 3
         self._at += min((1 - math.exp(-seconds / _BEHIND)) * (newest - self._at), most)
+        if newest - self._at < _NEAR:
+            self._at = float(newest)
         return self._at
 
     def finish(self, now: float) -> None:

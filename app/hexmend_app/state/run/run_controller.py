@@ -61,8 +61,6 @@ class RunController(QObject):
         Records of all runs.
     eased : EasedView
         Shows iterations at the pace of that name.
-    iterating : bool
-        True while `iterated` is emitted and nothing else has changed.
 
     Signals
     -------
@@ -89,7 +87,7 @@ class RunController(QObject):
         self._document = document
         self.history = history
         self._before: State | None = None
-        self.iterating = False
+        self._emitting = False
         self._worker: Worker | None = None
         self._title = ""
         self._after_end: list[Callable[[], object]] = []
@@ -114,6 +112,11 @@ class RunController(QObject):
         return self._worker is not None
 
     blocks_editing = busy
+
+    @property
+    def iterating(self) -> bool:
+        """True while another iteration is shown and nothing else has changed."""
+        return self._emitting or self.eased.advancing
 
     def start(
         self,
@@ -272,9 +275,9 @@ class RunController(QObject):
         over, waits = worker.task.over, worker.waiting  # before the mailbox is emptied
         frame = worker.mailbox.take()
         if frame is not None and not over:
-            self.iterating = self.phase is Phase.RUNNING and frame.hit is None
+            self._emitting = self.phase is Phase.RUNNING and frame.hit is None
             self._show(frame)
-            self.iterating = False
+            self._emitting = False
         if over:
             self._finish(worker)
         elif worker.prepared.is_set() and self.phase is not Phase.STOPPING:
@@ -314,13 +317,14 @@ class RunController(QObject):
             self.failed.emit(error)
         else:
             if last is not None:
-                if self.following and self.eased.active:
-                    self.eased.finish(last.iteration.number, last.state)
-                show = self.following and not self.eased.active
-                self._document.commit(self._title, last.state, show=show)
+                eased = self.following and self.eased.active
+                self._document.commit(self._title, last.state, show=self.following and not eased)
+                if eased:  # to the state that is recorded, which is that before the run if no iteration was better
+                    self.eased.finish(last.iteration.number, self._document.recorded)
                 self.iterated.emit(last)
-            else:
+            elif self.eased.active:
                 self.eased.cancel()
+                self._document.preview(self._before)
             self.advice = self.record.advice = worker.advice
             self._set_phase(Phase.FINISHED)
             self.ended.emit(worker.task.result)

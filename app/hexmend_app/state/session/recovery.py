@@ -78,6 +78,7 @@ class Recovery(QObject):
         session.data_changed.connect(self._on_change)
         for signal in (session.run.ended, session.run.failed):
             signal.connect(lambda _: self._on_run())
+        session.run.eased.active_changed.connect(self._on_eased)
         session.opener.began.connect(self._on_began)
         session.opener.ended.connect(lambda _: self._on_opened())
         session.opener.failed.connect(lambda *_: self._cancel_recovering())
@@ -111,6 +112,11 @@ class Recovery(QObject):
         self._recoverable = sorted(filter(None, found), key=lambda session: session.when, reverse=True)
         self._changed = True
         self._timer.start()
+
+    def _on_eased(self) -> None:
+        """Write what an eased run has put off."""
+        if not self._session.run.eased.active:
+            self._soon.start()
 
     def write(self) -> None:
         """Write the session if it has unsaved data and no run is active; if it is being written, write it again."""

@@ -147,6 +147,11 @@ class SessionParts(QObject):
         known += [side_view.state for side_view in self.side_views.all]
         return next((state for state in known if state is not None and state.mesh.points is points), None)
 
+    def settle(self) -> None:
+        """End what is shown on the way to a result: a run that is shown eased, and a sweep node by node."""
+        self.run.skip_easing()
+        self.node_sweep.leave()
+
     def to_data(self) -> SessionData:
         """Return the data for a session file; a mesh is open, and no run and no sweep is active."""
         from hexmend_app.state.session.session_data import SessionData

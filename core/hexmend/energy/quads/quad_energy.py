@@ -112,18 +112,18 @@ class QuadCorners:
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             mixed, linear = 1 / r, squares / (2 * r)
             outer = squares / (2 * r**2) * (1 + self.sigma / r)
-        edges, slopes = self.edges, self.slopes
-        blocks = np.empty((2, 2, *f.shape, 3, 3))
-        for i in range(2):
-            for j in range(2):
-                block = -mixed[..., None, None] * (_outer(edges[i], slopes[j]) + _outer(slopes[i], edges[j]))
-                block += outer[..., None, None] * _outer(slopes[i], slopes[j])
-                if i == j:
-                    block += np.eye(3)
-                else:  # d2 sigma: the columns of e1 x e2 . n by e1 and e2
-                    block += (1 if i < j else -1) * linear[..., None, None] * _cross_matrices(self.normals)
-                scale = 2 * f * self.scales[i] * self.scales[j]
-                blocks[i, j] = np.where(self.counted[..., None, None], scale[..., None, None] * block, 0.0)
+            edges, slopes = self.edges, self.slopes
+            blocks = np.empty((2, 2, *f.shape, 3, 3))
+            for i in range(2):
+                for j in range(2):
+                    block = -mixed[..., None, None] * (_outer(edges[i], slopes[j]) + _outer(slopes[i], edges[j]))
+                    block += outer[..., None, None] * _outer(slopes[i], slopes[j])
+                    if i == j:
+                        block += np.eye(3)
+                    else:  # d2 sigma: the columns of e1 x e2 . n by e1 and e2
+                        block += (1 if i < j else -1) * linear[..., None, None] * _cross_matrices(self.normals)
+                    scale = 2 * f * self.scales[i] * self.scales[j]
+                    blocks[i, j] = np.where(self.counted[..., None, None], scale[..., None, None] * block, 0.0)
         return 0.25 * _by_nodes(blocks)
 
     @property

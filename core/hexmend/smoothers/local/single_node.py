@@ -30,7 +30,11 @@ class LocalDescent(LocalOptimiser):
         help="Order of the nodes in a sweep (5.2.6): inward is level by level from the fixed nodes.",
     )
     steps_per_node: int = parameter(
-        1, low=1, high=100, help="Steps at a node before the next: more than one did not pay in the thesis (3.2.2)."
+        1,
+        low=1,
+        high=100,
+        help="Steps at a node before the next: more than one did not pay in the thesis (3.2.2). Sliding nodes keep "
+        "their tangents meanwhile.",
     )
 
     def steps(self, mesh: Mesh) -> Steps:

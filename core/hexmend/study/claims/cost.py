@@ -18,7 +18,7 @@ _CONSTANT = 3.5
 _NOTICEABLE = 0.2
 
 
-@claim("4.3.1", "Time per iteration and free node does not depend on the mesh's size.")
+@claim("4.3.1", "Time per iteration and free node does not depend on the mesh's size, for most methods.")
 def cost_constant(results: Sequence[ExperimentResult]) -> Finding:
     """4.3.1, Figure 4.4: each method by itself, and for most of them."""
     ours: dict[str, dict[int, float]] = {}

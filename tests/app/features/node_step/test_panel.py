@@ -118,4 +118,4 @@ def test_the_power_of_ten_of_large_changes_is_in_the_label(shown):
 def test_the_sweep_shows_its_progress(shown):
     panel = shown(NodePanel(), 500, 260)
     panel.set_sweep(3, 10)
-    assert named(panel, QLabel, "Progress of the sweep").text() == "3 of 10 nodes"
+    assert named(panel, QLabel, "Progress of the sweep").text() == "3 of 10 steps"

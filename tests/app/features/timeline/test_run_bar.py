@@ -2,7 +2,8 @@
 
 import pytest
 
-from hexmend.iteration import Outcome, StoppingCriteria
+from hexmend.iteration import Outcome, Step, StoppingCriteria
+from hexmend.smoothers import METHODS
 from hexmend_app.features.timeline.run_bar import RunBar
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, phase, press
@@ -18,7 +19,7 @@ def test_a_run_is_started_paused_stepped_and_stopped_below_the_view(window, qtbo
     choose(window, "local-sd", StoppingCriteria(max_iterations=100_000, tolerance=0))
     bar = bar_of(window)
     assert bar.isVisible()
-    assert bar.state == "Not run yet"
+    assert bar.state == "Ready"
     press(bar.button("run"))
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
     assert bar_of(window).state == "Running"
@@ -43,8 +44,13 @@ def test_every_outcome_has_a_word(qapp, outcome):
     bar.deleteLater()
 
 
-def test_a_failed_run_says_so(qapp):
-    bar = RunBar()
-    bar.set_state(Phase.FINISHED, None)
-    assert bar.state == "Failed"
-    bar.deleteLater()
+def test_a_failed_run_says_so(window, qtbot, monkeypatch):
+    def steps(self, mesh):
+        yield Step(mesh.points)
+        raise ZeroDivisionError("one over nothing")
+
+    choose(window, "local-sd")
+    monkeypatch.setattr(METHODS["local-sd"], "steps", steps)
+    with qtbot.waitSignal(window.session.run.failed, timeout=PATIENCE):
+        press(bar_of(window).button("run"))
+    assert bar_of(window).state == "Failed"

@@ -1,12 +1,14 @@
 """Short runs are shown eased; their result is recorded at once, and shown at once for whoever asks."""
 
 from pathlib import Path
+from time import sleep
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend.iteration import Step
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh.document import Document, State
@@ -35,9 +37,9 @@ def run(document):
     run.close()
 
 
-def run_and_wait(qtbot, run, stop=TEN):
+def run_and_wait(qtbot, run, stop=TEN, smoother=None):
     with qtbot.waitSignal(run.ended, timeout=PATIENCE):
-        run.start(LocalSteepestDescent(), stop)
+        run.start(smoother or LocalSteepestDescent(), stop)
 
 
 @given(st.lists(st.floats(0.001, 0.5), min_size=1, max_size=40), st.integers(1, 500), st.floats(0, 4))
@@ -135,3 +137,34 @@ def test_steps_and_large_meshes_are_shown_as_they_are(document, run, qtbot, monk
     run_and_wait(qtbot, run)
     assert not run.eased.active
     assert document.now is document.recorded
+
+
+class Worsening(LocalSteepestDescent):
+    """Method that inverts hexes step by step, slowly enough to be shown."""
+
+    def steps(self, mesh):
+        yield Step(mesh.points)
+        generator = np.random.default_rng(1)
+        while True:
+            sleep(0.05)
+            yield Step(mesh.points + generator.normal(size=mesh.points.shape) * mesh.free[:, None])
+
+
+def test_a_run_without_a_better_iteration_ends_on_the_mesh_before_it(document, run, qtbot):
+    start = document.now
+    run_and_wait(qtbot, run, stop=StoppingCriteria(max_iterations=12, tolerance=0), smoother=Worsening())
+    assert run.record.result == 0
+    assert run.eased.active
+    qtbot.waitUntil(lambda: not run.eased.active, timeout=PATIENCE)
+    assert document.now is document.recorded is start
+    assert not document.previews
+
+
+def test_a_run_stopped_while_it_prepares_leaves_the_mesh_alone(document, run, qtbot):
+    start = document.now
+    with qtbot.waitSignal(run.ended, timeout=PATIENCE):
+        run.start(LocalSteepestDescent(), TEN)
+        run.stop()
+    run.skip_easing()
+    assert document.now is document.recorded
+    assert (document.now is start) == (run.record.newest < 1)
