@@ -61,7 +61,8 @@ WRONG = Role("#fdeee5", "#3d261a")  # an invalid value or an error
 WARNED = Role("#fff6dc", "#372e17")
 INFO = Role("#e8f2f9", "#1c3040")
 CHOSEN = Role("#d5e7f3", "#1e4563")
-ACCENT = Role("#0072b2", "#1b6fa8")  # selection, and the main button of a panel
+ACCENT = Role("#0072b2", "#1b6fa8")  # the main button of a panel
+SELECTION = Role("#00639b", "#1b6fa8")  # selected rows and letters; Fusion tints the text of the row with the focus
 ACCENT_HOVER = Role("#0a7abb", "#2478b2")
 ACCENT_PRESSED = Role("#005a8e", "#155a8a")
 INACTIVE = Role("#e6e9ee", "#2a3038")  # a disabled button
@@ -70,7 +71,7 @@ INACTIVE = Role("#e6e9ee", "#2a3038")  # a disabled button
 _NEUTRAL = (PANEL, FIELD, STRIPE, BUTTON)
 TEXT = Role("#1f2630", "#e3e7ed", on=(*_NEUTRAL, HOVER, PRESSED, WRONG, WARNED, INFO))
 MUTED = Role("#56606d", "#a7b0bc", on=_NEUTRAL)
-ON_ACCENT = Role("#ffffff", "#ffffff", on=(ACCENT, ACCENT_HOVER, ACCENT_PRESSED))
+ON_ACCENT = Role("#ffffff", "#ffffff", on=(ACCENT, SELECTION, ACCENT_HOVER, ACCENT_PRESSED))
 ON_CHOSEN = Role("#003f66", "#d3e9fb", on=(CHOSEN,))
 FAINT = Role("#79828e", "#828d9a")  # disabled texts: a contrast of at least 3 suffices
 

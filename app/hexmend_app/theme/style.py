@@ -10,7 +10,6 @@ from PySide6.QtWidgets import QApplication, QLabel, QSizePolicy, QToolTip, QWidg
 
 from hexmend_app.theme.icons import icon
 from hexmend_app.theme.palette import (
-    ACCENT,
     AMBER,
     BETTER,
     BLUE,
@@ -24,6 +23,7 @@ from hexmend_app.theme.palette import (
     MUTED,
     ON_ACCENT,
     PANEL,
+    SELECTION,
     STRIPE,
     TEXT,
     THEME,
@@ -49,7 +49,7 @@ _PALETTE = (
     (_ROLE.ToolTipBase, FIELD),
     (_ROLE.ToolTipText, TEXT),
     (_ROLE.PlaceholderText, MUTED),
-    (_ROLE.Highlight, ACCENT),
+    (_ROLE.Highlight, SELECTION),
     (_ROLE.HighlightedText, ON_ACCENT),
     (_ROLE.Accent, BLUE),
     (_ROLE.Link, BLUE),

@@ -26,7 +26,10 @@ def themed(request, qapp, shared):
         return
     shared.forget()
     apply_style(qapp, dark=request.getfixturevalue("dark"))
+    blinking = qapp.cursorFlashTime()
+    qapp.setCursorFlashTime(0)
     yield
+    qapp.setCursorFlashTime(blinking)
     apply_style(qapp, dark=False)
 
 
@@ -56,10 +59,14 @@ def grab(qtbot, make, state):
     widget, page = make(), QWidget()
     qtbot.addWidget(page)
     page.resize(*SIZE)
+    page.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    page.setFocus()
     widget.setParent(page, Qt.WindowType.Widget)
     widget.resize(*SIZE)
-    page.show()
     widget.show()
+    with qtbot.waitActive(page):  # otherwise the focus comes later, and to the control
+        page.show()
+        page.activateWindow()
     if not set_state(widget, state):
         pytest.skip("the control has no such state")
     if widget.focusPolicy() != Qt.FocusPolicy.NoFocus and state != "focus":

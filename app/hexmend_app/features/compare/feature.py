@@ -167,7 +167,7 @@ class FeatureCompare(Feature):
 
     def _compare(self, smoothers: list[Smoother], stage: Stage) -> None:
         self._close_results()
-        self.session.settle()
+        self.session.end_previews()
         self._comparison.start(smoothers, stage.stop, self.session.run_setup.rules)
         self.host.show_panel("compare")  # its key starts it from anywhere
 

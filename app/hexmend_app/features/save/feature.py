@@ -71,7 +71,7 @@ class FeatureSave(Feature):
     def may_leave(self) -> bool:
         """Wait for a save in progress and ask about unsaved changes; return True if leaving is allowed."""
         session = self.session
-        session.settle()
+        session.end_previews()
         if session.saver.busy and not self._wait_for_saving():
             return False
         if not session.modified and not session.run.busy:

@@ -99,7 +99,7 @@ class Commands(QObject):
 
     def _start(self, stage: Stage, iterations: float = math.inf) -> None:
         if self._session.editable:
-            self._session.settle()
+            self._session.end_previews()
             self._session.run_setup.active_stage = stage
             self.smoothing.start(stage.smoother, stage.stop, iterations, self._session.run_setup.rules)
 
@@ -108,7 +108,7 @@ class Commands(QObject):
         self.when_memory_suffices([recipe], lambda: self._start_recipe(recipe))
 
     def _start_recipe(self, recipe: Recipe) -> None:
-        self._session.settle()
+        self._session.end_previews()
         self.smoothing.start(recipe, None)
 
     def branch(self, stage: Stage) -> None:
@@ -122,7 +122,7 @@ class Commands(QObject):
     def _reset(self) -> None:
         if not self._session.editable:
             return
-        self._session.settle()
+        self._session.end_previews()
         before = self.document.now
         self.document.reset()
         if self.document.now is not before:
@@ -131,7 +131,7 @@ class Commands(QObject):
     def adopt_positions(self, title: str, state: State) -> None:
         """Move the nodes to their positions in another state, if the mesh is editable; pins and tags stay."""
         if self._session.editable:
-            self._session.settle()
+            self._session.end_previews()
             before = self.document.now
             mesh = before.mesh.with_points(state.mesh.points)
             self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
@@ -141,7 +141,7 @@ class Commands(QObject):
         """Replace the open mesh as one change that can be undone; return False if the mesh is not editable."""
         if not self._session.editable:
             return False
-        self._session.settle()
+        self._session.end_previews()
         self.document.commit(title, state)
         return True
 
@@ -171,7 +171,7 @@ class Commands(QObject):
     def slide_on(self, surface: TargetSurface, path: Path) -> None:
         """Let the boundary slide on a surface that was read from a file, if the mesh is editable."""
         if self._session.editable:
-            self._session.settle()
+            self._session.end_previews()
             now = self.document.now
             self.document.commit("set target surface", replace(now, mesh=now.mesh.sliding_on(surface, check=False)))
             values = (str(path.absolute()),)
@@ -193,7 +193,7 @@ class Commands(QObject):
     def _amend(self, title: str, change: Callable[..., Mesh], *values: object) -> None:
         """Change pins or tags of the mesh by a function of the core, which recorded scripts call."""
         if self._session.editable:
-            self._session.settle()
+            self._session.end_previews()
             now = self.document.now
             mesh = change(now.mesh, *values)
             summary = now.summary if mesh.pinned is now.mesh.pinned else summarise(mesh, now.figures)
@@ -217,7 +217,7 @@ class Commands(QObject):
     def undo(self) -> None:
         """Undo the last change, if the mesh is editable."""
         if self._session.editable:
-            self._session.settle()
+            self._session.end_previews()
             title = self.document.undo_title
             self.document.undo()
             if title is not None:
@@ -226,7 +226,7 @@ class Commands(QObject):
     def redo(self) -> None:
         """Redo the change that was undone last, if the mesh is editable."""
         if self._session.editable:
-            self._session.settle()
+            self._session.end_previews()
             title = self.document.redo_title
             self.document.redo()
             if title is not None:

@@ -147,7 +147,7 @@ class SessionParts(QObject):
         known += [side_view.state for side_view in self.side_views.all]
         return next((state for state in known if state is not None and state.mesh.points is points), None)
 
-    def settle(self) -> None:
+    def end_previews(self) -> None:
         """End what is shown on the way to a result: a run that is shown eased, and a sweep node by node."""
         self.run.skip_easing()
         self.node_sweep.leave()

@@ -84,7 +84,7 @@ class BackgroundChange(QObject):
         session = self._session
         if not session.editable:
             return False
-        session.settle()
+        session.end_previews()
         self._before = before = session.document.now
         self._task = Task(f"{name} {before.mesh.name}", lambda task: change(before.mesh, task), yields=True)
         self._task.ended.connect(self._finish)

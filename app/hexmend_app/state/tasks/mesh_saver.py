@@ -145,7 +145,7 @@ class MeshSaver(QObject):
     def _make_save(self, path: Path, rewrite: bool) -> SaveTask:
         """Return the task of saving the current state, after ending a sweep in progress."""
         session, document = self._session, self._session.document
-        session.settle()
+        session.end_previews()
         if path.suffix.lower() == SUFFIX:
             return SaveTask(path, document.now, document.recorded, session.to_data())
         moment = session.timeline.shown_iteration
