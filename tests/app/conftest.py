@@ -171,6 +171,7 @@ def window_with_mesh(qtbot, path):
     window.build_features()
     window.build_canvas()
     open_and_wait(qtbot, window, path)
+    window.messages.clear()  # of what was opened
     with unseen(window):
         lay_out(window, window.docks.state())
         settle(qtbot, window)

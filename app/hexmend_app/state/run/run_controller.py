@@ -252,7 +252,7 @@ class RunController(QObject):
     def _on_mesh_replaced(self) -> None:
         """Discard the run on the previous mesh, and breakpoints at its hexes and nodes."""
         self.close()
-        self.work = self.record = self.advice = None
+        self.work = self.record = self.advice = self.outcome = None
         self._breakpoints = replace(self._breakpoints, hex=None, node=None)  # numbers of the previous mesh
         self._set_phase(Phase.IDLE)
 

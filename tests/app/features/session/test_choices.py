@@ -22,11 +22,12 @@ from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
-#: What there is to compare of two windows besides their widgets, and what of it is a run's, or of the place of panels.
+#: What there is to compare of two windows besides their widgets, and what of it is a run's, a setting's, or of the place of panels.
 _KEPT = ("session.", "camera ", "look that", "hexes that", "action ")
 _NOT_KEPT = (
     "session.boundary_classifier", "session.run_setup.active_stage", "session.run.record", "session.run.advice", "session.run.work",
-    "session.run.phase", "action panel", "action drawer",
+    "session.run.phase", "session.run.outcome", "session.run.pace", "session.run.eased", "action panel", "action drawer",
+    "action pace",
 )  # fmt: skip
 #: Explanations that are unfolded, and lists of a wipe that there is not.
 _UNSEEN = ("Explain", "Left view", "Right view")

@@ -219,7 +219,7 @@ def test_a_failed_autosave_is_reported_once(fresh_window, tmp_path):
     feature = fresh_window.features["session"]
     feature.start_autosave()
     feature.start_autosave()
-    (warning,) = fresh_window.messages.messages()
+    (warning,) = [message for message in fresh_window.messages.messages() if message[0] == "warning"]
     assert "Autosave failed" in warning[1]
     assert not feature.recovery.watching
 
