@@ -63,17 +63,16 @@ def _run(window: Window, iterations: int) -> float:
 
 def _eased(window: Window) -> dict[str, float]:
     """Return the pictures of a short run that is shown eased: their rate, and the longest time between two."""
-    from hexmend_app.state.run.pace import Pace
-
     run, document, times = window.session.run, window.session.document, []
+    paces = type(run.pace)
     document.preview(document.start)
-    run.set_pace(Pace.EASED)
+    run.set_pace(paces.EASED)
     shown = document.points_moved.connect(lambda: times.append(perf_counter()))
     run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=20))
     while run.busy or run.eased.active:
         run_event_loop(0.1)
     document.points_moved.disconnect(shown)
-    run.set_pace(Pace.FASTEST)
+    run.set_pace(paces.FASTEST)
     gaps = np.diff(times) if len(times) > 1 else np.array([np.nan])
     return {"eased_fps": float(1 / np.mean(gaps)), "eased_worst_ms": float(1e3 * gaps.max())}
 
