@@ -15,6 +15,7 @@ from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend.study.bench.section import BenchSection
 from hexmend_app.bench.windows import draw, measure_meshes, report, run_event_loop
+from hexmend_app.state.run.pace import Pace
 
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
@@ -64,15 +65,14 @@ def _run(window: Window, iterations: int) -> float:
 def _eased(window: Window) -> dict[str, float]:
     """Return the pictures of a short run that is shown eased: their rate, and the longest time between two."""
     run, document, times = window.session.run, window.session.document, []
-    paces = type(run.pace)
     document.preview(document.start)
-    run.set_pace(paces.EASED)
+    run.set_pace(Pace.EASED)
     shown = document.points_moved.connect(lambda: times.append(perf_counter()))
     run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=20))
     while run.busy or run.eased.active:
         run_event_loop(0.1)
     document.points_moved.disconnect(shown)
-    run.set_pace(paces.FASTEST)
+    run.set_pace(Pace.FASTEST)
     gaps = np.diff(times) if len(times) > 1 else np.array([np.nan])
     return {"eased_fps": float(1 / np.mean(gaps)), "eased_worst_ms": float(1e3 * gaps.max())}
 

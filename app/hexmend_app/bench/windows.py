@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from hexmend.errors import HexmendError
 from hexmend_app.shell.start.display import DisplayError, check_display
+from hexmend_app.state.run.pace import Pace
 
 if TYPE_CHECKING:
     from hexmend.mesh.mesh import Mesh
@@ -30,7 +31,6 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
     from hexmend_app.shell.start.program import application
     from hexmend_app.shell.window import Window
     from hexmend_app.state.mesh.document import State
-    from hexmend_app.state.run.pace import Pace
 
     app = application()
     rows = []

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QToolButton, QWidget
@@ -30,6 +32,19 @@ class ActionButton(QToolButton):
         self.setToolButtonStyle(style.ToolButtonTextBesideIcon if with_text else style.ToolButtonIconOnly)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setEnabled(False)  # until it shows an action
+
+    def reserve_width(self, texts: Iterable[str], around: int) -> None:
+        """Reserve the width of the longest of some texts, so that nothing moves when the text changes.
+
+        Parameters
+        ----------
+        texts : iterable of str
+        around : int
+            Pixels around icon and text.
+        """
+        self.ensurePolished()
+        widest = max(map(self.fontMetrics().horizontalAdvance, texts))
+        self.setMinimumWidth(widest + self.iconSize().width() + around)
 
     def show_action(self, action: QAction) -> None:
         """Show an action, which the button triggers when pressed."""

@@ -45,14 +45,9 @@ def test_the_optimisers_of_the_thesis_have_it():
 
 
 @pytest.mark.parametrize("name", WEIGHTED)
-def test_without_weight_nothing_changes_and_the_quads_are_not_recorded(name):
-    mesh = slid(cylinder(16, 3), 0.3)
-    default, zero = (
-        list(itertools.islice(method.steps(mesh), 4)) for method in (METHODS[name](boundary="slide"), sliding(name, 0))
-    )
-    for one, other in zip(default, zero, strict=True):
-        assert one.surface is None is other.surface
-        np.testing.assert_array_equal(one.points, other.points)
+def test_without_weight_the_quads_are_not_recorded(name):
+    steps = itertools.islice(METHODS[name](boundary="slide").steps(slid(cylinder(16, 3), 0.3)), 4)
+    assert [step.surface for step in steps] == [None] * 4
 
 
 @pytest.mark.parametrize("name", WEIGHTED)

@@ -65,14 +65,7 @@ class RunButtons(QWidget):
                 button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
                 row.setColumnStretch(column, 1)
             row.addWidget(button, 0, column)
-        self._reserve_space()
-
-    def _reserve_space(self) -> None:
-        """Reserve the width of the longest text, so that no button moves when the state changes."""
-        run = self._buttons["run"]
-        run.ensurePolished()
-        text = max(run.fontMetrics().horizontalAdvance(tr(state.text)) for state in STATES.values())
-        run.setMinimumWidth(text + run.iconSize().width() + 24)
+        run.reserve_width((tr(state.text) for state in STATES.values()), around=24)
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:
         """Show the actions "run", "step", "stop" and "reset"."""

@@ -41,6 +41,9 @@ _FAILED = "Failed", WORSE
 
 _BUTTONS = "run", "step", "stop"
 
+#: Texts that the first button has in turn.
+_FACES = "Run", "Pause", "Resume", "Preparing", "Stopping"
+
 
 class RunBar(QWidget):
     """Row of buttons that run, step and stop, and the word for the state of the run."""
@@ -62,7 +65,7 @@ class RunBar(QWidget):
             button.setAutoRaise(True)
             row.addWidget(button)
         row.addWidget(self._state)
-        self._reserve_space()
+        self._buttons["run"].reserve_width(map(tr, _FACES), around=16)
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:
         """Show the actions "run", "step" and "stop"."""
@@ -84,10 +87,3 @@ class RunBar(QWidget):
     def button(self, name: str) -> ActionButton:
         """Return the button of an action."""
         return self._buttons[name]
-
-    def _reserve_space(self) -> None:
-        """Reserve the width of the longest text of the first button, so that nothing moves when the state changes."""
-        run = self._buttons["run"]
-        run.ensurePolished()
-        text = max(run.fontMetrics().horizontalAdvance(tr(word)) for word in ("Run", "Pause", "Resume", "Preparing"))
-        run.setMinimumWidth(text + run.iconSize().width() + 16)

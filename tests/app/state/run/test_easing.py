@@ -1,6 +1,5 @@
 """Short runs are shown eased; their result is recorded at once, and shown at once for whoever asks."""
 
-from pathlib import Path
 from time import sleep
 
 import numpy as np
@@ -11,22 +10,15 @@ from hypothesis import strategies as st
 from hexmend.iteration import Step
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.run import eased_view
 from hexmend_app.state.run.pace import REST, SHOWN, Easing, Pace
 from hexmend_app.state.run.run_controller import Phase, RunController
-from tests.core.grids import grid, scrambled
+from tests.core.grids import grid
 from tests.patience import PATIENCE
 
 TEN = StoppingCriteria(max_iterations=10, tolerance=0)
-
-
-@pytest.fixture
-def document(qtbot):
-    document = Document()
-    document.replace(State.of(scrambled(grid(6), 0.4)), Path("a.vtu"))
-    return document
 
 
 @pytest.fixture

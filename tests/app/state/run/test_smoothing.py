@@ -10,14 +10,14 @@ from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh import metric_cache
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.run.worker import Mailbox
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
 from tests.app.driving import turn
-from tests.core.grids import grid, scrambled
+from tests.core.grids import grid
 from tests.patience import PATIENCE
 
 SLOW = StoppingCriteria(tolerance=0, max_iterations=100_000)
@@ -32,13 +32,6 @@ class Failing(Smoother):
         yield Step(mesh.points)
         yield Step(mesh.points + 0.01 * mesh.free[:, None])
         raise ZeroDivisionError("one over nothing")
-
-
-@pytest.fixture
-def document(qtbot):
-    document = Document()
-    document.replace(State.of(scrambled(grid(6), 0.4)), Path("a.vtu"))
-    return document
 
 
 @pytest.fixture

@@ -1,0 +1,15 @@
+"""Document with a small mesh, for tests of runs on it."""
+
+from pathlib import Path
+
+import pytest
+
+from hexmend_app.state.mesh.document import Document, State
+from tests.core.grids import grid, scrambled
+
+
+@pytest.fixture
+def document(qtbot):
+    document = Document()
+    document.replace(State.of(scrambled(grid(6), 0.4)), Path("a.vtu"))
+    return document
