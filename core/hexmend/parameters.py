@@ -31,7 +31,7 @@ SET = "set:"
 #: Value that leaves the choice to the program.
 AUTO = "auto"
 #: Fields of `Parameter` that `hexmend methods --json` does not list.
-_NOT_IN_JSON = ("type", "no_limit", "suggestions", "sets", "automatic", "percent_of", "titles")
+_NOT_IN_JSON = ("type", "no_limit", "suggestions", "sets", "automatic", "percent_of", "titles", "advanced")
 _TRUE, _FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
@@ -61,6 +61,8 @@ class Parameter:
         Name of what a number with a per cent sign is a share of, such as "0.5%"; "" where such numbers are no values.
     titles : tuple of str
         Titles of the choices in forms, in their order; empty where the choices themselves say enough.
+    advanced : bool
+        Forms show it on request only, as its default suits nearly all meshes.
     """
 
     name: str
@@ -77,6 +79,7 @@ class Parameter:
     automatic: str = ""
     percent_of: str = ""
     titles: tuple[str, ...] = ()
+    advanced: bool = False
 
     def check(self, value: Any) -> Any:
         """Return `value` as this parameter's type, or raise `ParameterError` saying what was expected.
@@ -193,11 +196,12 @@ def parameter(
     automatic: str = "",
     percent_of: str = "",
     titles: tuple[str, ...] = (),
+    advanced: bool = False,
 ) -> Any:
     """Declare a dataclass field as a parameter; its type is the field's annotation, the rest as in `Parameter`."""
     own = {"low": low, "high": high, "choices": choices, "unit": unit, "help": help, "no_limit": no_limit}
     own |= {"suggestions": suggestions, "automatic": automatic, "percent_of": percent_of, "sets": sets}
-    own |= {"titles": titles}
+    own |= {"titles": titles, "advanced": advanced}
     return dataclasses.field(default=default, metadata={"parameter": own})
 
 

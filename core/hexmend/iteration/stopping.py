@@ -39,10 +39,12 @@ class StoppingCriteria(Parametrised):
         "length",
         choices=("length", "coordinate"),
         help="Measure of a node's move: its length, or the largest change of a coordinate as in A.1.",
+        advanced=True,
     )
     moves_only: bool = parameter(
         False,
         help="Judge convergence by the moves of nodes alone, as A.1 does, even while the objective still falls.",
+        advanced=True,
     )
     max_seconds: float = parameter(
         0.0,
@@ -54,6 +56,7 @@ class StoppingCriteria(Parametrised):
     keep_last: bool = parameter(
         False,
         help="Keep the last iterate, even if the method ranks an earlier one higher.",
+        advanced=True,
     )
 
     def limit_of(self, method: Limited) -> int:

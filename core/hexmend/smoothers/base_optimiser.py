@@ -26,6 +26,7 @@ class ObjectiveSmoother(TargetedSmoother):
         low=0,
         high=1,
         help="Subtracted from a hex's mean η before the power: 1 as in (B.20); 0 as in chapter 4, for a higher mean.",
+        advanced=True,
     )
 
     @property
@@ -49,18 +50,26 @@ class Optimiser(ObjectiveSmoother):
         "fixed",
         choices=tuple(POLICIES),
         help="fixed: delta as given; adaptive: larger for deeply inverted hexes, falling to delta as they recover.",
+        advanced=True,
     )
     delta_unit: str = parameter(
         "edge",
         choices=("edge", "mesh"),
         help="Unit of length for delta: the mean edge length of the mesh, or the unit of its points (Table 4.3).",
+        advanced=True,
     )
-    initial_step: float = parameter(1.0, low=1e-6, high=1e6, help="First trial step α of the line search (A.5).")
+    initial_step: float = parameter(
+        1.0, low=1e-6, high=1e6, help="First trial step α of the line search (A.5).", advanced=True
+    )
     backtrack_factor: float = parameter(
-        0.7, low=0.01, high=0.99, help="Factor λ by which a rejected step is shortened (A.5)."
+        0.7, low=0.01, high=0.99, help="Factor λ by which a rejected step is shortened (A.5).", advanced=True
     )
-    c1: float = parameter(1e-4, low=0, high=0.5, help="Fraction c₁ of the slope required of a step (Armijo, A.5).")
-    max_backtracks: int = parameter(100, low=1, high=500, help="Backtracks of a step after which the method gives up.")
+    c1: float = parameter(
+        1e-4, low=0, high=0.5, help="Fraction c₁ of the slope required of a step (Armijo, A.5).", advanced=True
+    )
+    max_backtracks: int = parameter(
+        100, low=1, high=500, help="Backtracks of a step after which the method gives up.", advanced=True
+    )
 
     surface_weight: float = parameter(
         0.0,
@@ -68,6 +77,7 @@ class Optimiser(ObjectiveSmoother):
         high=1e6,
         help="Weight of the shape of the boundary's quads in the objective, of a quad relative to a hex, where the "
         "boundary slides (5.2.1): 0 leaves them out.",
+        advanced=True,
     )
 
     @property

@@ -45,9 +45,14 @@ class General(TargetedSmoother):
         help="Hexes are of similar size up to this ratio of the 95th to the 5th percentile of their mean edge lengths.",
     )
     getme_tolerance: float = parameter(
-        1e-4, low=0, high=1, unit="mean edge length", help="GETMe has converged when no node moves further (A.1)."
+        1e-4,
+        low=0,
+        high=1,
+        unit="mean edge length",
+        help="GETMe has converged when no node moves further (A.1).",
+        advanced=True,
     )
-    getme_iterations: int = parameter(500, low=0, high=100_000, help="Iteration limit of GETMe.")
+    getme_iterations: int = parameter(500, low=0, high=100_000, help="Iteration limit of GETMe.", advanced=True)
 
     def steps(self, mesh: Mesh) -> Steps:
         mesh = mesh.keeping_surface()

@@ -42,6 +42,7 @@ class SlidingSmoother(Smoother):
         help="Edges with a larger dihedral angle are features; auto: chains of edges that stand out from the bends of "
         "the surface around them.",
         automatic=AUTO,
+        advanced=True,
     )
 
     surface_tolerance: float = parameter(
@@ -55,6 +56,7 @@ class SlidingSmoother(Smoother):
         no_limit=UNLIMITED,
         automatic=AUTO,
         percent_of="diagonal",
+        advanced=True,
     )
 
     @property

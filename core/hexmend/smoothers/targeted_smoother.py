@@ -25,7 +25,11 @@ class TargetedSmoother(SlidingSmoother):
         "file or a formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
     )
     size_weight: float = parameter(
-        SIZE_WEIGHT, low=0, high=1000, help="Weight of the size relative to the shape, where the target has sizes."
+        SIZE_WEIGHT,
+        low=0,
+        high=1000,
+        help="Weight of the size relative to the shape, where the target has sizes.",
+        advanced=True,
     )
     layers: str = parameter(
         "auto",

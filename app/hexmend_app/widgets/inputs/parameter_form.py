@@ -42,12 +42,31 @@ class _Row:
         self.problem.setText(self.editor.problem)
         self.problem.setVisible(bool(self.editor.problem))
 
+    @property
+    def is_needed(self) -> bool:
+        """True if the row is always shown: it is basic, or its value differs from the default or is invalid."""
+        modified = self.editor.value() != self.declaration.default
+        return not self.declaration.advanced or modified or bool(self.editor.problem)
+
+    def show(self, on: bool, with_help: bool) -> None:
+        """Show or hide all widgets of the row."""
+        for widget in (self.label, self.editor):
+            widget.setVisible(on)
+        # Keep the space of the hidden button, so that editors do not change width.
+        policy = self.reset.sizePolicy()
+        policy.setRetainSizeWhenHidden(on)
+        self.reset.setSizePolicy(policy)
+        self.reset.setVisible(on and self.editor.value() != self.declaration.default)
+        self.problem.setVisible(on and bool(self.editor.problem))
+        self.help.setVisible(on and with_help)
+
 
 class ParameterForm(QWidget):
     """Form that edits the values of declared parameters, one row each.
 
     The help of a parameter is its tooltip; a button below the rows shows the help of all parameters. A value that
-    differs from its default has a bold label and a reset button.
+    differs from its default has a bold label and a reset button. Advanced parameters are shown on request, or if they
+    differ from their defaults.
 
     Parameters
     ----------
@@ -78,14 +97,19 @@ class ParameterForm(QWidget):
         self._grid.setColumnStretch(0, 1)
         self._grid.setColumnStretch(1, 1)
         self.none = note(tr("No parameters."))
-        self._defaults = self._button(tr("Defaults"), "restore", tr("Reset all parameters to their defaults."))
+        self._defaults = self._button(tr("Defaults"), "restore", tr("Reset all parameters to their defaults."), False)
         self._defaults.clicked.connect(self._reset_all)
-        self._explain = self._button(tr("Explain"), "help-circle-outline", tr("Show the help of each parameter."))
+        explain = tr("Show the help of each parameter.")
+        self._explain = self._button(tr("Explain"), "help-circle-outline", explain, False)
         self._explain.setCheckable(True)
-        self._explain.toggled.connect(self._show_help)
+        self._explain.toggled.connect(self._show_rows)
+        self._advanced = self._button(tr("Advanced"), "tune-variant", tr("Show the advanced parameters as well."))
+        self._advanced.setCheckable(True)
+        self._advanced.toggled.connect(self._show_rows)
         foot = QHBoxLayout()
-        foot.addWidget(self._explain)
+        foot.addWidget(self._advanced)
         foot.addStretch()
+        foot.addWidget(self._explain)
         foot.addWidget(self._defaults)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -95,36 +119,41 @@ class ParameterForm(QWidget):
         self.set_declarations(declarations)
 
     @staticmethod
-    def _button(text: str, icon_name: str, help: str) -> QToolButton:
+    def _button(text: str, icon_name: str, help: str, with_text: bool = True) -> QToolButton:
         button = QToolButton()
         button.setText(text)
         button.setIcon(icon(icon_name))
-        button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        style = Qt.ToolButtonStyle
+        button.setToolButtonStyle(style.ToolButtonTextBesideIcon if with_text else style.ToolButtonIconOnly)
         button.setAutoRaise(True)
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(button, text, help)
         return button
 
     def set_declarations(self, declarations: Iterable[Parameter]) -> None:
-        """Replace the rows by other parameters at their defaults; not to be called from a signal of an editor."""
-        declarations = list(declarations)
+        """Replace the rows by other parameters at their defaults, the advanced ones last.
+
+        Not to be called from a signal of an editor.
+        """
+        declarations = sorted(declarations, key=lambda declaration: declaration.advanced)
         if declarations and declarations == [row.declaration for row in self.rows.values()]:  # creating rows is slow
             self.set_values({declaration.name: declaration.default for declaration in declarations})
             return
         while (item := self._grid.takeAt(0)) is not None:
             # At once: `deleteLater` takes effect only when the event loop that created the rows continues.
             shiboken6.delete(item.widget())
-        before = self._explain.previousInFocusChain()
+        before = self._advanced.previousInFocusChain()
         self.rows = {d.name: self._make_row(3 * i, d) for i, d in enumerate(declarations)}
         # Qt appends new widgets to the tab order of the whole window.
         parts = [part for row in self.rows.values() for part in (row.editor, row.reset)]
-        for previous, following in pairwise([before, *parts, self._explain, self._defaults]):
+        for previous, following in pairwise([before, *parts, self._advanced, self._explain, self._defaults]):
             self.setTabOrder(previous, following)
         self.none.setVisible(not self.rows)
         self._explain.setVisible(bool(self.rows))
         self._defaults.setVisible(bool(self.rows))
-        self._show_help(self._explain.isChecked())
+        self._advanced.setVisible(any(row.declaration.advanced for row in self.rows.values()))
         self._refresh()
+        self._show_rows()
 
     def _make_row(self, at: int, declaration: Parameter) -> _Row:
         name, help = tr(name_in_words(declaration.name)), tr(declaration.help)
@@ -148,10 +177,6 @@ class ParameterForm(QWidget):
         reset.setAutoRaise(True)
         reset.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(reset, tr("Reset {name}", name=name), tr("Reset to the default, {default}.", default=escape(shown)))
-        # Keep the space of the hidden button, so that editors do not change width.
-        policy = reset.sizePolicy()
-        policy.setRetainSizeWhenHidden(True)
-        reset.setSizePolicy(policy)
         row = _Row(declaration, label, editor, reset, note("", WORSE), note(help))
         editor.changed.connect(self._on_changed)
         reset.clicked.connect(lambda: self._reset([row]))
@@ -179,6 +204,7 @@ class ParameterForm(QWidget):
                 raise ParameterError(f"there is no parameter {name!r}: known are {', '.join(self.rows) or 'none'}")
             self.rows[name].editor.set_value(value)
         self._refresh()
+        self._show_rows()
 
     def editor(self, name: str) -> Editor:
         """Return the editor of a parameter."""
@@ -190,6 +216,7 @@ class ParameterForm(QWidget):
 
     def show_problem(self) -> None:
         """Focus the editor of the first invalid value."""
+        self._show_rows()
         for name in self.problems():
             self.rows[name].editor.setFocus(Qt.FocusReason.OtherFocusReason)
             return
@@ -214,9 +241,10 @@ class ParameterForm(QWidget):
         modified = any(row.editor.value() != row.declaration.default for row in self.rows.values())
         self._defaults.setEnabled(modified or bool(self.problems()))
 
-    def _show_help(self, shown: bool) -> None:
+    def _show_rows(self) -> None:
+        everything, with_help = self._advanced.isChecked(), self._explain.isChecked()
         for row in self.rows.values():
-            row.help.setVisible(shown)
+            row.show(everything or row.is_needed, with_help)
 
 
 def _longest_word_width(label: QLabel, text: str) -> int:

@@ -40,7 +40,11 @@ class GETMe(SlidingSmoother):
     )
     exponent: float = parameter(1.0, low=0, high=10, help="Exponent of the paper's weights.")
     patience: int = parameter(
-        10, low=1, high=1000, help="Number of iterations without a rise of q_min or q_mean after which the method ends."
+        10,
+        low=1,
+        high=1000,
+        help="Number of iterations without a rise of q_min or q_mean after which the method ends.",
+        advanced=True,
     )
 
     def steps(self, mesh: Mesh) -> Steps:

@@ -69,12 +69,21 @@ class GlobalNewton(GlobalDescent):
         "minres",
         choices=tuple(SOLVERS),
         help="Linear solver: minimum residuals as in the thesis, or preconditioned conjugate gradients, faster.",
+        advanced=True,
     )
     solver_tolerance: float = parameter(
-        1e-6, low=1e-14, high=0.9, help="Residual at which the linear solver ends, relative to the gradient."
+        1e-6,
+        low=1e-14,
+        high=0.9,
+        help="Residual at which the linear solver ends, relative to the gradient.",
+        advanced=True,
     )
     solver_iterations: int = parameter(
-        1000, low=1, high=10**6, help="Most iterations of the linear solver; then its direction is taken as it is."
+        1000,
+        low=1,
+        high=10**6,
+        help="Most iterations of the linear solver; then its direction is taken as it is.",
+        advanced=True,
     )
 
     def linear_solver(self) -> LinearSolver:

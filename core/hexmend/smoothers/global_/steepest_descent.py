@@ -28,6 +28,7 @@ class GlobalSteepestDescent(GlobalDescent):
         choices=("edge", "mesh"),
         help="Unit of length in which the first trial step is taken: the mean edge length, so that it means the same "
         "on every mesh, or that of the mesh's points as in A.2 and A.5.",
+        advanced=True,
     )
 
     def search(self, energy: MeshEnergy) -> LineSearch:

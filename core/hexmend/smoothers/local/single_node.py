@@ -35,6 +35,7 @@ class LocalDescent(LocalOptimiser):
         high=100,
         help="Steps at a node before the next: more than one did not pay in the thesis (3.2.2). Sliding nodes keep "
         "their tangents meanwhile.",
+        advanced=True,
     )
 
     def steps(self, mesh: Mesh) -> Steps:

@@ -29,6 +29,7 @@ class MendSettings(ObjectiveSmoother):
         help="Exponent of the objective (3.3): the higher, the more the worst hexes count; auto: 1 with goal balanced "
         "and no target, else 2.",
         automatic=AUTO,
+        advanced=True,
     )
     max_p: float = parameter(
         1.0,
@@ -36,6 +37,7 @@ class MendSettings(ObjectiveSmoother):
         high=32,
         help="If higher than p, p is doubled at the optimum up to this value, for the worst hexes; not with goal "
         "balanced.",
+        advanced=True,
     )
     initial_epsilon: float = parameter(
         0.03,
@@ -43,12 +45,13 @@ class MendSettings(ObjectiveSmoother):
         high=1,
         unit="mean edge length³",
         help="e of the first delta, δ² = e (e − worst determinant); it falls until no hex is inverted.",
+        advanced=True,
     )
     guard: bool = parameter(
         False, help="Keep the best iterate that lowers neither the least q(H) nor the least scaled Jacobian."
     )
     solver_iterations: int = parameter(
-        200, low=1, high=10**6, help="Iteration limit of conjugate gradients for a Newton step."
+        200, low=1, high=10**6, help="Iteration limit of conjugate gradients for a Newton step.", advanced=True
     )
 
     @property

@@ -278,3 +278,45 @@ def test_choices_have_their_declared_titles_and_a_word_stands_for_a_number(shown
     type_into(p, "auto")
     assert form.values()["p"] == "auto"
     assert form.problems() == {}
+
+
+# Advanced parameters
+
+
+@dataclass(frozen=True)
+class Mixed(Parametrised):
+    """Basic and advanced parameters."""
+
+    c1: float = parameter(0.1, low=0, high=1, help="Share of the slope.", advanced=True)
+    goal: str = parameter("shape", choices=("shape", "time-step"), help="Aim.")
+    backtracks: int = parameter(30, low=1, help="Limit.", advanced=True)
+
+
+def shown_names(form):
+    return [name for name, row in form.rows.items() if row.editor.isVisible()]
+
+
+def test_advanced_parameters_are_shown_on_request_below_the_basic_ones(shown):
+    form = shown(ParameterForm(declared(Mixed)))
+    assert shown_names(form) == ["goal"]
+    low = form.sizeHint().height()
+    QTest.mouseClick(named(form, QToolButton, "Advanced"), _LEFT)
+    assert shown_names(form) == ["goal", "c1", "backtracks"]
+    assert form.sizeHint().height() > low + 40
+    QTest.mouseClick(named(form, QToolButton, "Advanced"), _LEFT)
+    assert shown_names(form) == ["goal"]
+    QApplication.processEvents()
+    assert form.sizeHint().height() == low
+
+
+def test_an_advanced_parameter_with_another_value_is_always_shown(shown):
+    form = shown(ParameterForm(declared(Mixed)))
+    form.set_values({"backtracks": 7})
+    assert shown_names(form) == ["goal", "backtracks"]
+    assert form.values() == {"goal": "shape", "c1": 0.1, "backtracks": 7}
+    form.set_values({"backtracks": 30})
+    assert shown_names(form) == ["goal"]
+
+
+def test_forms_without_advanced_parameters_have_no_button_for_them(form):
+    assert not named(form, QToolButton, "Advanced").isVisible()
