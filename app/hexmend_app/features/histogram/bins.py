@@ -57,6 +57,15 @@ class Distribution:
         """All bars and bins, from left to right."""
         return Cells(self.axis, len(self.counts))
 
+    def in_cell(self, cell: int) -> int:
+        """Return the number of hexes in one of `cells`."""
+        k = cell - self.cells.first_bin
+        if cell == 0:
+            return self.inverted
+        if k < 0:
+            return self.below
+        return self.above if k == len(self.counts) else int(self.counts[k])
+
     def cumulated(self) -> Distribution:
         """Return the cumulative distribution: inverted hexes first, those above the axis last."""
         below = self.inverted + self.below

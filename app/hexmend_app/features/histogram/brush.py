@@ -1,13 +1,16 @@
-"""View of a plot in which the mouse brushes a range of positions."""
+"""Mouse on the histogram: a view in which it brushes a range of positions, and handles of the range of colours."""
 
 from __future__ import annotations
 
 import pyqtgraph as pg
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QObject, QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QGraphicsSceneHoverEvent
 
 #: Distance from an end of the range, in pixels, within which a drag moves this end.
 _GRAB_DISTANCE = 6
+
+#: Smallest distance of the ends of the range of colours, as a share of the axis.
+_LEAST_RANGE = 0.01
 
 _CURSORS = {
     "new": Qt.CursorShape.CrossCursor,
@@ -38,11 +41,14 @@ class BrushView(pg.ViewBox):
         The user double-clicked outside of the bar.
     bar_clicked
         The user clicked the bar.
+    clicked(x, y)
+        The user clicked elsewhere, at this position of the plot.
     """
 
     brushed = Signal(object)
     cleared = Signal()
     bar_clicked = Signal()
+    clicked = Signal(float, float)
 
     def __init__(self):
         super().__init__(enableMenu=False, defaultPadding=0)
@@ -87,13 +93,15 @@ class BrushView(pg.ViewBox):
         """Announce a click on the bar, or a double click elsewhere."""
         if ev.button() != Qt.MouseButton.LeftButton:
             return
-        on_bar = self._on_bar(self.mapToView(ev.pos()).x())
-        if on_bar or ev.double():
-            ev.accept()
+        place = self.mapToView(ev.pos())
+        on_bar = self._on_bar(place.x())
+        ev.accept()
         if ev.double() and not on_bar:
             self.cleared.emit()
         elif on_bar and not ev.double():
             self.bar_clicked.emit()
+        elif not ev.double():
+            self.clicked.emit(place.x(), place.y())
 
     def _on_bar(self, x: float) -> bool:
         return self.bar is not None and self.bar[0] <= x <= self.bar[1]
@@ -107,3 +115,60 @@ class BrushView(pg.ViewBox):
         x = self.mapToView(event.pos()).x()
         mode = "bar" if self._on_bar(x) else self._mode_at(x)
         self.setCursor(_CURSORS.get(mode, Qt.CursorShape.SplitHCursor))
+
+
+class ColourRange(QObject):
+    """Two handles on the axis of a plot that show and move the ends of the range of colours.
+
+    Signals
+    -------
+    changed(low, high)
+        The user dragged a handle to these positions, from 0 to 1.
+
+    Parameters
+    ----------
+    plot : pyqtgraph.PlotWidget
+    """
+
+    changed = Signal(float, float)
+
+    def __init__(self, plot: pg.PlotWidget):
+        super().__init__(plot)
+        self._lines = []
+        for marker in ("|>", "<|"):
+            line = pg.InfiniteLine(angle=90, movable=True, bounds=(0.0, 1.0))
+            line.addMarker(marker, position=0.5, size=12)
+            line.setZValue(50)
+            line.sigDragged.connect(self._on_dragged)
+            line.hide()
+            plot.addItem(line, ignoreBounds=True)
+            self._lines.append(line)
+
+    def paint(self, colour: str, hover: str) -> None:
+        """Set the colours of the handles."""
+        for line in self._lines:
+            line.setPen(pg.mkPen(colour, width=1, style=Qt.PenStyle.DashLine))
+            line.setHoverPen(pg.mkPen(hover, width=2))
+
+    def show_ends(self, ends: tuple[float, float] | None) -> None:
+        """Show the handles at two positions, each moved to the axis; hide them for None."""
+        for index, line in enumerate(self._lines):
+            line.setVisible(ends is not None)
+            if ends is not None and not line.moving:
+                with QSignalBlocker(line):
+                    line.setValue(min(max(ends[index], 0.0), 1.0))
+
+    @property
+    def shown(self) -> bool:
+        """True if the handles are shown."""
+        return any(line.isVisible() for line in self._lines)
+
+    def ends(self) -> tuple[float, float]:
+        """Return the positions of both handles."""
+        return self._lines[0].value(), self._lines[1].value()
+
+    def _on_dragged(self, line: pg.InfiniteLine) -> None:
+        low, high = self.ends()
+        if high - low < _LEAST_RANGE:
+            line.setValue(high - _LEAST_RANGE if line is self._lines[0] else low + _LEAST_RANGE)
+        self.changed.emit(*self.ends())

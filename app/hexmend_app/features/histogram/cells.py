@@ -27,16 +27,21 @@ class Cells:
     bins: int
 
     def __len__(self) -> int:
-        return self._first_bin + self.bins + self.axis.open_high
+        return self.first_bin + self.bins + self.axis.open_high
 
     def span(self, cell: int) -> tuple[float, float]:
         """Return left and right end of a cell on the plot."""
-        k = cell - self._first_bin
+        k = cell - self.first_bin
         if cell == 0:
             return self.axis.inverted
         if k < 0:
             return self.axis.below
         return self.axis.above if k == self.bins else (k / self.bins, (k + 1) / self.bins)
+
+    def at(self, x: float) -> int | None:
+        """Return the cell at a position of the plot; None between two cells."""
+        spans = map(self.span, range(len(self)))
+        return next((cell for cell, (left, right) in enumerate(spans) if left <= x <= right), None)
 
     def nearest(self, left: float, right: float) -> tuple[int, int]:
         """Return the first and the last cell of the range of cells that is nearest to two positions on the plot."""
@@ -74,7 +79,8 @@ class Cells:
         return Show((low, high), self.axis.metric, inverted=first == 0)
 
     @property
-    def _first_bin(self) -> int:
+    def first_bin(self) -> int:
+        """Number of the cell of the first bin."""
         return 1 + self.axis.open_low
 
     def _smallest_value(self, cell: int) -> float:
@@ -82,7 +88,7 @@ class Cells:
 
         Because of rounding, a value next to the end of a bin may be counted on the other side of this end.
         """
-        axis, k = self.axis, cell - self._first_bin
+        axis, k = self.axis, cell - self.first_bin
         scale = self.bins / (axis.high - axis.low)
         value = axis.low + k / scale
         while (value - axis.low) * scale >= k:

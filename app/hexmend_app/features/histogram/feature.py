@@ -15,6 +15,7 @@ from hexmend_app.features.histogram.histogram_file import figure, write_histogra
 from hexmend_app.features.histogram.outline import Gradient
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.picture.visibility import Show
+from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.mesh.metric_cache import metric_values
@@ -56,6 +57,7 @@ class FeatureHistogram(Feature):
         panel.removed.connect(self._snapshots.remove)
         panel.save_requested.connect(self.ask)
         panel.inverted_requested.connect(self._isolate_inverted)
+        panel.colours_dragged.connect(self._pin_colours)
 
     def states(self) -> Sequence[StatePart]:
         """Return the settings of the histogram."""
@@ -98,7 +100,9 @@ class FeatureHistogram(Feature):
         self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.colours.metric)
         if self._document.is_open and self.panel.isVisible():
             self._count()
-            self.panel.set_gradient(self._gradient())
+            colouring = self._colouring()
+            self.panel.set_gradient(self._gradient(colouring))
+            self.panel.set_colour_range(None if colouring is None else (colouring.low, colouring.high))
         self.panel.set_range(range)
 
     def _count(self) -> None:
@@ -111,10 +115,16 @@ class FeatureHistogram(Feature):
         if self._seen.changed("now", self.metric, now):
             self.panel.set_current(self._values(now), now.figures.inverted)
 
-    def _gradient(self) -> Gradient:
-        """Return the colours of the view along the axis; () if they show another metric or none."""
+    def _colouring(self) -> Colouring | None:
+        """Return the colouring of the view; None if it shows another metric or none."""
         colouring = None if self.canvas is None or self._view.look.colours.neutral else self.canvas.colouring
         if colouring is None or colouring.names or self.metric != self._view.look.colours.metric:
+            return None
+        return colouring
+
+    def _gradient(self, colouring: Colouring | None) -> Gradient:
+        """Return the colours of the view along the axis; () without colouring."""
+        if colouring is None:
             return ()
         axis, positions = self.panel.axis, np.linspace(0.0, 1.0, _COLOURS)
         values = axis.low + positions * (axis.high - axis.low)
@@ -135,6 +145,10 @@ class FeatureHistogram(Feature):
         """Show the hexes of a range, or of all values."""
         range = Show() if range is None else range
         self._view.change(show={"quality": range.quality, "metric": range.metric, "inverted": range.inverted})
+
+    def _pin_colours(self, low: float, high: float) -> None:
+        """Pin the range of colours to values with three digits."""
+        self._view.change(colours={"range": (float(f"{low:.3g}"), float(f"{high:.3g}"))})
 
     def _isolate_inverted(self) -> None:
         now = self._document.now

@@ -61,7 +61,7 @@ class HistogramHead(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.metric_box = ComboBox()
-        let_shrink(self.metric_box, 9)
+        let_shrink(self.metric_box, 6)
         self.metric_box.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.metric_box.setMaximumWidth(240)
         self.metric_box.addItem("", "")

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import Distribution, decades, round_up
-from hexmend_app.features.histogram.brush import BrushView
+from hexmend_app.features.histogram.brush import BrushView, ColourRange
 from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import BROKEN_TOP, Heights, Outline, Series
 from hexmend_app.theme.style import BLUE, INVERTED_TEXT, MUTED, on_theme_change, smaller, tabular
@@ -40,6 +40,8 @@ class HistogramPlot(QWidget):
         Announces brushed ranges.
     heights : Heights
         Axis of counts.
+    colour_range : ColourRange
+        Handles of the range of colours.
     """
 
     def __init__(self, legend: HistogramLegend, parent: QWidget | None = None):
@@ -54,6 +56,7 @@ class HistogramPlot(QWidget):
         self.outlines: dict[str, Outline] = {}
         self._series: Sequence[Series] = ()
         self._number_rows = 1  # on a bar
+        self.colour_range = ColourRange(self.plot)
         self._regions = [pg.LinearRegionItem((0, 1), movable=False) for _ in range(2)]
         for region in self._regions:
             region.setZValue(-10)
@@ -76,6 +79,7 @@ class HistogramPlot(QWidget):
         on_theme_change(self, self._paint)
 
     def _paint(self) -> None:
+        self.colour_range.paint(str(MUTED), str(BLUE))
         for region in self._regions:
             region.setBrush(f"{BLUE}20")
             for line in region.lines:

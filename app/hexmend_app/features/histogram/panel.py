@@ -30,8 +30,8 @@ from hexmend_app.widgets.eliding_label import ElidingLabel
 _SUMMARY_WIDTH = 210
 _HELP = (
     "Number of hexes by value. Inverted hexes have a separate bar at the left, for every metric. Drag over the plot "
-    "to show only the hexes of a range; double-click to show all hexes. Click the bar of inverted hexes to show only "
-    "these."
+    "to show only the hexes of a range, or click a bar to show only its hexes; double-click to show all hexes. The two "
+    "dashed lines are the ends of the range of colours: drag them."
 )
 
 
@@ -52,6 +52,8 @@ class QualityHistogram(QWidget):
         The user asked to save the histogram.
     inverted_requested
         The user clicked the bar of inverted hexes, which is not empty.
+    colours_dragged(low, high)
+        The user dragged an end of the range of colours to these values.
     """
 
     metric_chosen = Signal(str)
@@ -61,6 +63,7 @@ class QualityHistogram(QWidget):
     removed = Signal(int)
     save_requested = Signal()
     inverted_requested = Signal()
+    colours_dragged = Signal(float, float)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -101,6 +104,8 @@ class QualityHistogram(QWidget):
         self.plot.view.brushed.connect(self._on_brushed)
         self.plot.view.cleared.connect(lambda: self._choose(None))
         self.plot.view.bar_clicked.connect(self.inverted_requested)
+        self.plot.view.clicked.connect(self._on_clicked)
+        self.plot.colour_range.changed.connect(self._on_colours)
         self.plot.plot.scene().sigMouseMoved.connect(self._hover)
         self.summary = ElidingLabel()  # one line: a second line would move the plot while a range is brushed
         self.summary.setFont(tabular(smaller(self.summary.font())))
@@ -172,6 +177,13 @@ class QualityHistogram(QWidget):
             self._distributions.gradient = gradient
             self._refresh()
 
+    def set_colour_range(self, ends: tuple[float, float] | None) -> None:
+        """Show the values at both ends of the range of colours; None if the colours show another metric."""
+        if ends is not None:
+            low, width = self.axis.low, self.axis.high - self.axis.low
+            ends = ((ends[0] - low) / width, (ends[1] - low) / width)
+        self.plot.colour_range.show_ends(ends)
+
     def series(self) -> list[Series]:
         """Return the distributions as they are drawn, in the order of the legend."""
         return self._distributions.series()
@@ -208,6 +220,19 @@ class QualityHistogram(QWidget):
     def _on_brushed(self, span: tuple[float, float]) -> None:
         cells = Cells(self.axis, self.head.bins.value())
         self._choose(cells.range(*cells.nearest(*span)))
+
+    def _on_clicked(self, x: float, y: float) -> None:
+        """Show only the hexes of the bar at a position of the plot."""
+        current = self._distributions.current
+        if current is None or self.cumulative:
+            return
+        cell = current.cells.at(x)
+        if cell is not None and current.in_cell(cell) and y <= self.plot.heights.bar(current, current.in_cell(cell))[0]:
+            self._choose(current.cells.range(cell, cell))
+
+    def _on_colours(self, low: float, high: float) -> None:
+        axis = self.axis
+        self.colours_dragged.emit(*(axis.low + end * (axis.high - axis.low) for end in (low, high)))
 
     def _on_typed(self, low: float, high: float, inverted: bool) -> None:
         minimum, maximum = METRICS[self.axis.metric].full_range

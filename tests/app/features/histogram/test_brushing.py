@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
 from hexmend_app.picture.visibility import Show
+from hexmend_app.scene.colour.value_range import within
 from tests.app.driving import LEFT, move
 from tests.app.features.histogram.mouse import ends, nothing_pending, point_at
 from tests.patience import PATIENCE
@@ -200,3 +201,38 @@ def test_a_range_of_another_metric_is_ignored(histogram, announced, condition):
     histogram.set_range(Show((0.1, 0.2), "q"))
     assert histogram.range() is None
     assert not histogram.range_row.all.isEnabled()
+
+
+def test_a_click_on_a_bar_shows_only_its_hexes(histogram, announced, data, qtbot):
+    histogram.set_current(*data)
+    values, inverted = data
+    distribution = next(one.distribution for one in histogram.series() if one.current)
+    bar, view = distribution.cells.span(1 + int(np.argmax(distribution.counts))), histogram.plot.view
+    viewport = histogram.plot.plot.viewport()
+    above = view.mapViewToScene(QPointF(sum(bar) / 2, 1.02 * histogram.plot.heights.top)).toPoint()
+    QTest.mouseClick(viewport, LEFT, pos=above)
+    assert announced == []
+    inside = view.mapViewToScene(QPointF(sum(bar) / 2, 1.0)).toPoint()
+    QTest.mouseClick(viewport, LEFT, pos=inside)
+    qtbot.waitUntil(lambda: len(announced) == 1, timeout=PATIENCE)
+    shown = within(values, inverted, announced[0])
+    low, high = (histogram.axis.low + end * (histogram.axis.high - histogram.axis.low) for end in bar)
+    assert shown.sum() > 0
+    assert np.array_equal(shown, (values >= low) & (values < high) & ~inverted)
+
+
+def test_an_end_of_the_range_of_colours_is_dragged(histogram, announced, qtbot):
+    ranges = []
+    histogram.colours_dragged.connect(lambda low, high: ranges.append((low, high)))
+    histogram.set_colour_range((0.2, 2.0))
+    assert histogram.plot.colour_range.ends() == (0.2, 1.0)  # at the end of the axis
+    viewport, start = histogram.plot.plot.viewport(), point_at(histogram, 0.2)
+    move(viewport, QPointF(start), Qt.MouseButton.NoButton)
+    QTest.mousePress(viewport, LEFT, pos=start)
+    for x in (0.25, 0.3, 0.4):
+        move(viewport, QPointF(point_at(histogram, x)), LEFT)
+    QTest.mouseRelease(viewport, LEFT, pos=point_at(histogram, 0.4))
+    assert ranges[-1] == pytest.approx((0.4, 1.0), abs=0.02)
+    assert announced == []  # the hexes shown stay the same
+    histogram.set_colour_range(None)
+    assert not histogram.plot.colour_range.shown
