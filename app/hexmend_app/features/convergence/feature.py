@@ -8,7 +8,7 @@ from pathlib import Path
 from superqt.utils import QSignalThrottler
 
 from hexmend.report.charts import ChartStyle
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.convergence.chart_file import figure, write_convergence
 from hexmend_app.features.convergence.charts import ChartSettings
 from hexmend_app.features.convergence.curves import Columns, Curve, run_start
@@ -66,6 +66,7 @@ class FeatureConvergence(Feature):
                 title=tr("Convergence"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.SMOOTH,
                 order=10,
                 help=tr("Convergence of each run, iteration by iteration."),
             ),

@@ -1,4 +1,4 @@
-"""Panel of convergence charts, stacked, with their settings and the list of runs."""
+"""Panel of convergence charts, stacked or in a row, with their settings and the list of runs."""
 
 from __future__ import annotations
 
@@ -25,6 +25,12 @@ _EMPTY = "No runs yet. Values of each iteration will appear here."
 
 #: Width of the controls next to the charts, and smallest width of a panel with the controls at the side, in pixels.
 _SIDE, _WIDE = 158, 420
+
+#: Charts lower than this are in a row instead of stacked, if each is then as wide as this, in pixels.
+_LOW_CHART, _CHART_WIDTH = 96, 200
+
+#: Approximate number of ticks of the axes of stacked charts, and of charts in a row.
+_STACKED_TICKS, _ROW_TICKS = 8, 4
 
 # Qt's QWIDGETSIZE_MAX, which PySide6 does not export.
 _UNBOUNDED = (1 << 24) - 1
@@ -79,7 +85,7 @@ class ConvergencePanel(QWidget):
 
     def _lay_out(self) -> None:
         stack = QWidget()
-        charts = QVBoxLayout(stack)
+        charts = self._charts = QBoxLayout(QBoxLayout.Direction.TopToBottom, stack)
         charts.setContentsMargins(0, 0, 0, 0)
         charts.setSpacing(4)
         for plot in self.plots.values():
@@ -103,9 +109,10 @@ class ConvergencePanel(QWidget):
         return QSize(_SIDE + 120, 150)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Place the controls next to the charts, or above them in a narrow panel."""
+        """Place the controls next to the charts, or above them in a narrow panel; put low charts in a row."""
         super().resizeEvent(event)
         self._place()
+        self._arrange_charts()
 
     def _place(self) -> None:
         wide = self.width() >= _WIDE
@@ -144,12 +151,28 @@ class ConvergencePanel(QWidget):
         self._shown = None if record is None else (record, number)
         self._mark()
 
+    @property
+    def in_row(self) -> bool:
+        """True if the charts are next to each other, rather than stacked."""
+        return self._charts.direction() is QBoxLayout.Direction.LeftToRight
+
     def _arrange(self) -> None:
         drawn = self.drawn
         for plot in self.plots.values():
             plot.setVisible(plot in drawn)
+        self._arrange_charts()
         self._axis = ()
         self._redraw()
+
+    def _arrange_charts(self) -> None:
+        """Put the charts in a row if they were too low one above the other, and the room is wide enough."""
+        count = max(len(self.drawn), 1)
+        low = self.height() < count * _LOW_CHART and self.width() - _SIDE >= count * _CHART_WIDTH
+        if low != self.in_row:
+            directions = QBoxLayout.Direction
+            self._charts.setDirection(directions.LeftToRight if low else directions.TopToBottom)
+            self._axis = ()
+            self._fit()
 
     def _redraw(self) -> None:
         self._fit()
@@ -172,11 +195,13 @@ class ConvergencePanel(QWidget):
             return
         self._axis = axis
         margin = 0.012 * (high - low)
-        ticks = [(tick, f"{tick:,.6g}") for tick in nice_ticks(low, high, 8) if self.by_time or tick == round(tick)]
+        places = nice_ticks(low, high, _ROW_TICKS if self.in_row else _STACKED_TICKS)
+        ticks = [(tick, f"{tick:,.6g}") for tick in places if self.by_time or tick == round(tick)]
         left_width = self.fontMetrics().horizontalAdvance("000,000")
         for plot in self.drawn:
             plot.set_x_range(low - margin, high + margin)
-            plot.set_bottom_axis(label if plot is self.drawn[-1] else None, ticks, left_width)
+            has_axis = self.in_row or plot is self.drawn[-1]
+            plot.set_bottom_axis(label if has_axis else None, ticks, left_width)
 
     def _mark(self) -> None:
         x = None
