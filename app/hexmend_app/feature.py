@@ -122,9 +122,19 @@ class PanelPlace(Enum):
 
     TOOLS = "tools"  # docks at the top right, for tools that change the mesh or the picture
     FACTS = "facts"  # docks at the bottom right, for figures and charts
-    DRAWER = "drawer"  # docks below the view, which open and close together
-    BELOW = "below"  # bars below the view, not docks
+    DRAWER = "drawer"  # docks below the view; those of a group open and close together
+    BELOW = "below"  # bars in the bottom row of the window, not docks
     EMPTY = "empty"  # in place of the view while no mesh is open
+
+
+class PanelGroup(Enum):
+    """Group of panels by task; panels below the view are shown by group. The values are titles."""
+
+    LOOK = "Look"
+    FIND = "Find"
+    SMOOTH = "Smooth"
+    COMPARE = "Compare"
+    REPORT = "Report"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,6 +149,8 @@ class Panel:
         Text on its tab and in the menu View.
     widget : QWidget
     place : PanelPlace
+    group : PanelGroup
+        Panels below the view are visible together with those of the same group.
     tab : str
         Title of the dock that it shares with other panels, stacked; "" for a dock with this panel only.
     order : int
@@ -153,6 +165,7 @@ class Panel:
     title: str
     widget: QWidget
     place: PanelPlace
+    group: PanelGroup = PanelGroup.FIND
     tab: str = ""
     order: int = 50
     help: str = ""
@@ -277,6 +290,7 @@ __all__ = [
     "Feature",
     "Host",
     "Panel",
+    "PanelGroup",
     "PanelPlace",
     "StatePart",
     "always",

@@ -19,11 +19,10 @@ def save_geometry(window: QMainWindow) -> None:
     settings.GEOMETRY.set(window.saveGeometry())
 
 
-def lay_out_status_bar(bar: QStatusBar, row: QWidget, *parts: QWidget) -> None:
-    """Add a row of buttons on the left of a status bar, and parts on its right."""
+def lay_out_status_bar(bar: QStatusBar, main: QWidget, *parts: QWidget) -> None:
+    """Fill a status bar: its main part takes the width that the parts on its right leave."""
     bar.setSizeGripEnabled(False)
-    bar.setMaximumHeight(24)
-    bar.addWidget(row, 1)
+    bar.addPermanentWidget(main, 1)  # messages do not hide permanent widgets
     for part in parts:
         bar.addPermanentWidget(part)
     bar.layout().setContentsMargins(0, 0, 8, 0)  # after the widgets, as adding one makes a new layout

@@ -81,7 +81,7 @@ class Window(QMainWindow):
         TypeToFind(self)
         FocusAfterReturn(self, lambda: None if self.canvas is None else self.canvas.interactor)
         self._counts = HexCounts()
-        lay_out_status_bar(self.statusBar(), self.docks.row, self.busy, self._counts)
+        lay_out_status_bar(self.statusBar(), self.docks.bars, self.busy, self._counts, self.docks.row)
         self.session: Session | None = None
         self.canvas: Canvas | None = None
         self.features: dict[str, Feature] = {}

@@ -32,7 +32,7 @@ class Section(QCollapsible):
         self.layout().setSpacing(4)
         inside = QWidget()
         inner = QVBoxLayout(inside)
-        inner.setContentsMargins(4, 4, 0, 8)
+        inner.setContentsMargins(0, 4, 0, 8)
         inner.addWidget(content)
         inside.setMaximumHeight(0)
         self.setContent(inside)

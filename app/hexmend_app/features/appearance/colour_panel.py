@@ -108,7 +108,7 @@ class ColourPanel(QWidget):
         grid.addWidget(self._reverse, 1, 2)
         self.setTabOrder(self._map, self._reverse)
         numbers = QHBoxLayout()
-        numbers.setSpacing(8)
+        numbers.setSpacing(4)
         for widget in (self._low, QLabel(tr("to")), self._high):
             numbers.addWidget(widget, 0 if isinstance(widget, QLabel) else 1)
         grid.addLayout(numbers, 3, 0, 1, 3)

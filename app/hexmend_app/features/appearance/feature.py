@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.appearance.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.picture.appearance import Arrows, Look
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
@@ -93,6 +93,8 @@ class FeatureAppearance(Feature):
                 title=tr("Colour"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
+                group=PanelGroup.LOOK,
+                tab=tr("Look"),
                 order=20,
                 help=tr("Metric, colour map and range of the colours."),
             ),

@@ -29,7 +29,7 @@ class MapBox(ComboBox):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        let_shrink(self, 7)
+        let_shrink(self, 6)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setIconSize(_SWATCH)
         self.activated.connect(self._on_activated)

@@ -14,7 +14,7 @@ from hexmend.report.comparison import LINES
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import common_norm
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
 from hexmend_app.state.mesh.document import State
@@ -89,6 +89,7 @@ class FeatureCompare(Feature):
                 title=tr("Compare"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.COMPARE,
                 order=20,
                 help=tr("Results of each method in a table and in views."),
             ),

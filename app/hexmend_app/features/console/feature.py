@@ -9,7 +9,7 @@ from PySide6.QtCore import QTimer
 
 import hexmend
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.console.gui_proxy import GuiCaller, GuiProxy
 from hexmend_app.features.console.interpreter import Interpreter, is_complete
 from hexmend_app.features.console.panel import ConsolePanel
@@ -64,6 +64,7 @@ class FeatureConsole(Feature):
                 title=tr("Console"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.REPORT,
                 order=80,
                 help=tr("Python console that uses and changes the open mesh."),
             ),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.cut.cut_panel import CutPanel, CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.cut import Cut
@@ -108,6 +108,7 @@ class FeatureCut(Feature):
                 title=tr("Cut"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
+                group=PanelGroup.LOOK,
                 tab=tr("Cut"),
                 order=30,
                 help=tr("Cut the mesh open with planes or a box."),
@@ -117,6 +118,7 @@ class FeatureCut(Feature):
                 title=tr("Inside"),
                 widget=self.inside,
                 place=PanelPlace.TOOLS,
+                group=PanelGroup.LOOK,
                 tab=tr("Cut"),
                 order=31,
                 help=tr("Peel, shrink, isolate and hide hexes."),

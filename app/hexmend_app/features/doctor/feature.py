@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.doctor import Finding
 from hexmend.errors import HexmendError
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.doctor.doctor_panel import DoctorPanel
 from hexmend_app.translation import tr
 
@@ -63,6 +63,7 @@ class FeatureDoctor(Feature):
                 title=tr("Doctor"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.FIND,
                 order=60,
                 help=tr("Problems other than quality, with their location and repair."),
             ),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from hexmend.boundary import NodeClass
 from hexmend.quality import describe_hex, describe_node
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_file import write_worst
 from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings
@@ -167,6 +167,7 @@ class FeatureHexInspector(Feature):
                 title=tr("Worst"),
                 widget=self.worst_list,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.FIND,
                 order=1,
                 help=tr("The worst hexes by any metric."),
             ),
@@ -175,6 +176,7 @@ class FeatureHexInspector(Feature):
                 title=tr("Hex"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.FIND,
                 order=2,
                 help=tr("Details of the selected hex and its nodes."),
                 scrolls=True,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.movement.movement_panel import MovementPanel
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.translation import tr
@@ -36,6 +36,7 @@ class FeatureMovement(Feature):
                 title=tr("Movement"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.SMOOTH,
                 order=30,
                 help=tr("Displacement of the nodes and change of quality since a reference state."),
                 scrolls=True,

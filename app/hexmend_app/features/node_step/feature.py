@@ -10,7 +10,7 @@ from PySide6.QtCore import QTimer
 
 from hexmend.node_step import NodeStep
 from hexmend.smoothers import METHODS
-from hexmend_app.feature import Action, ActionFace, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, ActionFace, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.node_step.panel import SWEEP, NodePanel
 from hexmend_app.features.node_step.reasons import reason_for_no_step, reason_for_no_sweep, worst_free_node
 from hexmend_app.picture.visibility import Isolate
@@ -99,6 +99,7 @@ class FeatureNodeStep(Feature):
                 title=tr("Node"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.SMOOTH,
                 order=40,
                 help=tr("Step of the selected method at the selected node."),
             ),

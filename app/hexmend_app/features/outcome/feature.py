@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.advice import Advice, Suggestion
 from hexmend.run.recipe import Stage
-from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.outcome.notice import notice
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
@@ -64,6 +64,7 @@ class FeatureOutcome(Feature):
                 title=tr("Run summary"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.SMOOTH,
                 order=50,
                 help=tr("Why the run stopped and what to try next."),
             ),

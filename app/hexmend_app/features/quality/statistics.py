@@ -125,7 +125,7 @@ class StatisticsTable(QWidget):
         layout.addStretch()
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
         table.setFixedHeight(height)
-        table.setMinimumWidth(self._title_width() + self._figures_width() - 32)  # the longest titles may be elided
+        table.setMinimumWidth(self._title_width() + self._figures_width() - 56)  # the longest titles may be elided
 
     def _paint(self) -> None:
         for column in range(len(_COLUMNS)):

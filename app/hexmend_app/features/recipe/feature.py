@@ -8,7 +8,7 @@ from pathlib import Path
 from hexmend.parameters import Parametrised, declared
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.recipe_files import read_recipe, write_recipe
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.recipe.recipe_panel import RecipePanel
 from hexmend_app.resources import recipes
 from hexmend_app.state.run.run_controller import Phase
@@ -90,7 +90,8 @@ class FeatureRecipe(Feature):
                 title=tr("Recipe"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                tab=tr("Run"),
+                group=PanelGroup.SMOOTH,
+                tab=tr("Smooth"),
                 order=11,
                 help=tr("Methods that run in sequence, as one run."),
             ),

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from hexmend.quality.dominance import KEY_FIGURES, dominating
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.runs.run_table import RunRow
 from hexmend_app.features.runs.runs_panel import RunsPanel
 from hexmend_app.state.mesh.run_record import RunRecord
@@ -34,6 +34,7 @@ class FeatureRuns(Feature):
                 title=tr("Runs"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.SMOOTH,
                 order=15,
                 help=tr("Results of all runs, with the mesh at the start, and which of them dominate."),
             ),

@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtWidgets import QApplication
 from superqt.utils import QSignalThrottler
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.script.script import Script
 from hexmend_app.features.script.script_panel import ScriptPanel
 from hexmend_app.picture import Page, Scene
@@ -64,6 +64,7 @@ class FeatureScript(Feature):
                 title=tr("Script"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.REPORT,
                 order=70,
                 help=tr("The actions in this window as a Python script that repeats them."),
             ),

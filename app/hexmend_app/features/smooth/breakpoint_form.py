@@ -42,7 +42,7 @@ class BreakpointForm(QWidget):
         self._selected_node: int | None = None
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(8)
+        grid.setHorizontalSpacing(4)
         grid.setVerticalSpacing(4)
         self._inverts = self._check(grid, 0, tr("A hex inverts"), tr(_INVERTS))
         self._falls = self._check(grid, 1, tr("Minimum q drops"), tr(_FALLS))
@@ -124,20 +124,20 @@ class BreakpointForm(QWidget):
         check = self._check(grid, row, tr(names[0]), help, span=1)
         number = self._number(QSpinBox(), tr(names[1]), help)
         amount = self._number(QDoubleSpinBox(), tr(names[2]), help)
-        amount.setRange(0, 10)
+        amount.setRange(0, 9.999)
         amount.setDecimals(3)
         amount.setSingleStep(0.01)
         amount.setValue(0.1)
         amount.setSuffix(suffix)
         grid.addWidget(number, row, 1)
-        self._add_limit(grid, row + 1, tr("by more than"), amount)
+        self._add_limit(grid, row + 1, tr("more than"), amount)
         return check, number, amount
 
     @staticmethod
     def _add_limit(grid: QGridLayout, row: int, label: str, box: QWidget) -> None:
         """Add an indented row with a label and the box of a limit."""
         line = QHBoxLayout()
-        line.setContentsMargins(24, 0, 0, 0)
+        line.setContentsMargins(8, 0, 0, 0)
         line.addWidget(QLabel(label))
         grid.addLayout(line, row, 0)
         grid.addWidget(box, row, 1)

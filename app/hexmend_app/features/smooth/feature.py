@@ -12,7 +12,17 @@ from hexmend.run.memory import Shortage
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_count
-from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import (
+    Action,
+    ActionFace,
+    ChangeTracker,
+    Feature,
+    Host,
+    Panel,
+    PanelGroup,
+    PanelPlace,
+    StatePart,
+)
 from hexmend_app.features.smooth.pace_actions import pace_actions
 from hexmend_app.features.smooth.run_buttons import STATES, RunState
 from hexmend_app.features.smooth.skip_on_input import SkipOnInput
@@ -145,7 +155,8 @@ class FeatureSmooth(Feature):
                 title=tr("Run"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                tab=tr("Run"),
+                group=PanelGroup.SMOOTH,
+                tab=tr("Smooth"),
                 order=10,
                 help=tr("The smoothing method, its parameters and its stopping criteria."),
             ),

@@ -59,13 +59,13 @@ class RunButtons(QWidget):
         set_variant(run, "main")
         row = QGridLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(8)
+        row.setSpacing(4)
         for column, (name, button) in enumerate(self._buttons.items()):
             if name in ("run", "step"):
                 button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
                 row.setColumnStretch(column, 1)
             row.addWidget(button, 0, column)
-        run.reserve_width((tr(state.text) for state in STATES.values()), around=24)
+        run.reserve_width((tr(state.text) for state in STATES.values()), around=20)
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:
         """Show the actions "run", "step", "stop" and "reset"."""

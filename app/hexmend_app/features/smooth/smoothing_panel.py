@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QScrollArea, QSpinBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QSpinBox, QVBoxLayout, QWidget
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.run.recipe import Stage
@@ -20,11 +19,8 @@ from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.wording import counted
 
-# Height in pixels of a section's margins and of labels that wrap in a narrow panel.
-_AROUND_FORM = 24
-
 # Lines that most status sentences need at most.
-_LINES = 4
+_LINES = 2
 
 
 class SmoothingPanel(QWidget):
@@ -59,7 +55,6 @@ class SmoothingPanel(QWidget):
         self._setup = setup
         self._refused = False
         self._state = "idle"
-        self._was_shown = False
 
         stage = self.stage = StageForm(setup, self)
         method_row = QFormLayout()
@@ -74,16 +69,10 @@ class SmoothingPanel(QWidget):
             Section(tr("Parameters"), stage.parameters, tr("Parameters of the method; the defaults suit most meshes.")),
             self._rules,
             Section(tr("Stop when"), stage.stop, tr("Stopping criteria of a run.")),
-            Section(tr("Pause when"), self.breakpoint_form, tr("Breakpoints: events at which a run pauses.")),
+            Section(tr("Pause when"), self._pauses(), tr("Length of a step, and events at which a run pauses.")),
         )
         self.buttons = RunButtons()
 
-        self._steps = QSpinBox()
-        self._steps.setRange(1, 9999)
-        self._steps.setFont(tabular(self._steps.font()))
-        set_help(self._steps, tr("Iterations per step"), tr("Number of iterations that Step runs before it pauses."))
-        steps = QLabel(tr("Step by"))
-        steps.setBuddy(self._steps)
         self._progress = ElidingLabel()  # keeps the width of the panel as the numbers grow
         self._progress.setFont(tabular(self._progress.font()))
         self._progress.setAccessibleName(tr("Progress"))
@@ -98,13 +87,9 @@ class SmoothingPanel(QWidget):
         layout.setSpacing(4)
         layout.addLayout(method_row)
         layout.addWidget(self.buttons)
-        foot = QHBoxLayout()
-        foot.addWidget(self._progress, 1)
-        foot.addWidget(steps)
-        foot.addWidget(self._steps)
-        layout.addLayout(foot)
-        layout.addWidget(stage.help)  # below the buttons: its height depends on the method
+        layout.addWidget(self._progress)
         layout.addWidget(self._sentence)
+        layout.addWidget(stage.help)  # its height depends on the method
         for section in self._sections:
             layout.addWidget(section)
         layout.addStretch()
@@ -114,6 +99,25 @@ class SmoothingPanel(QWidget):
         self.rule_form.changed.connect(setup.set_rules)
         setup.chosen.connect(self._on_setup_changed)
         setup.refused.connect(self._show_problem)
+
+    def _pauses(self) -> QWidget:
+        """Return the form with the iterations of a step and the breakpoints."""
+        self._steps = QSpinBox()
+        self._steps.setRange(1, 9999)
+        self._steps.setFont(tabular(self._steps.font()))
+        set_help(self._steps, tr("Iterations per step"), tr("Number of iterations that Step runs before it pauses."))
+        label = QLabel(tr("Iterations per step"))
+        label.setBuddy(self._steps)
+        row = QHBoxLayout()
+        row.addWidget(label, 1)
+        row.addWidget(self._steps)
+        form = QWidget()
+        layout = QVBoxLayout(form)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addLayout(row)
+        layout.addWidget(self.breakpoint_form)
+        return form
 
     def show_rules(self, mesh: Mesh) -> None:
         """Show the rules of motion of the set-up for the sets of a mesh; hide the form if there is nothing to rule."""
@@ -196,22 +200,3 @@ class SmoothingPanel(QWidget):
             form.show_problem()
             self._refused = True
             self._show_sentence(tr("Correct the marked value first."), WORSE)
-
-    def showEvent(self, event: QShowEvent) -> None:
-        """Expand the sections that fit when the panel is first shown."""
-        super().showEvent(event)
-        if self._was_shown:
-            return
-        self._was_shown = True
-        area = self.parentWidget()
-        while area is not None and not isinstance(area, QScrollArea):
-            area = area.parentWidget()
-        height, content = (self.height(), self) if area is None else (area.viewport().height(), area.widget())
-        height -= content.minimumSizeHint().height()  # includes other panels in the same scroll area
-        shown = (self._sections[0], self.stage.parameters), (self._sections[2], self.stage.stop)
-        for section, form in shown:
-            needed = form.sizeHint().height() + _AROUND_FORM
-            if needed > height:
-                break
-            section.expand()
-            height -= needed

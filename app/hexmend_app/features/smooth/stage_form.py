@@ -85,9 +85,8 @@ class StageForm(QObject):
         method = METHODS[name]
         self._name = name
         self.method.setCurrentIndex(self.method.findData(name))
-        self.help.setText(
-            tr("{help}\nSource: {source}", help=method.help, source=method.source) if method.source else method.help
-        )
+        self.help.setText(tr(method.help))
+        self.help.setToolTip(tr("Source: {source}", source=method.source) if method.source else "")
         with QSignalBlocker(self.parameters):
             self.parameters.set_declarations(sorted(declared(method), key=lambda one: one.choices is None))
             self.parameters.set_values(self._setup.values_of(name) | dict(values or {}))

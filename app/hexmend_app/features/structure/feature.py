@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.picture.layer_switch import ordered_layers
 from hexmend_app.translation import tr
@@ -50,7 +50,9 @@ class FeatureStructure(Feature):
                 title=tr("Show"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                order=40,
+                group=PanelGroup.LOOK,
+                tab=tr("Look"),
+                order=21,
                 help=tr("Edges and nodes drawn over the mesh."),
             ),
         )

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
 from hexmend_app.translation import tr
 
@@ -60,6 +60,7 @@ class FeatureTags(Feature):
                 title=tr("Tags"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.FIND,
                 order=60,
                 help=tr("Named groups of hexes, saved with the mesh."),
             ),

@@ -18,7 +18,7 @@ PLACES = (PanelPlace.TOOLS, PanelPlace.FACTS, PanelPlace.DRAWER)
 
 #: Width of the right column as a share of that of the window, its minimum in pixels, and the share of tools in its
 #: height.
-_COLUMN_SHARE, _MINIMUM_COLUMN, _TOOLS_SHARE = 0.15, 272, 0.55
+_COLUMN_SHARE, _MINIMUM_COLUMN, _TOOLS_SHARE = 0.145, 240, 0.6
 
 
 def area_of(place: PanelPlace) -> Qt.DockWidgetArea:

@@ -6,7 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QDockWidget, QWidget
 
-from hexmend_app.feature import PanelPlace
+from hexmend_app.feature import PanelGroup, PanelPlace
 
 
 class Dock(QDockWidget):
@@ -30,6 +30,8 @@ class Dock(QDockWidget):
     ----------
     place : PanelPlace
         Default place.
+    group : PanelGroup
+        Of its panels.
     is_open : bool
         The user has not closed it; it may be hidden together with others.
     in_front : bool
@@ -42,10 +44,12 @@ class Dock(QDockWidget):
         super().__init__(title, parent)
         self.setObjectName(name)
         self.setToolTip(help)
-        self.place = PanelPlace.TOOLS
+        self.place, self.group = PanelPlace.TOOLS, PanelGroup.FIND
+        self._no_title = QWidget()  # as title bar: no title
         self.is_open = True
         self.in_front = False
         self.visibilityChanged.connect(self.set_in_front)
+        self.topLevelChanged.connect(self._on_floating)
 
     def set_page(self, page: QWidget) -> None:
         """Set the page, which keeps its space in the layout while it is hidden."""
@@ -55,11 +59,21 @@ class Dock(QDockWidget):
         self.setWidget(page)
         page.setVisible(self.in_front)
 
+    def show_title(self, on: bool) -> None:
+        """Show the title bar, or hide it where a tab shows the title already."""
+        if on != (self.titleBarWidget() is None):
+            self.setTitleBarWidget(None if on else self._no_title)
+
     def set_in_front(self, in_front: bool) -> None:
         """Show or hide the page."""
         self.in_front = in_front
         if self.widget() is not None:
             self.widget().setVisible(in_front)
+
+    def _on_floating(self, floating: bool) -> None:
+        if floating:
+            self.show_title(True)  # by which Qt makes the window anew
+            self.set_in_front(self.isVisible())
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Record that the user closed the dock, rather than hid it with others."""

@@ -1,4 +1,4 @@
-"""Set of the panels around the view: tabbed docks on the right and below, and bars under the view."""
+"""Set of the panels around the view: tabbed docks on the right and below, and bars in the bottom row."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from PySide6.QtCore import QByteArray, QEvent, QObject, Qt, Signal
-from PySide6.QtWidgets import QMainWindow, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QMainWindow, QTabWidget, QVBoxLayout, QWidget
 
-from hexmend_app.feature import Panel, PanelPlace
+from hexmend_app.feature import Panel, PanelGroup, PanelPlace
 from hexmend_app.shell.panels import default_layout
 from hexmend_app.shell.panels.dock import Dock
-from hexmend_app.shell.panels.drawer_row import DrawerRow
+from hexmend_app.shell.panels.group_row import GroupRow
 from hexmend_app.shell.panels.saved_layout import SavedLayout
 from hexmend_app.shell.panels.tab_bars import TabBars
 from hexmend_app.translation import tr
@@ -45,10 +45,14 @@ class DockSet(QObject):
         The central widget.
     view : QVBoxLayout
         The layout of `centre`; the 3D view is inserted at its top.
-    row : DrawerRow
-        Tabs of the closed drawer, for the status bar.
+    bars : QWidget
+        Bars of panels, for the bottom row of the window.
+    row : GroupRow
+        Buttons of the groups, for the bottom row of the window.
     folded : bool
         The drawer (all docks below the view) is closed.
+    group : PanelGroup
+        The drawer contains the docks of this group.
     hidden : bool
         All panels are hidden.
     """
@@ -64,7 +68,7 @@ class DockSet(QObject):
         self._panels: dict[str, QWidget] = {}
         self._bars: dict[str, QWidget] = {}
         self._placeholder: Dock | None = None
-        self.folded, self.hidden = True, False
+        self.folded, self.hidden, self.group = True, False, PanelGroup.FIND
         self._drawer_height = _DRAWER
         self._placed = self._restoring = False
         self._saved, self._shown_bars = QByteArray(), []  # the arrangement before all panels were hidden
@@ -74,7 +78,10 @@ class DockSet(QObject):
         self.view = QVBoxLayout(self.centre)
         self.view.setContentsMargins(0, 0, 0, 0)
         self.view.setSpacing(0)
-        self.row = DrawerRow(tr("Open a panel below the view"))
+        self.bars = QWidget()
+        self._bar_layout = QHBoxLayout(self.bars)
+        self._bar_layout.setContentsMargins(0, 0, 0, 0)
+        self.row = GroupRow(tr("Tasks"))
         main.setCentralWidget(self.centre)
         main.setDocumentMode(True)
         main.setDockOptions(QMainWindow.DockOption.AllowTabbedDocks | QMainWindow.DockOption.AllowNestedDocks)
@@ -106,7 +113,7 @@ class DockSet(QObject):
             if place is PanelPlace.BELOW:
                 for panel in group:
                     self._bars[panel.id] = bar = _wrapped(panel.widget)
-                    self.view.addWidget(bar)
+                    self._bar_layout.addWidget(bar)
             elif place is PanelPlace.EMPTY:
                 for panel in group:
                     self.view.insertWidget(0, panel.widget, 1)
@@ -129,7 +136,7 @@ class DockSet(QObject):
         first = panels[0]
         unwrapped = len(panels) == 1 and not first.scrolls and first.place is not PanelPlace.TOOLS
         dock = Dock(first.id, title, first.help, self._main)
-        dock.place = first.place
+        dock.place, dock.group = first.place, first.group
         dock.set_page(first.widget if unwrapped else stack(panels))
         dock.closed.connect(self._on_closed)
         dock.visibilityChanged.connect(self._on_visibility)
@@ -145,13 +152,17 @@ class DockSet(QObject):
     def _drawer(self) -> list[Dock]:
         return [dock for dock in self._all() if self._in_drawer(dock)]
 
+    def _of_group(self, group: PanelGroup) -> list[Dock]:
+        """Return the open docks of a group in the drawer."""
+        return [dock for dock in self._drawer() if dock.is_open and dock.group is group]
+
     def _in_drawer(self, dock: Dock) -> bool:
         return not dock.isFloating() and self._main.dockWidgetArea(dock) == default_layout.BOTTOM
 
     def reset(self) -> None:
         """Restore the default arrangement: all panels open, the drawer closed."""
         self._restoring = True
-        self.hidden, self.folded, self._drawer_height = False, True, _DRAWER
+        self.hidden, self.folded, self.group, self._drawer_height = False, True, PanelGroup.FIND, _DRAWER
         self._offered.clear()
         for bar in self._bars.values():
             bar.show()
@@ -189,8 +200,10 @@ class DockSet(QObject):
             self.changed.emit()
 
     def _refresh_row(self) -> None:
-        listed = [dock for dock in self._drawer() if dock.is_open] if self.folded or self.hidden else []
-        self.row.set_panels([(dock.objectName(), dock.windowTitle(), dock.toolTip()) for dock in listed])
+        titles: dict[PanelGroup, list[str]] = {}
+        for dock in [dock for dock in self._all() if dock.is_open and dock.place is not PanelPlace.FACTS]:
+            titles.setdefault(dock.group, []).append(dock.windowTitle())
+        self.row.set_panels(titles, None if self.folded or self.hidden else self.group)
 
 
 def _wrapped(widget: QWidget) -> QWidget:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QApplication, QMainWindow
 
-from hexmend_app.feature import PanelPlace
+from hexmend_app.feature import PanelGroup, PanelPlace
 from hexmend_app.shell.panels import default_layout
 from hexmend_app.shell.panels.dock import Dock
 from hexmend_app.shell.panels.dock_set import DockSet
@@ -19,7 +19,7 @@ class Docks(DockSet):
     def __init__(self, main: QMainWindow):
         super().__init__(main)
         self._tab_bars = TabBars(main, lambda: self.set_folded(True))
-        self.row.clicked.connect(self.show_panel)
+        self.row.clicked.connect(self.toggle_group)
 
     def show_panel(self, id: str) -> None:
         """Open a panel in front of its tabs, and show all panels if they are hidden."""
@@ -33,7 +33,7 @@ class Docks(DockSet):
         dock = self._docks[id]
         dock.is_open = True
         if self._in_drawer(dock):
-            self.set_folded(False)
+            self._open_drawer(dock.group)
         dock.show()
         self._raise(dock)
         unfold(dock.widget(), self._panels[id])
@@ -46,9 +46,28 @@ class Docks(DockSet):
             return
         if self.hidden or (self.folded and self._in_drawer(dock)):
             self._offered.append(dock)
-            self.row.set_front(id)
+            self.group = dock.group if self._in_drawer(dock) else self.group
+        elif self._in_drawer(dock):
+            self._open_drawer(dock.group)
+            self._raise(dock)
         else:
             self._raise(dock)
+
+    def toggle_group(self, group: PanelGroup) -> None:
+        """Bring the tools of a group to the front and open its results below the view; close these if they are open."""
+        was_open = not (self.folded or self.hidden) and group is self.group
+        self.set_hidden(False)
+        if was_open:
+            self.set_folded(True)
+        else:
+            tools = [dock for dock in self._all() if dock.group is group and dock.place is PanelPlace.TOOLS]
+            for dock in tools[:1]:
+                self.show_panel(dock.objectName())
+            if self._of_group(group):
+                self._open_drawer(group)
+            else:
+                self.set_folded(True)
+        self._refresh_row()
 
     def _raise(self, dock: Dock) -> None:
         dock.raise_()
@@ -68,21 +87,37 @@ class Docks(DockSet):
         self.changed.emit()
 
     def set_folded(self, folded: bool) -> None:
-        """Close the drawer, or open it with the panels that are open in it."""
+        """Close the drawer, or open it with the panels of its group."""
         if folded == self.folded:
             return
-        drawer = [dock for dock in self._drawer() if dock.is_open]
-        front = next((dock for dock in drawer if dock.in_front), None)
-        if folded and front is not None:
+        if folded:
+            self._show_in_drawer([])
+        else:
+            self._open_drawer(self.group)
+
+    def _open_drawer(self, group: PanelGroup) -> None:
+        """Open the drawer with the panels of a group, or those of the first group that has any."""
+        if not self.folded and group is self.group:
+            return
+        if not self._of_group(group):
+            group = next((dock.group for dock in self._drawer() if dock.is_open), group)
+        self._show_in_drawer(self._of_group(group))
+        self.group = group
+        self._refresh_row()
+
+    def _show_in_drawer(self, shown: list[Dock]) -> None:
+        """Show these docks in the drawer and no others; close it if there are none."""
+        front = next((dock for dock in self._drawer() if dock.in_front), None)
+        if front is not None:
             self._drawer_height = front.height() + self._tab_bars.drawer_height()
             self._offered.append(front)
-        self.folded = folded
-        for dock in drawer:
-            dock.setVisible(not folded)
-        if not folded and drawer:
-            self._main.resizeDocks(drawer[:1], [self._drawer_height], Qt.Orientation.Vertical)
-            self._raise(next((dock for dock in reversed(self._offered) if dock in drawer), drawer[0]))
-            self._offered = [dock for dock in self._offered if dock not in drawer]
+        self.folded = not shown
+        for dock in self._drawer():
+            dock.setVisible(dock in shown)
+        if shown:
+            self._main.resizeDocks(shown[:1], [self._drawer_height], Qt.Orientation.Vertical)
+            self._raise(next((dock for dock in reversed(self._offered) if dock in shown), shown[0]))
+            self._offered = [dock for dock in self._offered if dock not in shown]
         self._refresh_row()
         self.changed.emit()
 
@@ -103,7 +138,7 @@ class Docks(DockSet):
         if not hidden:
             for dock in [dock for dock in self._offered if dock.isVisible()]:
                 self._raise(dock)
-            self._offered = [dock for dock in self._offered if self.folded and self._in_drawer(dock)]
+            self._offered = [dock for dock in self._offered if self._in_drawer(dock) and not dock.isVisible()]
         for id in self._shown_bars:
             self._bars[id].setVisible(not hidden)
         self._restoring = False
@@ -123,6 +158,7 @@ class Docks(DockSet):
             "hidden": self.hidden,
             "folded": self.folded,
             "drawer": self._drawer_height,
+            "group": self.group.value,
             "column": tools.width() if tools is not None else 0,
             "fronts": [dock.windowTitle() for dock in dict.fromkeys([*self._offered, *fronts])],
             "closed": [id for id in self.ids() if not self.is_open(id) and id not in shown],
@@ -151,13 +187,16 @@ class Docks(DockSet):
         for dock in self._all():
             if not dock.isFloating() and self._main.dockWidgetArea(dock) == Qt.DockWidgetArea.NoDockWidgetArea:
                 self._main.addDockWidget(default_layout.area_of(dock.place), dock)
-            dock.setVisible(dock.is_open and not (saved.folded and self._in_drawer(dock)))
-        self.folded = saved.folded
+        self.group = saved.group
+        shown = [] if saved.folded else self._of_group(saved.group)
+        self.folded = not shown
+        for dock in self._all():
+            dock.setVisible(dock in shown if self._in_drawer(dock) else dock.is_open)
         for dock in self._all():
             if dock.windowTitle() in saved.fronts and dock.is_open:
                 if dock.isVisible() or not self._main.isVisible():
                     self._raise(dock)
-                elif self.folded and self._in_drawer(dock):
+                elif self._in_drawer(dock):
                     self._offered.append(dock)
         self._restoring = False
         self._refresh_row()

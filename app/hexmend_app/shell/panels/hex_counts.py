@@ -25,7 +25,7 @@ class HexCounts(QLabel):
         if summary.inverted:
             text = tr("{hexes:,} hexes, {inverted:,} inverted", hexes=summary.hexes, inverted=summary.inverted)
         else:
-            text = tr("{hexes:,} hexes, none inverted", hexes=summary.hexes)
+            text = tr("{hexes:,} hexes", hexes=summary.hexes)
         self.setText("  ·  ".join(filter(None, (text, _isolated_text(session), _selected_text(session)))))
 
 

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QByteArray
 
+from hexmend_app.feature import PanelGroup
+
 #: Version of the saved arrangement; the state of docks is ignored if it is of another version.
-LAYOUT = 8
+LAYOUT = 9
 
 _MINIMUM_DRAWER = 60
 
@@ -27,6 +29,8 @@ class SavedLayout:
         Titles of the docks in front.
     folded, hidden : bool
         The drawer is closed; all panels are hidden.
+    group : PanelGroup
+        Of the docks in the drawer.
     drawer, column : int
         Height of the drawer and width of the right column in pixels; 0 for the default width.
     """
@@ -36,6 +40,7 @@ class SavedLayout:
     fronts: tuple[str, ...]
     folded: bool
     hidden: bool
+    group: PanelGroup
     drawer: int
     column: int
 
@@ -50,6 +55,7 @@ class SavedLayout:
                 fronts=tuple(map(str, data["fronts"])),
                 folded=bool(data["folded"]),
                 hidden=bool(data["hidden"]),
+                group=PanelGroup(data.get("group", PanelGroup.FIND.value)),
                 drawer=max(int(data["drawer"]), _MINIMUM_DRAWER),
                 column=int(data.get("column") or 0),
             )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QScrollArea, QStyle, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QScrollArea, QVBoxLayout, QWidget
 
 from hexmend_app.feature import Panel
 from hexmend_app.widgets.section import Section
@@ -44,8 +44,9 @@ def stack(panels: Sequence[Panel]) -> QScrollArea:
     scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
     scroll.setFrameShape(QScrollArea.Shape.NoFrame)
     scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    scroll_bar = scroll.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
-    scroll.setMinimumWidth(page.minimumSizeHint().width() + scroll_bar + _EXTRA_WIDTH)
+    scroll_bar = scroll.verticalScrollBar()
+    scroll_bar.ensurePolished()  # the style sheet sets its width
+    scroll.setMinimumWidth(page.minimumSizeHint().width() + scroll_bar.sizeHint().width() + _EXTRA_WIDTH)
     return scroll
 
 

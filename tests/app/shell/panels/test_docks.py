@@ -5,24 +5,37 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow
+from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QTabBar, QToolButton
 
-from hexmend_app.feature import Panel, PanelPlace
+from hexmend_app.feature import Panel, PanelGroup, PanelPlace
 from hexmend_app.resources import demo_mesh
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.state.settings import settings
 from tests.app.driving import LEFT, open_and_wait
 
-IDS = ("run", "recipe", "look", "histogram", "quality", "worst", "tags")
+#: Panels by place, with their groups; two share a tab.
+PLACED = {
+    PanelPlace.TOOLS: {"run": PanelGroup.SMOOTH, "recipe": PanelGroup.SMOOTH, "look": PanelGroup.LOOK},
+    PanelPlace.FACTS: {"histogram": PanelGroup.FIND, "quality": PanelGroup.FIND},
+    PanelPlace.DRAWER: {"worst": PanelGroup.FIND, "tags": PanelGroup.FIND, "runs": PanelGroup.SMOOTH},
+}
+IDS = [id for groups in PLACED.values() for id in groups]
+TABS = {"run": "Run", "recipe": "Run"}
 
 
 def panels():
-    """Return panels, two of which share a tab."""
-    places = (*3 * [PanelPlace.TOOLS], *2 * [PanelPlace.FACTS], *2 * [PanelPlace.DRAWER])
-    shared = {"run": "Run", "recipe": "Run"}
     return [
-        Panel(id=id, title=id.title(), widget=QLabel(f"About {id}"), place=place, tab=shared.get(id, ""), order=at)
-        for at, (id, place) in enumerate(zip(IDS, places, strict=True))
+        Panel(
+            id=id,
+            title=id.title(),
+            widget=QLabel(f"About {id}"),
+            place=place,
+            group=group,
+            tab=TABS.get(id, ""),
+            order=IDS.index(id),
+        )
+        for place, groups in PLACED.items()
+        for id, group in groups.items()
     ]
 
 
@@ -30,7 +43,7 @@ def shown_docks(shown):
     """Show a main window with the panels."""
     main = QMainWindow()
     docks = Docks(main)
-    main.statusBar().addWidget(docks.row, 1)
+    main.statusBar().addPermanentWidget(docks.row, 1)
     docks.add(panels())
     shown(main, 1000, 700)
     QApplication.processEvents()
@@ -66,7 +79,7 @@ def resize(docks, title, width, height):
 
 
 def test_panels_are_ordered_with_tools_first(docks):
-    assert docks.ids() == list(IDS)
+    assert docks.ids() == IDS
     assert visible(docks) == {"run", "recipe", "histogram"}  # the drawer is folded
 
 
@@ -135,16 +148,87 @@ def test_the_view_has_a_minimum_size(docks):
     assert docks.centre.height() >= 240
 
 
-def test_a_tab_of_the_row_opens_the_drawer_with_its_panel(docks):
-    assert docks.row.isVisible()
-    assert [docks.row.tabText(at) for at in range(docks.row.count())] == ["Worst", "Tags"]
-    QTest.mouseClick(docks.row, LEFT, pos=docks.row.tabRect(1).center())
+def press(docks, group):
+    QTest.mouseClick(docks.row.button(group), LEFT)
+    QApplication.processEvents()
+
+
+def checked(docks):
+    return [group for group in PanelGroup if docks.row.button(group).isChecked()]
+
+
+def test_only_groups_with_panels_have_a_button(docks):
+    assert [group for group in PanelGroup if docks.row.button(group).isVisible()] == [
+        PanelGroup.LOOK,
+        PanelGroup.FIND,
+        PanelGroup.SMOOTH,
+    ]
+    assert "Worst, Tags" in docks.row.button(PanelGroup.FIND).toolTip()
+
+
+def test_the_button_of_a_group_opens_and_closes_its_panels(docks):
+    press(docks, PanelGroup.FIND)
+    assert visible(docks) == {"run", "recipe", "histogram", "worst"}
+    assert checked(docks) == [PanelGroup.FIND]
+    docks.show_panel("tags")
+    press(docks, PanelGroup.FIND)
+    assert visible(docks) == {"run", "recipe", "histogram"}
+    assert checked(docks) == []
+    press(docks, PanelGroup.FIND)
     assert "tags" in visible(docks)
-    assert not docks.row.isVisible()
-    docks.set_folded(True)
-    assert "tags" not in visible(docks)
-    docks.set_folded(False)
-    assert "tags" in visible(docks)
+
+
+def test_groups_take_turns_below_the_view_and_bring_their_tools_to_the_front(docks):
+    docks.show_panel("look")
+    docks.show_panel("tags")
+    press(docks, PanelGroup.SMOOTH)
+    assert visible(docks) == {"run", "recipe", "histogram", "runs"}
+    assert checked(docks) == [PanelGroup.SMOOTH]
+    press(docks, PanelGroup.FIND)
+    assert visible(docks) == {"run", "recipe", "histogram", "tags"}
+    press(docks, PanelGroup.LOOK)  # has no panels below the view
+    assert visible(docks) == {"look", "histogram"}
+    assert checked(docks) == []
+
+
+def test_a_button_shows_hidden_panels(docks):
+    docks.set_hidden(True)
+    press(docks, PanelGroup.SMOOTH)
+    assert visible(docks) == {"run", "recipe", "histogram", "runs"}
+
+
+def test_offering_a_panel_of_another_group_shows_it_in_the_open_drawer(docks):
+    docks.show_panel("tags")
+    docks.offer_panel("runs")
+    assert visible(docks) == {"run", "recipe", "histogram", "runs"}
+    assert checked(docks) == [PanelGroup.SMOOTH]
+
+
+def test_a_dock_with_a_tab_has_no_title_of_its_own(docks):
+    docks.show_panel("tags")
+    QApplication.processEvents()
+    assert dock_of(docks, "Tags").titleBarWidget() is not None
+    docks.show_panel("runs")
+    QApplication.processEvents()
+    assert dock_of(docks, "Runs").titleBarWidget() is None  # alone in its group: no tab
+
+
+def test_buttons_of_a_tab_bar_float_and_close_the_dock_in_front(docks):
+    docks.show_panel("tags")
+    QApplication.processEvents()
+    bar = next(bar for bar in docks.parent().findChildren(QTabBar) if bar.tabText(bar.currentIndex()) == "Tags")
+    buttons = {button.accessibleName(): button for button in bar.findChildren(QToolButton)}
+    float_button, close_button = buttons["Float"], buttons["Close panel"]
+    QTest.mouseClick(close_button, LEFT)
+    assert not docks.is_open("tags")
+    assert docks.is_open("worst")
+    docks.show_panel("tags")
+    QApplication.processEvents()
+    QTest.mouseClick(float_button, LEFT)
+    QApplication.processEvents()
+    assert dock_of(docks, "Tags").isFloating()
+    assert dock_of(docks, "Tags").titleBarWidget() is None
+    docks.set_hidden(True)
 
 
 def test_the_drawer_keeps_its_height(docks):
@@ -243,8 +327,10 @@ def test_closed_and_front_panels_of_an_older_layout_are_restored(docks):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("size", [(1366, 768), (1920, 1080)], ids="{0[0]} x {0[1]}".format)
-def test_the_view_has_most_of_the_window_in_the_default_layout(window, qtbot, size):
+@pytest.mark.parametrize(
+    ("size", "share"), [((1366, 768), 0.75), ((1920, 1080), 0.8)], ids=["1366 x 768", "1920 x 1080"]
+)
+def test_the_view_has_most_of_the_window_in_the_default_layout(window, qtbot, size, share):
     open_and_wait(qtbot, window, demo_mesh())
     window.resize(*size)
     QApplication.processEvents()
@@ -254,7 +340,7 @@ def test_the_view_has_most_of_the_window_in_the_default_layout(window, qtbot, si
     assert (window.width(), window.height()) == size
     assert visible(window.docks) == {"run", "recipe", "histogram", "timeline"}
     view = window.canvas.interactor
-    assert view.width() * view.height() >= 0.7 * window.width() * window.height()
+    assert view.width() * view.height() >= share * window.width() * window.height()
 
 
 @pytest.mark.slow
