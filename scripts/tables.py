@@ -13,6 +13,8 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Union, get_args, get_origin
 
+from api_names import names
+
 from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
 from hexmend.iteration import StoppingCriteria
@@ -209,6 +211,11 @@ def study() -> str:
     return table(("column", "type", "what"), rows)
 
 
+def api() -> str:
+    """The public names of `hexmend`."""
+    return table(("name", "what"), names())
+
+
 #: Tables by file.
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "methods": ("docs/methods.md", methods),
@@ -221,6 +228,7 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "memory": ("docs/performance.md", memory),
     "task": ("docs/study-many.md", task),
     "study": ("docs/study-many.md", study),
+    "api": ("docs/api/index.md", api),
 }
 
 

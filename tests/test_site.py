@@ -30,8 +30,35 @@ def site(tmp_path_factory):
 
 @pytest.mark.slow
 def test_every_page_is_there(site):
-    pages = sorted(path.stem for path in (ROOT / "docs").glob("*.md"))
-    assert pages == sorted(path.stem for path in site.glob("*.html") if path.stem != "404")
+    pages = sorted(path.relative_to(ROOT / "docs").with_suffix("") for path in (ROOT / "docs").rglob("*.md"))
+    built = (path.relative_to(site).with_suffix("") for path in site.rglob("*.html") if path.stem != "404")
+    assert pages == sorted(built)
+
+
+def test_the_reference_has_parameters_types_and_examples(site):
+    text = (site / "api/run.html").read_text(encoding="utf-8")
+    assert 'id="hexmend.run.smooth"' in text
+    section = text.split('id="hexmend.run.smooth"')[1].split('id="hexmend.iteration')[0]
+    assert "smoother" in section
+    assert "Called with each iteration" in section
+    assert "&gt;&gt;&gt; " in re.sub("<[^>]+>", "", section)
+    norm = (site / "api/energy.html").read_text(encoding="utf-8")
+    assert 'id="hexmend.energy.ObjectiveNorm.cube_value"' in norm
+
+
+def test_names_that_share_a_description_have_their_own_types(site):
+    text = re.sub("<[^>]+>", "", (site / "api/run.html").read_text(encoding="utf-8"))
+    section = text.split("Run a smoother or a recipe to its end.")[1][:2000]
+    stop = section.split("stop")[1].split("See iterate")[0]
+    assert "StoppingCriteria" in stop
+    assert "PathLike" not in stop
+
+
+def test_pictures_are_enlarged_without_a_network(site):
+    text = (site / "inspect.html").read_text(encoding="utf-8")
+    assert len(re.findall(r'<a class="glightbox"[^>]*href="inspect-[a-z]+\.png"', text)) == 6
+    assert "assets/javascripts/glightbox.min.js" in text
+    assert (site / "assets/javascripts/glightbox.min.js").stat().st_size > 10_000
 
 
 def test_every_formula_is_mathml(site):
@@ -72,6 +99,27 @@ def test_search_finds_pages_that_are_read_from_the_disk(opened, site):
     assert all(url.startswith((site.as_uri(), "about:")) for url in asked)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("words", "file"), [
+    ("abaqus", "abaqus.html"),
+    ("material", "interfaces.html"),
+    ("boundary layers", "targets.html"),
+    ("locked", "locked.html"),
+    ("cluster", "cluster.html"),
+    ("symmetry", "interfaces.html"),
+    ("smooth", "api/run.html"),
+])  # fmt: skip
+def test_search_finds_the_page_of_a_task(opened, words, file):
+    page, _ = opened
+    page.reload()
+    page.get_by_placeholder("Search").click()
+    page.keyboard.type(words)
+    page.locator(".md-search-result__item a").first.wait_for()
+    links = page.locator(".md-search-result__item a").evaluate_all("all => all.map((one) => one.href)")
+    found = [link.split("#")[0].split("?")[0] for link in links]
+    assert any(link.endswith(f"/{file}") for link in found[:12]), found[:12]
+
+
 def test_the_tables_of_formats_have_room(opened):
     page, _ = opened
     wide = page.evaluate(
@@ -86,6 +134,7 @@ def other(tmp_path):
     config = tmp_path / "mkdocs.yml"
     config.write_text(
         f"INHERIT: {ROOT}/mkdocs.yml\ndocs_dir: docs\nhooks: [{ROOT}/scripts/site_hooks.py]\nextra_css: []\n"
+        "plugins: [search, offline]\n"
         "nav: [{Start: [index.md]}]\n"
     )
     (tmp_path / "docs").mkdir()

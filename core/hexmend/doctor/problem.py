@@ -115,8 +115,8 @@ class Problem(ABC):
         return mesh
 
 
-#: Every kind of problem by name.
 PROBLEMS: Registry[Problem] = Registry("problem")
+"""Kinds of problems by name."""
 
 
 def register_problem(cls: type[Problem]) -> type[Problem]:

@@ -129,3 +129,4 @@ def _take(name: str, metric: object) -> None:
 
 
 METRICS: Registry[Metric] = Registry("metric", load_plugins)
+"""Metrics by name; those of other distributions are loaded when all names are asked for."""

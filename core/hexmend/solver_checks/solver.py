@@ -101,3 +101,4 @@ def check_mesh(mesh: Mesh, solver: str, quality: ElementQuality | None = None) -
 
 
 SOLVERS: Registry[Solver] = Registry("solver")
+"""Solvers by name."""

@@ -109,8 +109,8 @@ class Format:
     place: FolderPlace | None = None
 
 
-#: All formats of Hexmend by name; those of other distributions are in `hexmend.io.base.plugins`.
 FORMATS: Registry[Format] = Registry("format")
+"""Formats of Hexmend by name; those of other distributions are in `hexmend.io.base.plugins`."""
 
 
 def deferred(function: str) -> Callable[..., Any]:
