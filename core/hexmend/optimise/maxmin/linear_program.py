@@ -193,7 +193,8 @@ def build_program(
     Unknowns are the lengths in each direction, up to a radius, and the rise of the least, which comes last. A small
     price on each direction keeps nodes that need not move.
     """
-    node_index = index_of(nodes, int(constraints.nodes.max(initial=0)) + 1)[constraints.nodes]
+    greatest = max(nodes.max(initial=0), constraints.nodes.max(initial=0))  # a node may be without a constraint
+    node_index = index_of(nodes, int(greatest) + 1)[constraints.nodes]
     slopes, first_of_node = _summed_slopes(constraints)
     model, place = np.nonzero((node_index >= 0) & first_of_node)
     node_index = node_index[model, place]

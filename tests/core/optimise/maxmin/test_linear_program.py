@@ -48,6 +48,12 @@ def test_nodes_that_need_not_move_stay():
     np.testing.assert_allclose(program.upper, [0.1] * 4 + [2])
 
 
+def test_a_node_without_a_constraint_stays_whatever_its_number():
+    nodes, directions = along_x(5, 12)
+    found = solve(nodes, directions, LinearConstraints(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1)), 0.1)
+    np.testing.assert_allclose(found.lengths, [0.1, 0, 0, 0], atol=1e-12)
+
+
 def test_two_corners_hold_each_other_where_they_want_opposite_ways():
     nodes, directions = along_x(5)
     both = LinearConstraints(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1)).concatenate(
