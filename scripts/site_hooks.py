@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import html
 import re
+from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -38,7 +39,7 @@ def on_files(files: Files, config: Any) -> Files:
 
 def on_page_markdown(markdown: str, config: Any, **_: Any) -> str:
     """Call links by the titles of their pages."""
-    titles = {file: title for part in config["nav"] for entry in _entries(part) for title, file in entry.items()}
+    titles = dict(_titles(config["nav"]))
 
     def titled(found: re.Match[str]) -> str:
         return f"[{titles.get(found[1], found[1])}]({found[2]})"
@@ -46,8 +47,14 @@ def on_page_markdown(markdown: str, config: Any, **_: Any) -> str:
     return _BY_FILE.sub(titled, markdown)
 
 
-def _entries(part: dict[str, list[Any]]) -> list[dict[str, str]]:
-    return [entry for entries in part.values() for entry in entries if isinstance(entry, dict)]
+def _titles(entries: list[Any]) -> Iterator[tuple[str, str]]:
+    """List the pages of a navigation that have titles there, with these."""
+    for entry in entries:
+        for title, value in entry.items() if isinstance(entry, dict) else ():
+            if isinstance(value, str):
+                yield value, title
+            else:
+                yield from _titles(value)
 
 
 def on_page_content(page_html: str, page: Any, **_: Any) -> str:

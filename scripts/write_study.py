@@ -1,9 +1,10 @@
-"""Assembles docs/study.md from the output of commands and the section that is written by hand.
+"""Writes docs/study.md, study-claims.md, study-offset.md and study-tables.md from the output of commands.
 
 Use: python scripts/write_study.py STUDY OFFSETS REMARKS
 
 STUDY is the folder of `hexmend study thesis --max-seconds 60`, OFFSETS and REMARKS the output of `hexmend bench --only
-offsets` and of `--only remarks`. The section "Where ours differs" of docs/study.md is kept.
+offsets` and of `--only remarks`. The section "Where ours differs" of docs/study.md is written
+by hand, and kept.
 """
 
 from __future__ import annotations
@@ -29,35 +30,73 @@ def table(output: Path) -> str:
     return "\n".join(line.strip() for line in output.read_text("utf-8").splitlines() if line.startswith("  "))
 
 
+def claims(text: str) -> str:
+    """Arrange the claims, a list, under headings of the sections of the thesis that state them."""
+    groups: dict[str, list[str]] = {}
+    before, *items = re.split(r"^- ", text, flags=re.MULTILINE)
+    for item in items:
+        named = re.search(r"\((?:by )?(Tables? )?([\d.]+)[^)]*\) \*\*", item)
+        groups.setdefault("Tables" if not named or named[1] else f"Section {named[2]}", []).append(f"- {item.strip()}")
+    parts = (f"## {name}\n" + "\n".join(groups[name]) for name in sorted(groups))
+    return "\n\n".join(filter(None, [before.strip(), *parts]))
+
+
+def pages(chapter: dict[str, str], own: str, offsets: str, remarks: str) -> dict[str, str]:
+    """Arrange the sections of a study, the section written by hand and two tables as pages.
+
+    Returns
+    -------
+    dict of str to str
+        Text by file name.
+    """
+    head, preface = chapter[""].split("\n", 1)
+    compared, tried = "## Compared with the thesis, cell by cell\n", "## Sections 3.2.2 and 5.2, tried\n"
+    parts = {
+        "study.md": [
+            f"{head}\n{ORIGIN}",
+            preface.strip() + "\n",
+            OWN + own,
+            "## Figures\n" + chapter["## Figures\n"],
+        ],
+        "study-claims.md": ["# Claims of the thesis, tested\n" + GENERATED, claims(chapter["## Claims\n"])],
+        "study-offset.md": [
+            "# Offset, remarks and order of sweeps, measured\n" + GENERATED,
+            '## The "-1" of (B.20)\n' + ABOUT_OFFSETS + "\n" + offsets + "\n",
+            "## Remarks of 4.1.2 and 4.1.3, measured\n" + ABOUT_REMARKS + "\n" + remarks + "\n",
+            tried + chapter[tried],
+        ],
+        "study-tables.md": [
+            "# Tables of Chapter 4, measured\n" + GENERATED,
+            compared + chapter[compared],
+            "## Tables\n" + ABOUT_OBJECTIVE + chapter["## Tables\n"],
+        ],
+    }
+    return {name: "\n".join(part.rstrip() + "\n" for part in some) for name, some in parts.items()}
+
+
 def main() -> None:
     study, offsets, remarks = map(Path, sys.argv[1:])
     chapter = sections(FILES.sub("\n", (study / "study.md").read_text("utf-8")))
     own = sections((DOCS / "study.md").read_text("utf-8"))[OWN]
-    head, preface = chapter[""].split("\n", 1)
-    parts = [
-        f"{head}\n{ORIGIN}",
-        preface.strip() + "\n",
-        "## Claims\n" + chapter["## Claims\n"],
-        OWN + own,
-        "## Compared with the thesis, cell by cell\n" + chapter["## Compared with the thesis, cell by cell\n"],
-        '## The "-1" of (B.20)\n' + ABOUT_OFFSETS + "\n" + table(offsets) + "\n",
-        "## Remarks of 4.1.2 and 4.1.3, measured\n" + ABOUT_REMARKS + "\n" + table(remarks) + "\n",
-        "## Figures\n" + chapter["## Figures\n"],
-        "## Tables\n" + ABOUT_OBJECTIVE + chapter["## Tables\n"],
-        "## Sections 3.2.2 and 5.2, tried\n" + chapter["## Sections 3.2.2 and 5.2, tried\n"],
-    ]
-    text = "\n".join(part.rstrip() + "\n" for part in parts)
-    (DOCS / "study.md").write_text(text, "utf-8")
+    for name, text in pages(chapter, own, table(offsets), table(remarks)).items():
+        (DOCS / name).write_text(text, "utf-8")
     for old in DOCS.glob("figure-4.*.png"):
         old.unlink()
     for picture in sorted(study.glob("figure-*.png")):
         shutil.copy(picture, DOCS / picture.name)
 
 
+GENERATED = """
+<!-- written by scripts/write_study.py from here on -->
+
+[The thesis's experiments repeated](study.md) says how this was measured.
+"""
+
 ORIGIN = """
 The tables come from `hexmend study thesis --max-seconds 60`, the comparison of `offset` and the measured remarks from
-`hexmend bench --only offsets --only remarks`; `scripts/write_study.py` assembles this page. The section *Where ours
-differs* is written by hand.
+`hexmend bench --only offsets --only remarks`; `scripts/write_study.py` assembles these pages: [the claims of the
+thesis](study-claims.md), [all tables](study-tables.md), and [offset, remarks and order of sweeps](study-offset.md). The
+section *Where ours differs* is written by hand.
 """
 
 ABOUT_OFFSETS = """

@@ -28,8 +28,9 @@ def blocks(page):
 
 
 def example(title):
-    """The program below a heading of docs/extending.md, which has one."""
-    (_, section) = (ROOT / "docs/extending.md").read_text(encoding="utf-8").split(f"\n## {title}\n")
+    """The program below a heading of docs/extending.md or docs/extending-window.md, which has one."""
+    text = "\n".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").glob("extending*.md")))
+    (_, section) = text.split(f"\n## {title}\n")
     (program,) = _BLOCK.findall(section.split("\n## ")[0])
     return program
 

@@ -1,13 +1,18 @@
 """The pages of docs: their pictures are there and small, none is left over, and what the tutorial says can be done."""
 
+import argparse
 import importlib.util
 import re
+import shlex
 from pathlib import Path
 
 import pytest
 
 from hexmend import io
-from hexmend.cli.main import main
+from hexmend.cli.main import commands, main
+from hexmend.io.formats.session import session_file
+from hexmend.run import recipe
+from hexmend_app.picture import scene
 from tests.examples import blocks, run_page
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -89,3 +94,57 @@ def test_the_scenes_of_the_docs_are_scenes(scene):
     from hexmend_app.picture import Scene, from_toml
 
     assert from_toml(scene) != Scene()
+
+
+def words(text):
+    """Count the words of a page's prose: not those of code, formulas, tables and generated parts."""
+    text = re.sub(r"<!-- written by .*", "", text, flags=re.DOTALL)
+    text = re.sub(r"<!-- table: .*?<!-- end -->|^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
+    text = re.sub(r"\$\$.*?\$\$|\$[^$\n]*\$", " x ", text, flags=re.DOTALL)
+    lines = "\n".join(line for line in text.splitlines() if not line.startswith("|"))
+    return sum(bool(re.search(r"\w", word)) for word in re.sub(r"\]\([^)]*\)", "]", lines).split())
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_a_page_is_short(page):
+    assert words(page.read_text(encoding="utf-8")) < 1500, "divide it"
+
+
+def test_words_are_those_of_prose():
+    text = "# Two words\nThree more [of *these*](page.md) – $x + y$.\n```\nno code\n```\n| no | cell |\n"
+    assert words(text) == 7
+    assert words(text + "<!-- written by make docs from here on -->\nno reference\n") == 7
+
+
+def command_lines():
+    """List the commands in blocks of the pages, each with its page."""
+    for page in (*PAGES, DOCS.parent / "README.md"):
+        for block in re.findall(r"^```(?:sh)?\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE):
+            for line in block.replace("\\\n", " ").splitlines():
+                if found := re.match(r"(?:srun \S+ |mpiexec -n \d+ )?(?:\S*/)?hexmend( .*|$)", line):
+                    yield page.name, found[1].partition("  #")[0].strip()
+
+
+@pytest.mark.parametrize("page", sorted({page for page, _ in command_lines()}))
+def test_the_options_of_commands_exist(page):
+    loaders = commands()
+    for name, line in command_lines():
+        name_of_command, *arguments = shlex.split(line.replace("…", "").replace("[OPTION]...", "")) or ["view"]
+        if name != page or name_of_command not in loaders:
+            assert (
+                name != page or name_of_command.startswith("-") or "." in name_of_command or name_of_command.isupper()
+            )
+            continue
+        parser = argparse.ArgumentParser(allow_abbrev=False, exit_on_error=False)
+        loaders[name_of_command]().arguments(parser)
+        known = set(re.findall(r"(?<![\w-])--?[a-z][\w-]*", parser.format_help()))
+        used = {word for word in arguments if re.match(r"--?[a-z]", word)}
+        assert used <= known, f"{name}: hexmend {line}"
+
+
+def test_the_versions_of_files_are_those_of_the_program():
+    text = (DOCS / "versions.md").read_text(encoding="utf-8")
+    for kind, version in (("recipe", recipe.FORMAT), ("scene", scene.FORMAT), ("session", session_file.VERSION)):
+        (line,) = re.findall(rf"^\| {kind} .*", text, re.MULTILINE)
+        assert [cell.strip() for cell in line.split("|")][3] == str(version)
+    assert f"`version` ({session_file.VERSION})" in (DOCS / "session.md").read_text(encoding="utf-8")
