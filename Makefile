@@ -6,7 +6,7 @@ BIN    := $(VENV)/bin
 MESH   ?=
 CXX_SOURCES = $(shell find core/native -name "*.cpp" -o -name "*.hpp")
 
-.PHONY: help run test test-slow mutants lint format bench study docs site pins wheel clean
+.PHONY: help run test test-slow mutants lint format bench study docs pictures site pins wheel sbom clean
 .NOTPARALLEL:
 
 help:
@@ -17,8 +17,10 @@ help:
 	@echo "make bench             measure speed and memory"
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
 	@echo "make docs              write anew what in docs is generated: tables, reference, drawings"
+	@echo "make pictures          take the pictures of docs again; HEXMEND_MESHES names the folder of foreign meshes"
 	@echo "make site              build docs as a site: build/site/index.html"
 	@echo "make wheel             build the sources' archive and a wheel of it, and try that: dist/"
+	@echo "make sbom              list what an installation contains, with licences: dist/*.cdx.json"
 	@echo "make pins              write constraints.txt anew, with the newest versions"
 	@echo "make clean             remove the environment and what was built"
 	@echo "Add PYTHON=/path/to/python3 (3.11 to 3.13) to choose the Python of the environment."
@@ -69,6 +71,10 @@ docs: $(VENV)/.app $(VENV)/.kernels
 	@$(BIN)/python scripts/draw_floors.py
 	@QT_QPA_PLATFORM=offscreen $(BIN)/python scripts/write_keys.py
 
+pictures: $(VENV)/.app $(VENV)/.kernels
+	@scripts/debian-packages
+	@scripts/take-pictures $(BIN) docs
+
 # Warnings are errors, as mkdocs.yml says (with --quiet they would not be); the variable keeps an advertisement out.
 site: $(VENV)/.site
 	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build
@@ -78,6 +84,10 @@ wheel: $(VENV)/.wheel
 	@scripts/wheel $(BIN)
 	@scripts/debian-packages
 	@scripts/try-wheel "$(PYTHON)" dist/*.whl
+
+# Of the wheel, if make wheel has built one.
+sbom:
+	@scripts/sbom "$(PYTHON)" $(lastword $(wildcard dist/*.whl))
 
 # In an environment of its own: one with the old pins cannot be made where these are wrong.
 pins:

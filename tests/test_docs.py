@@ -40,6 +40,22 @@ def test_no_picture_is_left_over():
     assert {path.name for path in DOCS.iterdir() if path.suffix in (".gif", ".png", ".svg")} <= shown
 
 
+def test_every_script_of_pictures_is_run_by_make_pictures():
+    scripts = {path.stem for path in (DOCS.parent / "scripts/pictures").glob("*.py")} - {"screenshots"}
+    text = (DOCS.parent / "scripts/take-pictures").read_text(encoding="utf-8")
+    listed = " ".join(re.findall(r"for script in (.*); do", text)).split()
+    single = re.findall(r"^(?: *|\[.*\] \|\| )take (\w+)", text, re.MULTILINE)
+    assert {*listed, *single} == scripts
+
+
+def test_the_animation_is_made_by_the_command_that_its_page_names():
+    page = (DOCS / "untangle.md").read_text(encoding="utf-8")
+    (named,) = re.findall(r"`hexmend film (.*?)`", page, re.DOTALL)
+    text = (DOCS.parent / "scripts/take-pictures").read_text(encoding="utf-8").replace("\\\n", " ")
+    (run,) = re.findall(r'"\$bin/hexmend" film (.*)', text)
+    assert named.split() == run.replace('"$folder/run.gif"', "run.gif").split()
+
+
 @pytest.mark.slow
 def test_the_figures_of_the_mathematics_are_drawn_as_they_stand_there(tmp_path, capsys):
     """Their files and what is written in them, not how a version of matplotlib draws it."""

@@ -157,3 +157,49 @@ def test_an_environment_is_made_anew_for_another_python_that_is_named(tmp_path):
         )
         assert (f'scripts/environment --named "{other}" {folder}\n' in done.stdout) == anew
         assert ("scripts/environment" in done.stdout) == anew
+
+
+def test_files_for_others_have_the_version_and_the_dependencies_of_the_package():
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    recipe = (ROOT / "conda/recipe.yaml").read_text(encoding="utf-8")
+    assert f"\nversion: {hexmend.__version__}\n" in citation
+    assert f"\n  version: {hexmend.__version__}\n" in recipe
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    for needed in project["dependencies"]:
+        name, least = needed.split(">=")
+        assert f"    - {name} >={least}\n" in recipe
+    assert f"    - python {project['requires-python']}\n" in recipe
+    for file in project["license-files"]:
+        assert (ROOT / file).is_file()
+        assert file in re.search(r"license_file: \[(.*)\]", recipe)[1]
+
+
+def test_the_newest_section_of_the_changelog_is_that_of_the_version():
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    sections = re.findall(r"^## (.*)$", text, re.MULTILINE)
+    assert re.fullmatch(rf"\[{re.escape(hexmend.__version__)}\] - (Unreleased|\d{{4}}-\d\d-\d\d)", sections[0])
+    kinds = re.findall(r"^### (.*)$", text.split("\n## ")[1], re.MULTILINE)
+    assert kinds == [k for k in ("Added", "Changed", "Deprecated", "Removed", "Fixed", "Security") if k in kinds]
+
+
+def test_workflows_build_the_same_pythons_and_call_scripts_that_exist():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / ".github/workflows").glob("*.yml")}
+    pythons = re.findall(r'"(3\.\d+)"', re.search(r"python: (\[.*\])", texts["test"])[1])
+    built = project["tool"]["cibuildwheel"]["build"].split()
+    assert [f"cp{version.replace('.', '')}-*" for version in pythons] == built
+    named = [f"Programming Language :: Python :: {version}" for version in pythons]
+    assert [one for one in project["project"]["classifiers"] if "Python ::" in one] == named
+    targets = re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
+    for text in texts.values():
+        assert set(re.findall(r"run: make ([\w-]+)", text)) <= set(targets)
+        for called in re.findall(r"(?:uses|run): (\./?[.\w/-]+)", text):
+            assert (ROOT / called).exists(), called
+
+
+def test_what_is_linked_into_the_kernels_has_its_notice():
+    build = (ROOT / "core/native/CMakeLists.txt").read_text(encoding="utf-8")
+    notices = (ROOT / "THIRD_PARTY.md").read_text(encoding="utf-8")
+    for package in set(re.findall(r"find_package\((\w+)", build)) - {"Python", "Threads"}:
+        assert f"**{package}**: Copyright" in notices
+    assert ("-static-libstdc++" in build) == ("libstdc++" in notices)

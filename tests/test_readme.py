@@ -1,13 +1,24 @@
-"""The README is short, its example runs as it stands, and its commands, pages and picture exist."""
+"""The README is short, its example and its commands run as they stand, and what it names exists."""
 
 import re
+import shlex
+import tomllib
 from pathlib import Path
 
-from hexmend.cli.main import commands
+import pytest
+
+from hexmend import gallery, io
+from hexmend.cli.main import commands, main
+from hexmend_app.cli import view
 from tests.examples import run_page
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+LINES = [
+    line.partition("  #")[0].split(";")[0].strip()
+    for block in re.findall(r"^```\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
+    for line in block.splitlines()
+]
 
 
 def test_the_example_runs(tmp_path):
@@ -17,18 +28,55 @@ def test_the_example_runs(tmp_path):
     assert (tmp_path / "mended.vtu").exists()
 
 
+def test_every_command_runs(tmp_path, monkeypatch, capsys):
+    """The window itself is not opened: it gets the mesh that it would show."""
+    monkeypatch.chdir(tmp_path)
+    io.write("part.vtu", gallery.make("bridge-sharp", size=500, scramble=0.4, seed=1))
+    opened = []
+    monkeypatch.setattr(view.ViewCommand, "run", lambda self, args: opened.append(args.mesh) or 0)
+    ran = [shlex.split(line)[1:] for line in LINES if line.startswith("hexmend")]
+    assert [main(words) for words in ran] == [0] * len(ran)
+    assert len(ran) == 4
+    assert opened == ["part.vtu", None]
+    assert "Inverted" in capsys.readouterr().out
+    assert io.read("smoothed.vtu").n_hexes == io.read("part.vtu").n_hexes
+
+
+@pytest.mark.parametrize("line", [line for line in LINES if not line.startswith("hexmend")])
+def test_what_is_installed_exists(line):
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    (extra,) = re.fullmatch(r'pip install "\.\[(\w+)\]"', line).groups()
+    assert extra in project["optional-dependencies"]
+
+
 def test_commands_and_files_that_are_named_exist():
-    named = set(re.findall(r"^hexmend ([a-z]+)", README, re.MULTILINE))
+    named = set(re.findall(r"`hexmend ([a-z]+)", README))
     assert named
     assert named <= set(commands())
     targets = {line.split(":")[0] for line in (ROOT / "Makefile").read_text(encoding="utf-8").splitlines()}
     assert set(re.findall(r"`make (\w+)`", README)) <= targets
-    linked = re.findall(r"\]\(([^)#]+)", README)
+    linked = [path for path in re.findall(r"\]\(([^)#]+)", README) if not path.startswith("https://")]
     assert linked
     for path in linked:
         assert (ROOT / path).exists(), path
 
 
+def test_figures_that_are_named_are_those_of_the_measurements():
+    """The table of measured figures repeats those of the page that it refers to."""
+    (table,) = re.findall(r"<!-- measured: five rows -->\n(.*?)<!-- end -->", README, re.DOTALL)
+    rows = table.strip().splitlines()[2:]
+    assert len(rows) == 5
+    measured = (ROOT / "docs/boundary-results.md").read_text(encoding="utf-8")
+    for row in rows:
+        name, given, published, ours = (cell.strip() for cell in row.strip("|").split("|"))
+        (line,) = re.findall(rf"^\| {name.split(',')[0]} \| slide \|.*", measured, re.MULTILINE)
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        values = [given.replace("−", "-"), ours.split(",")[0]]
+        assert cells[3] == " → ".join(values)
+        assert published.startswith(f"{cells[4]}, {cells[8]} %")
+        assert ours.endswith(f"{float(cells[7]):.2f} %")
+
+
 def test_it_is_short():
-    assert len(README.splitlines()) < 80
+    assert len(README.splitlines()) <= 120
     assert len(re.findall(r"!\[", README)) == 1

@@ -14,7 +14,7 @@ from importlib import import_module
 
 from hexmend import aliases, hooks
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 
 TYPE_CHECKING = False  # which type checkers take for true; `typing` alone would cost as much as `--version` does
 if TYPE_CHECKING:
