@@ -107,7 +107,7 @@ def test_search_finds_pages_that_are_read_from_the_disk(opened, site):
     ("locked", "locked.html"),
     ("cluster", "cluster.html"),
     ("symmetry", "interfaces.html"),
-    ("smooth", "api/run.html"),
+    ("stopping criteria", "api/run.html"),
 ])  # fmt: skip
 def test_search_finds_the_page_of_a_task(opened, words, file):
     page, _ = opened
@@ -117,7 +117,8 @@ def test_search_finds_the_page_of_a_task(opened, words, file):
     page.locator(".md-search-result__item a").first.wait_for()
     links = page.locator(".md-search-result__item a").evaluate_all("all => all.map((one) => one.href)")
     found = [link.split("#")[0].split("?")[0] for link in links]
-    assert any(link.endswith(f"/{file}") for link in found[:12]), found[:12]
+    pages = list(dict.fromkeys(found))
+    assert any(link.endswith(f"/{file}") for link in pages[: 3 if "/" not in file else 8]), pages
 
 
 def test_the_tables_of_formats_have_room(opened):
