@@ -51,7 +51,8 @@ def _exports(path: str) -> list[str]:
         module = import_module(path)
     except ModuleNotFoundError:  # a function
         return []
-    return getattr(module, "__all__", dir(module))
+    own = [name for name, value in vars(module).items() if getattr(value, "__module__", None) == path]
+    return getattr(module, "__all__", own)
 
 
 def _summary(name: str, value: object) -> str:
