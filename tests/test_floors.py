@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[1]
 CORE = [
     {"aliases", "arrays", "errors", "hooks", "signal_guard"},
     {"parameters", "quantity", "registry", "terminal_text", "toml_text"},
-    {"kernels"},
+    {"kernels", "summary"},
     {"mesh"},
     {"quality"},
     {"gallery", "boundary", "target"},

@@ -26,22 +26,45 @@ if TYPE_CHECKING:
     from hexmend.iteration import Iteration, Outcome, Result, Step
     from hexmend.layers import find_layers
     from hexmend.mesh.cells import Cells
+    from hexmend.mesh.element_target import Target
+    from hexmend.mesh.fixing import fix, fix_outside, unfix
+    from hexmend.mesh.linear_motion import LinearMotion
     from hexmend.mesh.mesh import Mesh
+    from hexmend.mesh.rules import MotionRules
+    from hexmend.mesh.tags import add_set, remove_set
     from hexmend.notebook import view
     from hexmend.padding import Padding, pad
     from hexmend.parameters import parameter
-    from hexmend.quality import METRICS, Summary, measure, summarise
+    from hexmend.quality import METRICS, Summary, summarise
+    from hexmend.quality.measure import ElementQuality, measure
     from hexmend.run import Run, StoppingCriteria, iterate, smooth
     from hexmend.run.recipe import Recipe, Stage
     from hexmend.run.recipe_files import read_recipe, write_recipe
     from hexmend.smoothers import METHODS, Smoother, method
+    from hexmend.smoothers.general import General as General
+    from hexmend.smoothers.getme.sequential import SequentialGETMe as SequentialGETMe
+    from hexmend.smoothers.getme.simultaneous import GETMe as GETMe
+    from hexmend.smoothers.global_.modified_newton import GlobalModifiedNewton as GlobalModifiedNewton
+    from hexmend.smoothers.global_.newton import GlobalNewtonRaphson as GlobalNewtonRaphson
+    from hexmend.smoothers.global_.steepest_descent import GlobalSteepestDescent as GlobalSteepestDescent
+    from hexmend.smoothers.laplacian.laplacian import Laplacian as Laplacian
+    from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian as SmartLaplacian
+    from hexmend.smoothers.local.modified_newton import LocalModifiedNewton as LocalModifiedNewton
+    from hexmend.smoothers.local.newton import LocalNewtonRaphson as LocalNewtonRaphson
+    from hexmend.smoothers.local.patch import LocalPatch as LocalPatch
+    from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent as LocalSteepestDescent
+    from hexmend.smoothers.mend.mend import Mend as Mend
     from hexmend.study.compare import Comparison, compare
     from hexmend.target import make_target
 
 aliases.install()
 hooks.register_hooks(
+    fixed_sets="hexmend.mesh.fixing:fixed_sets",
     html="hexmend.notebook:html",
+    plot="hexmend.notebook:plot",
     quality="hexmend.quality:metric_values",
+    region="hexmend.quality.selection:region",
+    summary="hexmend.quality:summarise",
     with_rules="hexmend.mesh.rules.resolution:with_rules",
     worst_hexes="hexmend.quality:worst_hexes",
 )
@@ -55,10 +78,15 @@ _HOMES = {
     "layers": ("find_layers",),
     "mesh": ("Mesh",),
     "mesh.cells": ("Cells",),
+    "mesh.element_target": ("Target",),
+    "mesh.fixing": ("fix", "fix_outside", "unfix"),
+    "mesh.linear_motion": ("LinearMotion",),
+    "mesh.rules": ("MotionRules",),
+    "mesh.tags": ("add_set", "remove_set"),
     "notebook": ("view",),
     "padding": ("Padding", "pad"),
     "parameters": ("parameter",),
-    "quality": ("METRICS", "Summary", "measure", "summarise"),
+    "quality": ("METRICS", "ElementQuality", "Summary", "measure", "summarise"),
     "run": ("Run", "StoppingCriteria", "iterate", "smooth"),
     "run.recipe": ("Recipe", "Stage"),
     "run.recipe_files": ("read_recipe", "write_recipe"),
@@ -73,11 +101,14 @@ __all__ = [
     "METRICS",
     "Cells",
     "Comparison",
+    "ElementQuality",
     "FileError",
     "HexmendError",
     "Iteration",
+    "LinearMotion",
     "Mesh",
     "MeshError",
+    "MotionRules",
     "Outcome",
     "Padding",
     "ParameterError",
@@ -89,10 +120,14 @@ __all__ = [
     "Step",
     "StoppingCriteria",
     "Summary",
+    "Target",
+    "add_set",
     "advise",
     "compare",
     "energy",
     "find_layers",
+    "fix",
+    "fix_outside",
     "from_meshio",
     "from_pyvista",
     "gallery",
@@ -105,25 +140,34 @@ __all__ = [
     "read",
     "read_recipe",
     "read_surface",
+    "remove_set",
     "smooth",
     "summarise",
     "to_meshio",
     "to_pyvista",
+    "unfix",
     "view",
     "write",
     "write_recipe",
 ]
 
 
-def __getattr__(name: str) -> object:
-    if name in ("energy", "gallery"):
-        return import_module(f"hexmend.{name}")
-    if name in _HOME_OF:
-        return getattr(import_module(f"hexmend.{_HOME_OF[name]}"), name)
-    for smoother in () if name.startswith("_") else import_module("hexmend.smoothers").METHODS.values():
-        if smoother.__name__ == name:
-            return smoother
-    return aliases.exports("hexmend")(name)
+if not TYPE_CHECKING:  # else a type checker would accept any name
+
+    def __getattr__(name: str) -> object:
+        if name in ("energy", "gallery"):
+            return import_module(f"hexmend.{name}")
+        if name in _HOME_OF:
+            return getattr(import_module(f"hexmend.{_HOME_OF[name]}"), name)
+        for smoother in () if name.startswith("_") else import_module("hexmend.smoothers").METHODS.values():
+            if smoother.__name__ == name:
+                return smoother
+        try:
+            return aliases.exports("hexmend")(name)
+        except AttributeError as error:
+            near = "" if name.startswith("_") else import_module("hexmend.parameters").suggestion(name, __all__)
+            hint = f": {near.rstrip()}" if near else ""
+            raise AttributeError(f"{error}{hint}", obj=__spec__) from None  # for the module Python would add a hint
 
 
 def __dir__() -> list[str]:

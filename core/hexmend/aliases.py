@@ -20,10 +20,13 @@ from importlib import import_module
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from enum import Enum
     from importlib.machinery import ModuleSpec
     from types import ModuleType
-    from typing import Any, TypeVar
+    from typing import Any, ParamSpec, TypeVar
 
+    E = TypeVar("E", bound=Enum)
+    P = ParamSpec("P")
     T = TypeVar("T")
 
 _NOW_IN_MESH = "cells edge_length fixing hexahedron orientation patches second_order structure tags topology"
@@ -74,6 +77,7 @@ NAMES: dict[str, dict[str, str]] = {
     "hexmend.iteration": {"Limits": "ActiveSet", "Stop": "StoppingCriteria"},
     "hexmend.iteration.result": {"Limits": "hexmend.iteration.ActiveSet", "Step": "hexmend.iteration.Step"},
     "hexmend.iteration.stopping": {"Stop": "hexmend.iteration.StoppingCriteria"},
+    "hexmend.mesh.fixing": {"with_region_free": "fix_outside", "with_sets_fixed": "fix"},
     "hexmend.mesh.topology": {"Rows": "CSR"},
     "hexmend.node_step": {"Verdict": "StepStatus"},
     "hexmend.optimise": {
@@ -123,7 +127,9 @@ ATTRIBUTES: dict[str, dict[str, str]] = {
     "hexmend.io.base.format.Format": {
         "cannot": "limitations", "holds": "capabilities", "names": "stored_names", "recognised": "matches",
     },
-    "hexmend.iteration.result.Iteration": {"figures": "quality", "notes": "diagnostics", "power": "norm"},
+    "hexmend.iteration.result.Iteration": {
+        "figures": "quality", "n_inverted": "inverted", "notes": "diagnostics", "power": "norm",
+    },
     "hexmend.iteration.result.Result": {"limits": "active"},
     "hexmend.iteration.step.Step": {
         "detour": "infeasible", "figures": "quality", "limits": "active", "more": "intermediate",
@@ -139,12 +145,15 @@ ATTRIBUTES: dict[str, dict[str, str]] = {
     "hexmend.run.breakpoints.Breakpoints": {"cuts": "backtracks"},
     "hexmend.run.run.Run": {"go_on_with": "switch_method", "limit": "max_iterations", "reached": "best"},
     "hexmend.smoothers.base.Smoother": {"power": "norm"},
+    "hexmend.summary.Summary": {"n_inverted": "inverted"},
 }  # fmt: skip
 
 KEYWORDS: dict[str, dict[str, str]] = {
     "boundary_of": {"degrees": "feature_angle"},
+    "iterate": {"smoother": "method"},
     "objective": {"power": "norm"},
     "read": {"nodes_without_place": "interpolate_missing"},
+    "smooth": {"smoother": "method"},
     "summarise": {"figures": "quality"},
     "surface_change": {"degrees": "feature_angle"},
 }
@@ -201,7 +210,7 @@ def reads_old_names(cls: type[T], table: Mapping[str, str] | None = None) -> typ
     names = former_attributes(cls) if table is None else table
     if not names:
         return cls
-    init = cls.__init__
+    init: Callable[..., None] = vars(cls).get("__init__") or cls.__init__
 
     @wraps(init)
     def __init__(self: T, *args: Any, **values: Any) -> None:
@@ -214,11 +223,12 @@ def reads_old_names(cls: type[T], table: Mapping[str, str] | None = None) -> typ
             return getattr(self, names[name])
         return object.__getattribute__(self, name)  # raises what had failed
 
-    cls.__init__, cls.__getattr__ = __init__, __getattr__
+    for method in (__init__, __getattr__):
+        setattr(cls, method.__name__, method)
     return cls
 
 
-def reads_old_members(cls: type[T]) -> type[T]:
+def reads_old_members(cls: type[E]) -> type[E]:
     """Class decorator of an enumeration: its members have their old names of `ATTRIBUTES` as aliases."""
     for old, new in former_attributes(cls).items():
         setattr(cls, old, cls[new])
@@ -226,7 +236,7 @@ def reads_old_members(cls: type[T]) -> type[T]:
     return cls
 
 
-def old_keywords(owner: str) -> Callable[[Callable[..., T]], Callable[..., T]]:
+def old_keywords(owner: str) -> Callable[[Callable[P, T]], Callable[P, T]]:
     """Make a decorator of a function, which then also takes keywords under their names of earlier versions.
 
     Parameters
@@ -235,9 +245,9 @@ def old_keywords(owner: str) -> Callable[[Callable[..., T]], Callable[..., T]]:
         Key in `KEYWORDS`.
     """
 
-    def decorate(function: Callable[..., T]) -> Callable[..., T]:
+    def decorate(function: Callable[P, T]) -> Callable[P, T]:
         @wraps(function)
-        def call(*args: object, **keywords: object) -> T:
+        def call(*args: P.args, **keywords: P.kwargs) -> T:
             return function(*args, **renamed(keywords, KEYWORDS[owner]))
 
         return call
@@ -255,7 +265,7 @@ def _module_of(name: str) -> str | None:
 
 
 class _OldModules:
-    """Finder of modules under the names of earlier versions."""
+    """Finder and loader of modules under the names of earlier versions."""
 
     @staticmethod
     def find_spec(name: str, path: object = None, target: object = None) -> ModuleSpec | None:
@@ -263,7 +273,8 @@ class _OldModules:
             return None
         from importlib.machinery import ModuleSpec
 
-        return ModuleSpec(name, _OldModules())
+        loader: Any = _OldModules()  # it need not derive from `Loader`, whose import takes time
+        return ModuleSpec(name, loader)
 
     @staticmethod
     def create_module(spec: ModuleSpec) -> None:
@@ -273,7 +284,9 @@ class _OldModules:
     def exec_module(module: ModuleType) -> None:
         from importlib import import_module
 
-        sys.modules[module.__name__] = import_module(_module_of(module.__name__))
+        name = _module_of(module.__name__)
+        assert name is not None  # a module that `find_spec` has found
+        sys.modules[module.__name__] = import_module(name)
 
 
 def install() -> None:

@@ -89,9 +89,13 @@ class Parameter:
         hexmend.errors.ParameterError: rho = 2 is out of range: expected a number from 0 to 1
         """
         if self.choices is not None:
-            if not isinstance(value, str) or value not in self.choices:
+            if not isinstance(value, str):
                 raise self._error(_shown(value), "is unknown")
-            return value
+            named = value if value in self.choices else value.replace("_", "-")
+            if named not in self.choices:
+                near = suggestion(value, self.choices).rstrip()
+                raise self._error(_shown(value), "is unknown", f"; {near}" if near else "")
+            return named
         if self.type is bool:
             if not isinstance(value, bool):
                 raise self._error(_shown(value), "is not a switch")
@@ -106,7 +110,7 @@ class Parameter:
         if self.percent_of and isinstance(value, str) and value.strip().endswith("%"):
             return self._percent(value)
         try:
-            if isinstance(value, bool | complex) or getattr(value, "ndim", 0):
+            if isinstance(value, bool | complex) or getattr(value, "ndim", None):
                 raise ValueError
             number = self.type(value)
             if math.isnan(number) or number != float(value):
@@ -129,8 +133,8 @@ class Parameter:
             raise self._error(value, "is out of range")
         return f"{number:.12g}%"
 
-    def _error(self, shown: object, problem: str) -> ParameterError:
-        return ParameterError(f"{self.name} = {shown} {problem}: expected {self.range}")
+    def _error(self, shown: object, problem: str, advice: str = "") -> ParameterError:
+        return ParameterError(f"{self.name} = {shown} {problem}: expected {self.range}{advice}")
 
     @property
     def _kind(self) -> str:
@@ -292,5 +296,14 @@ def hint(name: str, known: Iterable[str]) -> str:
     'known: p, delta'
     """
     names = list(known)
-    near = difflib.get_close_matches(name, names, n=1)
-    return f"did you mean {near[0]}?" if near else f"known: {', '.join(names) or 'none'}"
+    return suggestion(name, names).rstrip() or f"known: {', '.join(names) or 'none'}"
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """Beginning of a message's list of names: "did you mean X? ", or "" where no name is near.
+
+    >>> suggestion("inlett", ["inlet", "wall"]), suggestion("x", ["inlet"])
+    ('did you mean inlet? ', '')
+    """
+    near = difflib.get_close_matches(name, list(known), n=1)
+    return f"did you mean {near[0]}? " if near else ""

@@ -8,9 +8,10 @@ TYPE_CHECKING = False  # `typing` would cost as much as `hexmend --version` does
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import CodeType, FrameType
-    from typing import Any, TypeVar
+    from typing import ParamSpec, TypeVar
 
-    Function = TypeVar("Function", bound=Callable)
+    P = ParamSpec("P")
+    T = TypeVar("T")
 
 #: Code of these functions, by which a signal handler recognises them among the frames that it has interrupted.
 UNINTERRUPTED_CODE: set[CodeType] = set()
@@ -19,7 +20,7 @@ UNINTERRUPTED_CODE: set[CodeType] = set()
 ON_RETURN: list[Callable[[], object]] = []
 
 
-def uninterrupted(function: Function) -> Function:
+def uninterrupted(function: Callable[P, T]) -> Callable[P, T]:
     """Defer `KeyboardInterrupt` to the end of a function, in the program `hexmend`; a decorator.
 
     Parameters
@@ -35,7 +36,7 @@ def uninterrupted(function: Function) -> Function:
     UNINTERRUPTED_CODE.add(function.__code__)
 
     @wraps(function)
-    def guarded(*args: Any, **options: Any) -> Any:
+    def guarded(*args: P.args, **options: P.kwargs) -> T:
         result = function(*args, **options)
         for call in ON_RETURN:
             call()

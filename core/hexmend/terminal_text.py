@@ -1,6 +1,20 @@
-"""Text for readers: counts of things, text without control codes, and text that is shown in red."""
+"""Text for readers and their terminal: counts of things, text without control codes, and text that is shown in red."""
 
 from __future__ import annotations
+
+import os
+import sys
+
+
+def in_notebook() -> bool:
+    """Return True in a cell of a notebook, where IPython shows what is displayed."""
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    return getattr(shell, "kernel", None) is not None
+
+
+def is_dumb() -> bool:
+    """Return True if the variable TERM says that the terminal understands no control codes."""
+    return os.environ.get("TERM", "").lower() in ("dumb", "unknown")
 
 
 def printable(text: str) -> str:

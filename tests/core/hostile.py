@@ -17,7 +17,7 @@ from hexmend.boundary import ClosestPointTrees, SkinSurface, SlidingBoundary, bo
 from hexmend.energy import MeshEnergy, SlidingEnergy, energies
 from hexmend.errors import HexmendError
 from hexmend.mesh.edge_length import mean_edge_length
-from hexmend.mesh.fixing import with_pinned, with_region_free
+from hexmend.mesh.fixing import fix_outside, with_pinned
 from hexmend.mesh.patches import partition_patches
 from hexmend.mesh.tags import with_tag
 from hexmend.mesh.topology import Topology
@@ -141,7 +141,7 @@ CALLS: dict[str, Callable[[object], object]] = {
     "SlidingBoundary.flipped_quads": lambda v: SLIDING.flipped_quads(X, v),
     "SlidingEnergy.gradient": lambda v: SlidingEnergy(SLIDING).gradient(v),
     "with_pinned": lambda v: with_pinned(MESH, v),
-    "with_region_free": lambda v: with_region_free(MESH, v),
+    "fix_outside": lambda v: fix_outside(MESH, v),
     "with_tag": lambda v: with_tag(MESH, "a", v),
     "partition_patches": lambda v: partition_patches(MESH, v, 1),
     "describe_hex": lambda v: describe_hex(MESH, v),

@@ -1,4 +1,4 @@
-"""What scripts rely on: a mesh or its file, settings by name, a metric's values, the worst hexes."""
+"""What scripts rely on: a mesh or its file, settings by name, values of metrics, the worst hexes, short texts."""
 
 import re
 
@@ -48,7 +48,11 @@ def test_limits_by_name_hold_for_every_stage_of_a_recipe():
     ("laplacian", {"bounday": "slide"}, "laplacian has no parameter 'bounday': did you mean boundary"),
     ("mend", {"boundary": "slid"}, "boundary = 'slid' is unknown: expected one of fixed, slide"),
     ("mend", {"max_iterations": -1}, "max_iterations = -1 is out of range"),
-    (hx.Recipe.of("getme"), {"boundary": "slide"}, "recipe has no parameter 'boundary': known: keep_last, max_it"),
+    (hx.Recipe.of("getme"), {"boundary": "slide"}, "recipe has no parameter 'boundary': set it for the methods of its stages; "
+     "known: keep_last, max_it"),
+    ("laplacian", {"goal": "shape"}, "laplacian has no parameter 'goal': it is a parameter of mend; known: "),
+    ("mend", {"interface": "slide"}, "mend has no parameter 'interface': did you mean interfaces? known: "),
+    ("mend", {"goal": "scaled_jacobain"}, "time-step; did you mean scaled-jacobian?"),
     ("mendd", {}, "there is no method 'mendd': did you mean mend"),
 ])  # fmt: skip
 def test_settings_that_nobody_has_are_refused(smoother, settings, words):
@@ -70,7 +74,7 @@ def test_a_mesh_gives_the_values_of_every_metric():
     for name, metric in METRICS.items():
         np.testing.assert_array_equal(MESH.quality(name), metric.of(MESH.points, MESH.hexes, figures))
     np.testing.assert_array_equal(MESH.quality("scaled_jacobian"), figures.scaled_jacobian)
-    np.testing.assert_array_equal(MESH.quality(), figures.q)
+    np.testing.assert_array_equal(MESH.quality("q"), figures.q)
     with pytest.raises(ParameterError, match="there is no metric 'colour'"):
         MESH.quality("colour")
 
@@ -90,6 +94,61 @@ def test_worst_hexes_need_a_better_end_and_a_count():
         MESH.worst(3, "volume")
     with pytest.raises(ParameterError, match="count = -1 is out of range"):
         MESH.worst(-1)
+
+
+def test_a_mesh_without_a_metric_gives_its_summary():
+    assert MESH.quality() == hx.summarise(MESH)
+    assert MESH.quality().inverted == int((hx.measure(MESH.points, MESH.hexes).sigma <= 0).sum())
+
+
+def test_a_figure_has_one_name_and_its_old_one_is_read():
+    run = hx.iterate(MESH, "local-sd", max_iterations=2)
+    for iteration in run:
+        row = iteration.row()
+        for name in ("q_min", "q_mean", "scaled_jacobian_min", "inverted"):
+            assert getattr(iteration, name) == row[name]
+        assert iteration.n_inverted == iteration.inverted == iteration.quality.n_inverted
+    summary = hx.summarise(run.result().mesh)
+    assert summary.n_inverted == summary.inverted == row["inverted"]
+
+
+def test_the_method_is_named_by_its_old_keyword_too():
+    old, new = (hx.smooth(MESH, max_iterations=1, **{name: "laplacian"}) for name in ("smoother", "method"))
+    assert old.method == new.method == hx.iterate(MESH, smoother="laplacian").smoother.name == "laplacian"
+
+
+def test_choices_are_named_with_underscores_too():
+    assert hx.iterate(MESH, goal="scaled_jacobian").smoother == hx.Mend(goal="scaled-jacobian")
+
+
+def test_a_representation_is_one_line_with_its_figures():
+    mesh = hx.gallery.make("bridge-sharp", size=500, scramble=0.4, seed=1)
+    assert repr(mesh) == "<Mesh bridge-sharp-500: 500 hexes, 726 nodes>"
+    inverted = mesh.quality().inverted
+    assert repr(mesh) == f"<Mesh bridge-sharp-500: 500 hexes, 726 nodes, {inverted} inverted>"
+    assert "inverted" not in repr(mesh.with_points(mesh.points + 1.0))  # which nobody has measured
+    assert repr(hx.gallery.make("cube", size=1).replace(name="")) == "<Mesh: 1 hex, 8 nodes>"
+    assert repr(mesh.replace(name="a\nb\x1b[2J")) == "<Mesh a b?[2J: 500 hexes, 726 nodes>"
+    result = hx.smooth(mesh, "local-sd", max_iterations=2)
+    q = f"q min {result.before.q_min:.4f} -> {result.after.q_min:.4f}"
+    assert repr(result) == (
+        f"<Result of local-sd: {inverted} -> {result.after.inverted} inverted, {q}; 2 iterations, max-iterations>"
+    )
+    assert repr(result.mesh).endswith(f"{result.after.inverted} inverted>")
+    assert repr(result.before).startswith(f"<Summary: 500 hexes, 726 nodes, {inverted} inverted; q min ")
+    first = next(hx.iterate(mesh, "local-sd"))
+    assert repr(first).startswith(f"<Iteration 1: {first.inverted} inverted; q min {first.q_min:.4f}, q mean ")
+    assert repr(hx.measure(mesh.points, mesh.hexes)).startswith(f"<ElementQuality of 500 hexes: {inverted} inverted; ")
+    for value in (mesh, result, result.before, first):
+        assert "\n" not in repr(value)
+
+
+def test_a_name_that_is_nearly_right_is_suggested():
+    for wrong, right in {"smoth": "smooth", "gallry": "gallery", "StopingCriteria": "StoppingCriteria"}.items():
+        with pytest.raises(AttributeError, match=rf"no attribute '{wrong}': did you mean {right}\?$"):
+            getattr(hx, wrong)
+    with pytest.raises(ParameterError, match=r"no metric 'scaled-jacobain': did you mean scaled-jacobian\?"):
+        MESH.quality("scaled_jacobain")
 
 
 @pytest.mark.parametrize("number", [-1, MESH.n_hexes, 1.5, "a", None, True])

@@ -7,6 +7,7 @@
 
 import importlib
 import pkgutil
+from typing import Any
 
 from hexmend.gallery.gallery_mesh import GALLERY, GalleryMesh
 from hexmend.mesh.mesh import Mesh
@@ -17,7 +18,7 @@ for _module in pkgutil.iter_modules(__path__):
 __all__ = ["GALLERY", "GalleryMesh", "make"]
 
 
-def make(name: str, **parameters: object) -> Mesh:
+def make(name: str, **parameters: Any) -> Mesh:
     """Build a gallery mesh.
 
     Parameters

@@ -98,15 +98,16 @@ def _paved_ring(boundary: int) -> tuple[np.ndarray, np.ndarray]:
     segments = np.diff(np.round(np.arange(6) * boundary / 5).astype(int))
     depth = 1 - 10 * np.tan(np.pi / 5) / boundary  # scale of the ring's inner side, so that its quads are square
     points = np.concatenate([_polygon(CORNERS, segments), _polygon(depth * CORNERS, segments - 2)])
-    outer, inner, quads = 0, 0, []
+    outer, inner = 0, 0
+    rows: list[np.ndarray] = []
     for n in segments:
         i = np.arange(n - 2)
         first = boundary + inner
         adjacent = boundary + (inner + i + 1) % (boundary - 10)
-        quads.append([[(outer - 1) % boundary, outer, outer + 1, first]])
-        quads.append(np.column_stack([outer + 1 + i, outer + 2 + i, adjacent, first + i]))
+        rows.append(np.array([[(outer - 1) % boundary, outer, outer + 1, first]]))
+        rows.append(np.column_stack([outer + 1 + i, outer + 2 + i, adjacent, first + i]))
         outer, inner = outer + n, inner + n - 2
-    quads = np.concatenate(quads)
+    quads = np.concatenate(rows)
     quads[quads == boundary + (boundary - 10)] = boundary
     return points, quads
 

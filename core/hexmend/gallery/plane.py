@@ -167,7 +167,7 @@ class _Division:
     @cached_property
     def within(self) -> int:
         """Number of hexes of core and coat."""
-        skin = sum(np.count_nonzero(np.diff(self.solid, axis=a)) for a in range(3))
+        skin = sum(int(np.count_nonzero(np.diff(self.solid, axis=a))) for a in range(3))
         return int(np.count_nonzero(~self.solid)) + self.coat * skin
 
     @property

@@ -115,7 +115,7 @@ def _content(mesh: meshio.Mesh) -> Content:
     """Make the content of a meshio mesh: one block of cells for each kind."""
     sets = _physical_groups(mesh) | {name: parts for name, parts in mesh.cell_sets.items() if name not in _NOT_SETS}
     blocks: dict[str, list[Block]] = {}
-    unread = Counter()
+    unread: Counter[str] = Counter()
     for index, cells in enumerate(mesh.cells):
         kind = KINDS.get(cells.type)
         if kind is None:
@@ -131,10 +131,11 @@ def _content(mesh: meshio.Mesh) -> Content:
         kinds = ", ".join(sorted(unread))
         cells = count_phrase(sum(unread.values()), f"cell of another kind ({kinds})", f"cells of other kinds ({kinds})")
         notes.append(unread_note(cells))
-    blocks, points = tuple(_without_empty_sets(merged)), np.array(mesh.points)
+    points = np.array(mesh.points)
     node_data = {name: np.array(values) for name, values in mesh.point_data.items()}
     node_sets = {name: np.array(members, np.int64) for name, members in mesh.point_sets.items()}
-    return Content(points, blocks, node_data, node_sets, {}, None, dict(mesh.field_data), tuple(notes), unread)
+    content = tuple(_without_empty_sets(merged))
+    return Content(points, content, node_data, node_sets, {}, None, dict(mesh.field_data), tuple(notes), unread)
 
 
 def _physical_groups(mesh: meshio.Mesh) -> dict[str, list[np.ndarray]]:

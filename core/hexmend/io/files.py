@@ -117,12 +117,14 @@ def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) ->
     if encoding not in format.encodings:
         problem = f"{format.title} has no encoding {encoding!r}"
         raise FileError(path, problem, f"Use one of {', '.join(format.encodings)}.")
+    write = format.write
+    assert write is not None  # a format that has encodings
     if format.place:
-        format.write(path, mesh, encoding)
+        write(path, mesh, encoding)
         return
     with file_operation(path, FileAction.WRITING), atomic_write(path) as temporary:
         try:
-            format.write(temporary, mesh, encoding)
+            write(temporary, mesh, encoding)
         except FileError as error:  # it names the temporary file
             raise FileError(path, error.problem, error.remedy) from None
 
@@ -195,7 +197,7 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
 
 def _write_as_given(path: Path, mesh: Mesh, original: Original | None) -> Written:
     reason: tuple[str, ...] = ()
-    if replaces_coordinates(path, original):
+    if original is not None and replaces_coordinates(path, original):
         try:
             return replace_coordinates(path, mesh, original, format_of(original.path))
         except CoordinatesError as error:
@@ -209,7 +211,7 @@ def _write_as_given(path: Path, mesh: Mesh, original: Original | None) -> Writte
         _check_content(path, original, "coordinates alone are never replaced in its format")
     elif original is not None and not original.path.exists() and path.suffix == original.path.suffix:
         reason = (_anew(f"{original.path.name} does not exist any more", original),)
-    _write_anew(path, mesh, None, writable_format(path, original and original.path))
+    _write_anew(path, mesh, None, writable_format(path, None if original is None else original.path))
     return Written(False, reason)
 
 
@@ -277,7 +279,7 @@ def writer_for(
         For an unknown suffix, and where the file cannot be written.
     """
     path = Path(path)
-    format = writable_format(path, source and Path(source))
+    format = writable_format(path, Path(source) if source else None)
     if not format.place:
         check_writable(path)
     return write
@@ -306,7 +308,7 @@ def unsupported_data(
     FileError
         For an unknown suffix, and for a folder that cannot take the mesh.
     """
-    format = writable_format(Path(path), source and Path(source))
+    format = writable_format(Path(path), Path(source) if source else None)
     if format.place:
         format.place.check_target(Path(path), mesh, None)
     required = required_capabilities(mesh, format.stored_names)

@@ -19,10 +19,12 @@ from hexmend.layers import LayerReport
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, objective, regressions
 from hexmend.quality.material_volumes import MaterialVolume
+from hexmend.quantity import format_quality
+from hexmend.terminal_text import count_phrase
 
 
 @reads_old_names
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Iteration:
     """Step as the run recorded it.
 
@@ -80,6 +82,30 @@ class Iteration:
             return hexes
         return None if self.surface.value is None else hexes + self.surface.value
 
+    @property
+    def inverted(self) -> int:
+        """Number of inverted hexes."""
+        return self.quality.n_inverted
+
+    @property
+    def q_min(self) -> float:
+        """Least q(H)."""
+        return float(self.quality.q.min())
+
+    @property
+    def q_mean(self) -> float:
+        """Mean q(H)."""
+        return float(self.quality.q.mean())
+
+    @property
+    def scaled_jacobian_min(self) -> float:
+        """Least scaled Jacobian."""
+        return float(self.quality.scaled_jacobian.min())
+
+    def __repr__(self) -> str:
+        qualities = f"q min {format_quality(self.q_min)}, q mean {format_quality(self.q_mean)}"
+        return f"<Iteration {self.number}: {self.inverted:,} inverted; {qualities}; move {self.largest_move:.2g}>"
+
     def row(self) -> dict[str, float | int | str | None]:
         """Row of the history: `iteration seconds objective q_min q_mean scaled_jacobian_min inverted largest_move`.
 
@@ -90,10 +116,10 @@ class Iteration:
             "seconds": self.seconds,
             "objective": self.objective,
             "objective_formula": self.norm.formula_with(0.0 if self.surface is None else self.surface.weight),
-            "q_min": float(self.quality.q.min()),
-            "q_mean": float(self.quality.q.mean()),
-            "scaled_jacobian_min": float(self.quality.scaled_jacobian.min()),
-            "inverted": self.quality.n_inverted,
+            "q_min": self.q_min,
+            "q_mean": self.q_mean,
+            "scaled_jacobian_min": self.scaled_jacobian_min,
+            "inverted": self.inverted,
             "largest_move": self.largest_move,
         }
 
@@ -134,7 +160,7 @@ class StageResult:
 
 
 @reads_old_names
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Result:
     """Result of a run.
 
@@ -193,7 +219,7 @@ class Result:
     materials: Mapping[str, MaterialVolume] = field(default_factory=dict)
     active: ActiveSet | None = None
     layers: tuple[LayerReport, ...] = ()
-    target_q: tuple[float, ...] | None = None
+    target_q: tuple[float, float] | None = None
 
     @property
     def worse(self) -> tuple[str, ...]:
@@ -211,8 +237,15 @@ class Result:
         of = self.surface, self.departures
         return " ".join(filter(None, ("" if one is None else one.sentence for one in of)))
 
+    def __repr__(self) -> str:
+        before, after = self.before, self.after
+        q = f"q min {format_quality(before.q_min)} -> {format_quality(after.q_min)}"
+        count = count_phrase(self.iterations, "iteration")
+        inverted = f"{before.inverted:,} -> {after.inverted:,} inverted"
+        return f"<Result of {self.method}: {inverted}, {q}; {count}, {self.outcome.key}>"
+
     def _repr_html_(self) -> str:
-        """Show it in a notebook."""
+        """Return the HTML that a notebook shows."""
         return hook("html")(self)
 
 

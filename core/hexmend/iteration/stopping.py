@@ -13,7 +13,9 @@ from hexmend.parameters import AUTO, Parametrised, parameter
 class Limited(Protocol):
     """Method with an iteration limit of its own."""
 
-    iteration_limit: int
+    @property
+    def iteration_limit(self) -> int:
+        """Iterations after which a run ends."""
 
 
 @dataclass(frozen=True)

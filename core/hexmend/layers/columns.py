@@ -95,7 +95,7 @@ def lateral_lengths(lengths: np.ndarray, faces: np.ndarray, neighbours: np.ndarr
     (k,) float64
     """
     rows, across = np.arange(len(lengths)), faces // 2
-    spans = (neighbours.reshape(-1, 3, 2) < 0).all(axis=2)
+    spans = np.all(neighbours.reshape(-1, 3, 2) < 0, axis=2)
     spans[rows, across] = True
     sides = np.where(spans, np.inf, lengths)
     shorter = sides.min(axis=1)
@@ -142,8 +142,7 @@ def walk_columns(
         active, current, entry, height = active[continues], following[continues], entry[continues], upper[continues]
         if not active.size:
             break
-        layer = np.full(len(hexes), -1, np.int32), np.zeros(len(hexes), np.int8), np.full(len(hexes), np.nan)
-        for column, values in zip(layer, (current, entry, height), strict=True):
-            column[active] = values
-        table.append(layer)
+        hex, side, size = np.full(len(hexes), -1, np.int32), np.zeros(len(hexes), np.int8), np.full(len(hexes), np.nan)
+        hex[active], side[active], size[active] = current, entry, height
+        table.append((hex, side, size))
     return Columns(*(np.stack(columns, axis=1) for columns in zip(*table, strict=True)))

@@ -158,7 +158,9 @@ def _check_cells(cells: object, nodes: int) -> Cells:
     )
 
 
-def _arrays(value: object, label: str, count: int, check: Callable[[object, str, int], np.ndarray]) -> dict:
+def _arrays(
+    value: object, label: str, count: int, check: Callable[[object, str, int], np.ndarray]
+) -> dict[str, np.ndarray]:
     """Check named arrays by a function of the array, its name in messages and a count; they become immutable."""
     if not isinstance(value, Mapping):
         raise MeshError(f"{label}: found {type(value).__name__}, expected a mapping of names to arrays")

@@ -1,4 +1,4 @@
-"""Pinning of nodes: by number, by named sets, or outside a region."""
+"""Fixing of nodes: by number, by named sets, or outside a region."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from hexmend.aliases import exports
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.named_sets import nodes_in_set
-from hexmend.mesh.validation import as_array
+from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
+from hexmend.mesh.validation import as_array, as_bools
 
 
 def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
@@ -45,14 +46,48 @@ def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = 
     return mesh.replace(pinned=pinned)
 
 
-def with_sets_fixed(mesh: Mesh, *names: str) -> Mesh:
-    """Return the mesh with the nodes of named sets pinned as well.
+def fix(mesh: Mesh, *nodes: str | int | Sequence[int] | np.ndarray) -> Mesh:
+    """Return the mesh with nodes fixed: they stay where they are even if the boundary slides.
 
     Parameters
     ----------
     mesh : Mesh
-    names : str
-        Names of node sets, or of hex or side sets, of which all nodes are pinned.
+        It is not changed.
+    *nodes : str, int, (k,) int or (n,) bool
+        Names of sets of nodes, hexes or sides, of which all nodes are fixed; numbers of nodes; marks of nodes.
+
+    Returns
+    -------
+    Mesh
+        Formats that have marks of fixed nodes keep them.
+
+    Raises
+    ------
+    MeshError
+        For a set that does not exist (the message suggests the nearest) and a node that does not exist.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> mesh = make("cube", size=27).replace(node_sets={"middle": np.array([21, 22])})
+    >>> fixed = fix(mesh, "middle")
+    >>> int(mesh.free.sum()), int(fixed.free.sum()), fixed.fixed_sets
+    (8, 6, ('middle',))
+    """
+    for one in nodes:
+        mesh = with_pinned(mesh, _numbers(mesh, one), True)
+    return mesh
+
+
+def unfix(mesh: Mesh, *nodes: str | int | Sequence[int] | np.ndarray) -> Mesh:
+    """Return the mesh with nodes released that `fix`, or the mesh's file, has fixed.
+
+    Nodes of the boundary stay fixed unless the boundary slides.
+
+    Parameters
+    ----------
+    mesh, *nodes
+        As for `fix`; without any name or number all nodes are released.
 
     Returns
     -------
@@ -61,27 +96,55 @@ def with_sets_fixed(mesh: Mesh, *names: str) -> Mesh:
     Raises
     ------
     MeshError
-        For a set that does not exist.
+        See `fix`.
 
     Examples
     --------
     >>> from hexmend.gallery import make
-    >>> mesh = make("cube", size=27).replace(node_sets={"middle": np.array([21, 22])})
-    >>> int(with_sets_fixed(mesh, "middle").free.sum()), int(mesh.free.sum())
-    (6, 8)
+    >>> int(unfix(fix(make("cube", size=27), [21, 22]), 21).free.sum())
+    7
     """
-    for name in names:
-        mesh = with_pinned(mesh, nodes_in_set(mesh, name))
+    if not nodes:
+        return mesh.replace(pinned=None)
+    for one in nodes:
+        mesh = with_pinned(mesh, _numbers(mesh, one), False)
     return mesh
 
 
-def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:
-    """Return the mesh with all nodes pinned but those of some hexes and of rings of hexes around them.
+def fixed_sets(mesh: Mesh) -> tuple[str, ...]:
+    """List the sets of a mesh whose nodes all stay where they are, by `fix`, by rules or by the file.
+
+    Sets of the boundary are among them only if their nodes stay even where the boundary slides.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    tuple of str
+        In the order of `hexmend.mesh.rules.named_sets.set_names`; sets without a node are left out.
+    """
+    nodes = {name: nodes_in_set(mesh, name) for name in set_names(mesh)}
+    return tuple(name for name, members in nodes.items() if len(members) and mesh.immovable[members].all())
+
+
+def _numbers(mesh: Mesh, nodes: str | int | Sequence[int] | np.ndarray) -> np.ndarray:
+    """Return the numbers of nodes that are given by the name of a set, by numbers or by marks."""
+    if isinstance(nodes, str):
+        return nodes_in_set(mesh, nodes)
+    given = as_array(nodes, "nodes")
+    return np.flatnonzero(as_bools(given, "nodes", mesh.n_nodes)) if given.dtype == bool else given
+
+
+def fix_outside(mesh: Mesh, hexes: Sequence[int] | np.ndarray, rings: int = 0) -> Mesh:
+    """Return the mesh with all nodes fixed but those of some hexes and of rings of hexes around them.
 
     Parameters
     ----------
     mesh : Mesh
     hexes : (k,) int
+        Such as `mesh.region("inverted")`.
     rings : int
         Number of rings; each adds the hexes that share a node with those before.
 
@@ -100,3 +163,6 @@ def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:
     if rules.free is not None:  # a rule frees no node outside the region
         mesh = mesh.with_node_rules(replace(rules, free=rules.free & region))
     return mesh.replace(pinned=~region if mesh.pinned is None else mesh.pinned | ~region)
+
+
+__getattr__ = exports(__name__)

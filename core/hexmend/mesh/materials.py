@@ -125,7 +125,7 @@ def find_materials(
 
 def _by_data(hex_data: Mapping[str, np.ndarray], m: int) -> tuple[tuple[str, ...], np.ndarray] | None:
     """Materials by the first data with a usual name and two or more whole numbers, fewer than half the hexes."""
-    names = {"".join(filter(str.isalnum, name.lower())): name for name in reversed(hex_data)}
+    names = {"".join(filter(str.isalnum, name.lower())): name for name in reversed(list(hex_data))}
     for name in _DATA_NAMES:
         if name not in names:
             continue
@@ -155,7 +155,7 @@ def _by_sets(sets: Mapping[str, np.ndarray], m: int) -> tuple[tuple[str, ...], n
         if chosen is None:
             return None
         names, of_hex = tuple(names[k] for k in chosen), _numbered([members[k] for k in chosen], m)
-    return (names, of_hex) if len(names) > 1 else None
+    return None if of_hex is None or len(names) < 2 else (names, of_hex)
 
 
 def _numbered(members: Sequence[np.ndarray], m: int) -> np.ndarray | None:

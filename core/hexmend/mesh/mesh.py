@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, overload
 
 import numpy as np
 
@@ -15,7 +17,8 @@ from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh_motion import SHARED, MeshMotion, TargetSurface
 from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.validation import check_finite, points_like
-from hexmend.terminal_text import count_phrase
+from hexmend.summary import Summary
+from hexmend.terminal_text import count_phrase, printable
 
 __all__ = ["Mesh", "TargetSurface"]
 
@@ -23,7 +26,7 @@ __all__ = ["Mesh", "TargetSurface"]
 _OF_MATERIALS = {"hex_sets", "hex_data", "field_data"}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Mesh(MeshMotion):
     """Immutable hexahedral mesh; a change returns a copy that shares everything else.
 
@@ -78,13 +81,77 @@ class Mesh(MeshMotion):
         """Mean edge length; see `hexmend.mesh.edge_length.mean_edge_length`."""
         return mean_edge_length(self.points, self.hexes)
 
-    def quality(self, metric: str = "q") -> np.ndarray:
-        """Return the values of a metric of `hexmend.METRICS`, (m,) float64; see `hexmend.quality.metric_values`."""
-        return hook("quality")(self, metric)
+    @overload
+    def quality(self) -> Summary: ...
+
+    @overload
+    def quality(self, metric: str) -> np.ndarray: ...
+
+    def quality(self, metric: str | None = None) -> Summary | np.ndarray:
+        """Return the values of a metric, or a summary of the mesh if none is named.
+
+        Parameters
+        ----------
+        metric : str, optional
+            Name in `hexmend.METRICS`, such as "q" or "scaled_jacobian"; underscores count as dashes.
+
+        Returns
+        -------
+        Summary or (m,) float64
+            Without a metric `hexmend.summarise` of the mesh, else a value for each hex.
+
+        Raises
+        ------
+        ParameterError
+            For a metric that does not exist; the message suggests the nearest.
+        """
+        return hook("summary")(self) if metric is None else hook("quality")(self, metric)
 
     def worst(self, count: int = 10, metric: str = "q") -> np.ndarray:
         """Return the numbers of the worst hexes by a metric, worst first; see `hexmend.quality.worst_hexes`."""
         return hook("worst_hexes")(self, count, metric)
+
+    def region(
+        self,
+        *names: str,
+        hexes: Sequence[int] | np.ndarray | None = None,
+        box: Sequence[Sequence[float]] | np.ndarray | None = None,
+        rings: int = 0,
+    ) -> np.ndarray:
+        """Return the numbers of the hexes of a region, ascending; see `hexmend.quality.selection.region`.
+
+        Parameters
+        ----------
+        *names : str
+            Names of materials and of sets, or "inverted"; the hexes of all of them together.
+        hexes : (k,) int or (m,) bool, optional
+            Only hexes among these.
+        box : ((x, y, z), (x, y, z)), optional
+            Only hexes whose centre is in the box between two opposite corners.
+        rings : int
+            Rings of neighbours to be added, hexes that share a node with those before.
+
+        Returns
+        -------
+        (k,) int64
+            An index for `quality(metric)`, `hexes` and `hex_data`, and an argument of `plot` and `hexmend.fix_outside`.
+        """
+        return hook("region")(self, *names, hexes=hexes, box=box, rings=rings)
+
+    @property
+    def fixed_sets(self) -> tuple[str, ...]:
+        """Names of the sets whose nodes all stay where they are, even if the boundary slides; see `hexmend.fix`."""
+        return hook("fixed_sets")(self)
+
+    def plot(self, metric: str = "q", *, hexes: Sequence[int] | np.ndarray | None = None, **options: Any) -> Any:
+        """Show the mesh in the viewer's colours by PyVista; see `hexmend.notebook.plot`."""
+        return hook("plot")(self, metric, hexes=hexes, **options)
+
+    def __repr__(self) -> str:
+        name = f" {printable(self.name)}" if self.name else ""
+        hexes, nodes = count_phrase(self.n_hexes, "hex", "hexes"), count_phrase(self.n_nodes, "node")
+        known = self.__dict__.get("_inverted")  # once they have been counted
+        return f"<Mesh{name}: {hexes}, {nodes}{'' if known is None else f', {known:,} inverted'}>"
 
     def _repr_html_(self) -> str:
         """Return the HTML that a notebook shows."""
@@ -172,7 +239,7 @@ class Mesh(MeshMotion):
         copy._set_checked(changes)
         return copy
 
-    def rebuilt(self, **changes: object) -> Mesh:
+    def rebuilt(self, **changes: Any) -> Mesh:
         """Return a new mesh with other values of any fields, points and hexes included; the rest is taken over.
 
         Other points may be other nodes: a linear motion is taken over only without them.

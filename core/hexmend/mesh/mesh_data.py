@@ -65,7 +65,7 @@ class MeshData:
         self._set(hexes=self.topology.hexes)  # shared by meshes that are derived from each other
         self._set_checked(self._values())
 
-    def _values(self) -> dict[str, object]:
+    def _values(self) -> dict[str, Any]:
         """Values of the fields that the constructor takes."""
         return {one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init}
 

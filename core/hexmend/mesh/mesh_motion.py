@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -264,7 +264,7 @@ class MeshMotion(MeshData):
             fixed = with_ties_fixed(self.linear_motion, fixed)
         return self._copy("materials", "immovable", fixed=as_immutable(fixed), _surface=self.surface_points)
 
-    def with_rules(self: M, **rules: object) -> M:
+    def with_rules(self: M, **rules: Any) -> M:
         """Return the mesh with rules of motion by names of sets: fields of `hexmend.mesh.rules.MotionRules`.
 
         They hold for runs on this mesh; no file keeps them. See `hexmend.mesh.rules.resolution.with_rules`.

@@ -1,4 +1,4 @@
-"""Tags: named groups of hexes, stored as the hex sets of a mesh."""
+"""Named sets of a mesh, and tags: sets of hexes that grow and shrink."""
 
 from __future__ import annotations
 
@@ -6,8 +6,74 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from hexmend.errors import MeshError, ParameterError
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import suggestion
+
+
+def add_set(
+    mesh: Mesh,
+    name: str,
+    *,
+    hexes: Sequence[int] | np.ndarray | None = None,
+    nodes: Sequence[int] | np.ndarray | None = None,
+    sides: Sequence[Sequence[int]] | np.ndarray | None = None,
+) -> Mesh:
+    """Return the mesh with another named set, or with other members of the one of that name and kind.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        It is not changed.
+    name : str
+    hexes : (k,) int, optional
+        Numbers of hexes, such as `mesh.worst(10)`.
+    nodes : (k,) int, optional
+        Numbers of nodes.
+    sides : (k, 2) int, optional
+        The hex and the row of `hexmend.mesh.hexahedron.FACES` of each face.
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    MeshError
+        For members that do not exist.
+    ParameterError
+        Unless hexes, nodes or sides are given, one of them.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> mesh = add_set(make("cube", size=27), "corner", hexes=[0, 3])
+    >>> mesh.region("corner")
+    array([0, 3])
+    """
+    given = {"hex_sets": hexes, "node_sets": nodes, "side_sets": sides}
+    kinds = [kind for kind, members in given.items() if members is not None]
+    if len(kinds) != 1:
+        raise ParameterError(f"set {name!r}: expected its members by one of hexes=, nodes= and sides=")
+    return mesh.replace(**{kinds[0]: {**getattr(mesh, kinds[0]), name: given[kinds[0]]}})
+
+
+def remove_set(mesh: Mesh, name: str) -> Mesh:
+    """Return the mesh without its sets of hexes, nodes and sides of a name.
+
+    Raises
+    ------
+    MeshError
+        For a set that does not exist; the message suggests the nearest.
+    """
+    kinds = [kind for kind in ("hex_sets", "node_sets", "side_sets") if name in getattr(mesh, kind)]
+    if not kinds:
+        names = [*mesh.hex_sets, *mesh.node_sets, *mesh.side_sets]
+        known = ", ".join(map(repr, names)) or "none"
+        raise MeshError(f"there is no set {name!r}: {suggestion(name, names)}there are {known}")
+    changes = {kind: {key: one for key, one in getattr(mesh, kind).items() if key != name} for kind in kinds}
+    return mesh.replace(**changes)
 
 
 def with_tag(mesh: Mesh, name: str, hexes: Sequence[int] | np.ndarray, on: bool = True) -> Mesh:

@@ -12,7 +12,7 @@ from hexmend.errors import MeshError
 from hexmend.mesh.size_limits import MAX_HEXES, MAX_NODES
 
 # Minimum and maximum of each immutable array that was checked, by its `id`, for as long as the array lives.
-_known_ranges: dict[int, tuple[weakref.ref, int, int]] = {}
+_known_ranges: dict[int, tuple[weakref.ref[np.ndarray], int, int]] = {}
 
 
 def as_array(values: object, label: str) -> np.ndarray:
@@ -258,8 +258,8 @@ def _range(numbers: np.ndarray) -> tuple[int, int]:
         return 0, -1
     lowest, highest = int(numbers.min()), int(numbers.max())
     if is_immutable(numbers):
-        key = id(numbers)
-        _known_ranges[key] = weakref.ref(numbers, lambda _, pop=_known_ranges.pop: pop(key, None)), lowest, highest
+        key, pop = id(numbers), _known_ranges.pop  # at the end of the program the table may be gone
+        _known_ranges[key] = weakref.ref(numbers, lambda _: pop(key, None)), lowest, highest
     return lowest, highest
 
 

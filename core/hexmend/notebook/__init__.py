@@ -1,20 +1,22 @@
-"""Meshes and results of runs in notebooks.
+"""Meshes and results of runs in notebooks, and windows that show a mesh.
 
 The core draws no meshes. Distributions that do provide functions in the entry-point group `hexmend.pictures`: `still`
-is a `Still`, `view` a `View`.
+is a `Still`, `view` and `plot` are a `View`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
+
+import numpy as np
 
 from hexmend.errors import HexmendError
 from hexmend.iteration import Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.notebook.html_tables import of_mesh, of_result
 
-__all__ = ["Still", "View", "html", "view"]
+__all__ = ["Still", "View", "html", "plot", "view"]
 
 #: Draws a mesh with (width, height) pixels as the bytes of a PNG; raises `HexmendError` if it cannot.
 Still = Callable[[Mesh, tuple[int, int]], bytes]
@@ -65,6 +67,39 @@ def view(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
     return _provided("view")(mesh, metric, **options)
 
 
+def plot(mesh: Mesh, metric: str = "q", *, hexes: Sequence[int] | np.ndarray | None = None, **options: Any) -> Any:
+    """Show a mesh in the viewer's colours by PyVista: inverted hexes are magenta.
+
+    A script opens a window and continues when it is closed; a notebook shows a view that can be turned.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    metric : str
+        Name in `hexmend.METRICS` of the metric that colours it; underscores count as dashes.
+    hexes : (k,) int or (m,) bool, optional
+        Only these hexes, such as `mesh.region("inverted", rings=1)`; all by default.
+    **options
+        `show=False` returns the `pyvista.Plotter` for more to be added. `off_screen=True`, `window_size` and others of
+        `pyvista.Plotter` are passed to it; `screenshot="mesh.png"` and others to its method `show`.
+
+    Returns
+    -------
+    object
+        What `pyvista.Plotter.show` returns, or the plotter.
+
+    Raises
+    ------
+    ParameterError
+        For a metric that does not exist.
+    MeshError
+        For hexes that do not exist.
+    HexmendError
+        If the viewer is not installed, or there is no screen for a window.
+    """
+    return _provided("plot")(mesh, metric, hexes=hexes, **options)
+
+
 def _still(mesh: Mesh) -> tuple[bytes | None, str]:
     """Return a picture, or the reason why there is none."""
     try:
@@ -76,10 +111,10 @@ def _still(mesh: Mesh) -> tuple[bytes | None, str]:
 def _provided(name: str) -> Callable[..., Any]:
     from importlib.metadata import entry_points
 
-    reason = "the viewer, which draws meshes, is not installed"
+    reason, extras = "the viewer, which draws meshes, is not installed", "app" if name == "plot" else "app,notebook"
     for entry in entry_points(group="hexmend.pictures", name=name):
         try:
             return entry.load()
         except ImportError as error:  # the libraries that it draws with are an extra
             reason = f"{reason} ({error})"
-    raise HexmendError(f'{reason}: pip install "hexmend[app,notebook]"')
+    raise HexmendError(f'{reason}: pip install "hexmend[{extras}]"')

@@ -8,6 +8,7 @@ from __future__ import annotations
 from base64 import b64encode
 from collections.abc import Sequence
 from html import escape
+from typing import Any
 
 from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Result
@@ -109,6 +110,6 @@ def _line(figure: Quantity, result: Result) -> str:
 
 
 def _sparkline(key: str, result: Result) -> str:
-    values: Sequence[float | int | None] = [row[key] for row in result.history]
+    values: Sequence[Any] = [row[key] for row in result.history]
     breaks = objective_changes(result.history) if key == "objective" else ()
     return sparkline(values, f"{HISTORY[key].label} by iteration", result.kept, breaks)

@@ -21,6 +21,7 @@ from hexmend.padding.padded_mesh import padded_mesh
 from hexmend.padding.regions import around_sheet, set_sheet, whole_sheet
 from hexmend.quality import Summary, locked_hexes, measure, summarise
 from hexmend.run import smooth
+from hexmend.run.progress import ProgressOption
 from hexmend.terminal_text import count_phrase
 
 #: Hexes around which `pad` can lay a layer.
@@ -108,6 +109,7 @@ def pad(
     thickness: float | None = None,
     *,
     mend: bool = True,
+    progress: ProgressOption = None,
     watch: Callable[[Iteration], Any] | None = None,
 ) -> Padding:
     """Lay a layer of hexes under the boundary of a mesh, and mend it with the boundary fixed.
@@ -131,8 +133,8 @@ def pad(
         default the layer begins with a third of the edges behind it and takes the shape that is best for the hexes.
     mend : bool
         Mend the mesh by the default method; else hexes may be inverted.
-    watch : callable, optional
-        Called with each iteration; mending stops if it returns False.
+    progress, watch
+        As for `hexmend.smooth`.
 
     Returns
     -------
@@ -140,12 +142,10 @@ def pad(
 
     Raises
     ------
-    MeshError
-        For a mesh that cannot be padded, a set that does not exist, and a layer that cannot be closed.
+    MeshError, FileError
+        For a mesh that cannot be padded or read, a set that does not exist, and a layer that cannot be closed.
     ParameterError
         For a thickness that is not positive, and where both a set and hexes to be enclosed are named.
-    FileError
-        If the file cannot be read.
 
     Examples
     --------
@@ -157,9 +157,10 @@ def pad(
     _check_choices(name, around, rings, thickness)
     mesh = mesh if isinstance(mesh, Mesh) else read(mesh)
     before, padded = summarise(mesh), padded_mesh(_sheet(mesh, name, around, rings), thickness)
-    layer, settings = np.arange(mesh.n_hexes, padded.n_hexes), {} if thickness is None else {"target": "given-shape"}
+    settings: dict[str, Any] = {} if thickness is None else {"target": "given-shape"}
+    layer = np.arange(mesh.n_hexes, padded.n_hexes)
     padding = Padding(padded, layer, before, summarise(padded), settings=settings, asked_thickness=thickness)
-    return padding.mended(smooth(padded, watch=watch, **settings)) if mend else padding
+    return padding.mended(smooth(padded, progress=progress, watch=watch, **settings)) if mend else padding
 
 
 def _check_choices(name: str | None, around: str | None, rings: int, thickness: float | None) -> None:

@@ -11,9 +11,11 @@ from hexmend.kernels import elements
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.validation import as_bools, as_hexes, as_points
+from hexmend.quantity import format_quality
+from hexmend.terminal_text import count_phrase
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ElementQuality:
     """Quality of every hex of a mesh.
 
@@ -44,8 +46,13 @@ class ElementQuality:
 
     @cached_property
     def n_inverted(self) -> int:
-        """Number of inverted hexes."""
+        """Number of hexes that are marked in `inverted`; the figure `inverted` of summaries and iterations."""
         return int(np.count_nonzero(self.inverted))
+
+    def __repr__(self) -> str:
+        least = f"q min {format_quality(self.q.min())}" if len(self.q) else "no values"
+        hexes = count_phrase(len(self.q), "hex", "hexes")
+        return f"<ElementQuality of {hexes}: {self.n_inverted:,} inverted; {least}>"
 
 
 def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
@@ -115,7 +122,7 @@ def locked_tetrahedra(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, 
 
 def locked_hexes(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: np.ndarray) -> np.ndarray:
     """True for each hex with a tetrahedron of `locked_tetrahedra`, (m,) bool; no untangler leaves fewer inverted."""
-    return locked_tetrahedra(points, hexes, fixed, inverted).any(axis=1)
+    return np.any(locked_tetrahedra(points, hexes, fixed, inverted), axis=1)
 
 
 def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray | None = None) -> np.ndarray:

@@ -74,7 +74,23 @@ def worst_hexes(mesh: Mesh, count: int = 10, metric: str = "q") -> np.ndarray:
     return rank_worst(found, quality, _COUNT.check(count), declared.better)
 
 
-def _of(mesh: Mesh, metric: str) -> tuple[Metric, np.ndarray, ElementQuality]:
-    declared = METRICS[str(metric).replace("_", "-")]
+def find_metric(name: str) -> Metric:
+    """Return the metric of a name; underscores count as dashes. Raises `ParameterError` for an unknown name.
+
+    >>> find_metric("scaled_jacobian").title
+    'Scaled Jacobian'
+    """
+    return METRICS[str(name).replace("_", "-")]
+
+
+def measure_mesh(mesh: Mesh) -> ElementQuality:
+    """Measure the quality of every hex; the mesh remembers the number of inverted hexes for its representation."""
     quality = measure(mesh.points, mesh.hexes)
+    mesh._set(_inverted=quality.n_inverted)
+    return quality
+
+
+def _of(mesh: Mesh, metric: str) -> tuple[Metric, np.ndarray, ElementQuality]:
+    declared = find_metric(metric)
+    quality = measure_mesh(mesh)
     return declared, declared.values(mesh, quality), quality

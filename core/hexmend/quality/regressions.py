@@ -73,7 +73,7 @@ def describe_regressions(before: Summary, after: Summary, target_q: tuple[float,
     names = regressions(before, after, target_q)
     keys = [REGRESSION_KEYS[name] for name in names if name != Q_OF_TARGET]
     changes = [f"{SUMMARY_QUANTITIES[key].label} {_change(getattr(before, key), getattr(after, key))}" for key in keys]
-    if Q_OF_TARGET in names:
+    if target_q is not None and Q_OF_TARGET in names:
         changes.append(f"q of target min {_change(*target_q)}")
     return f"Worse than at the start: {', '.join(changes)}." if changes else ""
 

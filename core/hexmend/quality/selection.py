@@ -1,12 +1,21 @@
-"""Selection of hexes by the name of a set."""
+"""Selection of hexes: by the name of a set, and by names, numbers and a box together."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.errors import MeshError
+from hexmend.mesh.fields import as_set
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality.measure import measure
+from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
+from hexmend.mesh.validation import as_array, as_bools, as_reals
+from hexmend.parameters import Parameter, suggestion
+from hexmend.quality.mesh_quality import measure_mesh
+
+_RINGS = Parameter("rings", int, 0, 0, None, None, "", "")
 
 
 def hexes_in_set(mesh: Mesh, name: str) -> np.ndarray:
@@ -30,6 +39,94 @@ def hexes_in_set(mesh: Mesh, name: str) -> np.ndarray:
     if name in mesh.hex_sets:
         return np.asarray(mesh.hex_sets[name])
     if name == "inverted":
-        return np.flatnonzero(measure(mesh.points, mesh.hexes).inverted)
+        return np.flatnonzero(measure_mesh(mesh).inverted)
     known = ", ".join(map(repr, mesh.hex_sets)) or "none"
-    raise MeshError(f"there is no element set {name!r}: there are {known} and 'inverted'")
+    near = suggestion(name, [*mesh.hex_sets, "inverted"])
+    raise MeshError(f"there is no element set {name!r}: {near}there are {known} and 'inverted'")
+
+
+def region(
+    mesh: Mesh,
+    *names: str,
+    hexes: Sequence[int] | np.ndarray | None = None,
+    box: Sequence[Sequence[float]] | np.ndarray | None = None,
+    rings: int = 0,
+) -> np.ndarray:
+    """Find the hexes of a region.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    *names : str
+        Names of element sets, materials, and sets of sides, nodes or quads, or "inverted"; the hexes of all of them
+        together. A set of sides has the hexes of its faces, another set those with a node in it. All hexes by default.
+    hexes : (k,) int or (m,) bool, optional
+        Only hexes among these, by number or as marks.
+    box : ((x, y, z), (x, y, z)), optional
+        Only hexes whose centre, the mean of the eight nodes, is in the box between two opposite corners; in the mesh's
+        unit of length.
+    rings : int
+        Rings of neighbours to be added at the end: each adds the hexes that share a node with those before.
+
+    Returns
+    -------
+    (k,) int64
+        Numbers of hexes, ascending, each once.
+
+    Raises
+    ------
+    MeshError
+        For a name that the mesh does not have (the message suggests the nearest), a hex that does not exist, and a box
+        that is no two points.
+    ParameterError
+        For rings that are no whole number from 0.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> mesh = make("cube", size=27)
+    >>> region(mesh, box=[(0, 0, 0), (0.5, 0.5, 0.2)])
+    array([0, 1, 3, 4])
+    >>> region(mesh, hexes=[0], rings=1).size
+    8
+    """
+    marks = np.zeros(mesh.n_hexes, dtype=bool) if names else np.ones(mesh.n_hexes, dtype=bool)
+    for name in names:
+        marks[_hexes_of(mesh, name)] = True
+    if hexes is not None:
+        given = as_array(hexes, "hexes")
+        if given.dtype == bool:
+            marks &= as_bools(given, "hexes", mesh.n_hexes)
+        else:
+            marks &= mask(as_set(np.atleast_1d(given), "hexes", mesh.n_hexes), mesh.n_hexes)
+    if box is not None:
+        low, high = _box(box)
+        centres = mesh.points[mesh.hexes].mean(axis=1)
+        marks &= ((centres >= low) & (centres <= high)).all(axis=1)
+    found = np.flatnonzero(marks)
+    rings = _RINGS.check(rings)
+    return np.flatnonzero(mesh.topology.hexes_around(found, rings)) if rings else found
+
+
+def _hexes_of(mesh: Mesh, name: str) -> np.ndarray:
+    """Return the hexes of a name of `region`."""
+    materials = mesh.materials
+    if name in mesh.hex_sets or name == "inverted":
+        return hexes_in_set(mesh, name)
+    if materials is not None and name in materials.names:
+        return np.flatnonzero(materials.of_hex == materials.names.index(name))
+    if name in mesh.side_sets:
+        return np.unique(np.asarray(mesh.side_sets[name])[:, 0])
+    known = [*dict.fromkeys([*set_names(mesh), *(materials.names if materials is not None else ())]), "inverted"]
+    if name not in known:
+        listed = ", ".join(map(repr, known))
+        raise MeshError(f"there is no set or material {name!r}: {suggestion(name, known)}expected one of {listed}")
+    return np.flatnonzero(mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.hexes].any(axis=1))
+
+
+def _box(box: Sequence[Sequence[float]] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lowest and the highest corner of a box."""
+    corners = as_reals(box, "box")
+    if corners.shape != (2, 3) or not np.isfinite(corners).all():
+        raise MeshError(f"box = {box!r}: expected two opposite corners, such as ((0, 0, 0), (1, 1, 1))")
+    return corners.min(axis=0), corners.max(axis=0)

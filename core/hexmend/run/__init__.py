@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
-from hexmend.aliases import exports
+from hexmend.aliases import exports, old_keywords
 from hexmend.errors import ParameterError
 from hexmend.iteration import Iteration, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.parameters import current_name, declared, hint
+from hexmend.parameters import current_name, declared, suggestion
+from hexmend.run.progress import ProgressOption, progress_display
 from hexmend.run.recipe import Recipe
 from hexmend.run.run import Run
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
@@ -24,25 +25,26 @@ _RULES = tuple(one.name for one in dataclasses.fields(MotionRules))
 __all__ = ["Run", "StoppingCriteria", "iterate", "smooth"]
 
 
+@old_keywords("iterate")
 def iterate(
     mesh: Mesh | str | os.PathLike[str],
-    smoother: Smoother | Recipe | str = DEFAULT_METHOD,
+    method: Smoother | Recipe | str = DEFAULT_METHOD,
     stop: StoppingCriteria | None = None,
     **settings: Any,
 ) -> Run:
-    """Run a smoother or a recipe step by step.
+    """Run a method or a recipe step by step.
 
     Parameters
     ----------
     mesh : Mesh or path
         A mesh, which is not changed, or the path of a file.
-    smoother : Smoother, Recipe or str
-        A smoother, the name of one to be used with its defaults, or a recipe.
+    method : Smoother, Recipe or str
+        A method, the name of one to be used with its defaults, or a recipe.
     stop : StoppingCriteria, optional
         Limits; for a recipe they replace those of every stage.
     **settings
         Parameters of the method and limits by name, such as `boundary="slide", max_iterations=50`. They replace those
-        of `smoother` and `stop`. A recipe takes only limits, which hold for every stage. Rules of motion by name, such
+        of `method` and `stop`. A recipe takes only limits, which hold for every stage. Rules of motion by name, such
         as `interfaces="slide", fix=["inlet"]`, hold in addition to those of the mesh: see
         `hexmend.mesh.rules.MotionRules`.
 
@@ -54,7 +56,8 @@ def iterate(
     Raises
     ------
     ParameterError
-        For a name that neither the method nor `StoppingCriteria` has, and for a value out of bounds.
+        For a method that does not exist, a name that neither the method nor `StoppingCriteria` nor `MotionRules` has,
+        and a value out of bounds; the message suggests the nearest name and lists all.
     FileError, MeshError
         If the file cannot be read.
 
@@ -62,14 +65,14 @@ def iterate(
     --------
     >>> import hexmend as hx
     >>> mesh = hx.gallery.make("cube", size=64, scramble=0.3)
-    >>> for it in hx.iterate(mesh, hx.LocalSteepestDescent(), max_iterations=3):
-    ...     print(it.number, it.quality.n_inverted == 0)
-    1 True
-    2 True
-    3 True
+    >>> for it in hx.iterate(mesh, "local-sd", max_iterations=3):
+    ...     print(it.number, it.inverted)
+    1 0
+    2 0
+    3 0
     """
     given = {name: settings.pop(name) for name in _RULES if name in settings}
-    smoother, stop = _configured(smoother, stop, settings)
+    smoother, stop = _configured(method, stop, settings)
     mesh = _read(mesh)
     if given:
         rules = mesh.node_rules.rules
@@ -80,20 +83,26 @@ def iterate(
     return Run(mesh, smoother, stop)
 
 
+@old_keywords("smooth")
 def smooth(
     mesh: Mesh | str | os.PathLike[str],
-    smoother: Smoother | Recipe | str = DEFAULT_METHOD,
+    method: Smoother | Recipe | str = DEFAULT_METHOD,
     stop: StoppingCriteria | None = None,
     *,
+    progress: ProgressOption = None,
     watch: Callable[[Iteration], Any] | None = None,
     **settings: Any,
 ) -> Result:
-    """Run a smoother or a recipe to its end.
+    """Run a method or a recipe to its end.
 
     Parameters
     ----------
-    mesh, smoother, stop, **settings
+    mesh, method, stop, **settings
         See `iterate`.
+    progress : bool or callable, optional
+        By default a run of more than half a second shows a bar on a terminal (on standard error) and in a notebook.
+        True shows its progress elsewhere too, a line every few seconds; False shows nothing; a function is called with
+        each iteration.
     watch : callable, optional
         Called with each iteration; the run is stopped if it returns False.
 
@@ -113,10 +122,15 @@ def smooth(
     >>> result.outcome.name, round(result.after.q_min, 3)
     ('CONVERGED', 1.0)
     """
-    run = iterate(mesh, smoother, stop, **settings)
-    for iteration in run:
-        if watch is not None and watch(iteration) is False:
-            run.close()
+    display = progress_display(progress)
+    run = iterate(mesh, method, stop, **settings)
+    try:
+        for iteration in run:
+            display.show(run)
+            if watch is not None and watch(iteration) is False:
+                run.close()
+    finally:
+        display.close()
     return run.result()
 
 
@@ -131,11 +145,10 @@ def _read(mesh: Mesh | str | os.PathLike[str]) -> Mesh:
 
 
 def _configured(
-    smoother: Smoother | Recipe | str, stop: StoppingCriteria | None, settings: dict[str, Any]
+    method: Smoother | Recipe | str, stop: StoppingCriteria | None, settings: dict[str, Any]
 ) -> tuple[Smoother | Recipe, StoppingCriteria | None]:
     """Return the smoother or recipe and its limits, with the settings applied."""
-    if isinstance(smoother, str):
-        smoother = METHODS[smoother]()
+    smoother = METHODS[method]() if isinstance(method, str) else method
     if not isinstance(smoother, Smoother | Recipe):
         raise TypeError(f"{type(smoother).__name__} is not a method: expected a hexmend.Smoother, a Recipe or a name")
     names = sorted(one.name for one in declared(StoppingCriteria))
@@ -143,13 +156,23 @@ def _configured(
     values = {current_name(type(smoother), name): value for name, value in settings.items()}
     for name in values:
         if name not in names and name not in own:
-            raise ParameterError(f"{smoother.name} has no parameter {name!r}: {hint(name, [*own, *names])}")
+            raise _unknown(smoother, name, [*own, *names, *_RULES])
     limits_given = {name: values.pop(name) for name in names if name in values}
     if values:
         smoother = dataclasses.replace(smoother, **values)
     if limits_given and isinstance(smoother, Recipe) and stop is None:
         return smoother.limited(**limits_given), None
     return smoother, dataclasses.replace(stop or StoppingCriteria(), **limits_given) if limits_given else stop
+
+
+def _unknown(smoother: Smoother | Recipe, name: str, known: Sequence[str]) -> ParameterError:
+    """Make the error for a setting that a method does not have."""
+    others = [one.name for one in METHODS.values() if name in {parameter.name for parameter in declared(one)}]
+    if others and isinstance(smoother, Recipe):
+        advice = "set it for the methods of its stages; "
+    else:
+        advice = f"it is a parameter of {', '.join(others)}; " if others else suggestion(name, known)
+    return ParameterError(f"{smoother.name} has no parameter {name!r}: {advice}known: {', '.join(known)}")
 
 
 __getattr__ = exports(__name__)

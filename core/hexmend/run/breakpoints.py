@@ -76,8 +76,8 @@ class Breakpoints:
 
     def _hits(self, before: Iteration, now: Iteration, unit: float) -> Iterator[Hit]:
         was, q = before.quality.q, now.quality.q
-        inverted = np.flatnonzero(now.quality.inverted & ~before.quality.inverted) if self.inverts else ()
-        if len(inverted):
+        inverted = np.flatnonzero(now.quality.inverted & ~before.quality.inverted)
+        if self.inverts and inverted.size:
             more = f" and {inverted.size - 1:,} more" if inverted.size > 1 else ""
             yield Hit(f"Hex {inverted[0]}{more} inverted", tuple(inverted.tolist()))
         if self.q_min_falls and q.min() < was.min():

@@ -78,4 +78,7 @@ def _is_free(mesh: Mesh) -> np.ndarray:
 
 def _inner_nodes(mesh: Mesh) -> np.ndarray:
     """Nodes of the interfaces that are not on the boundary, (k,) int64."""
-    return np.flatnonzero(mesh.materials.interface_nodes & ~mesh.topology.boundary)
+    materials = mesh.materials
+    if materials is None:
+        return np.empty(0, np.int64)
+    return np.flatnonzero(materials.interface_nodes & ~mesh.topology.boundary)

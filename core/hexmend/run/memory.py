@@ -160,7 +160,7 @@ def _of_control_groups(root: Path) -> Iterator[int]:
     for line in _text(root / "proc/self/cgroup").splitlines():
         _, controllers, path = line.split(":", 2)
         if not controllers:
-            mounts = ("sys/fs/cgroup", "sys/fs/cgroup/unified")
+            mounts: tuple[str, ...] = ("sys/fs/cgroup", "sys/fs/cgroup/unified")
             names = ("memory.max", "memory.current", "inactive_file")
         elif "memory" in controllers.split(","):
             mounts = ("sys/fs/cgroup/memory",)

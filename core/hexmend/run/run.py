@@ -131,7 +131,7 @@ class Run(Iterator[Iteration]):
 
     def close(self) -> None:
         """End the run after the newest iteration; it keeps its result."""
-        if self.last.number > self.history[-1]["iteration"]:  # Ctrl-C came before the iteration was recorded
+        if self.last.number >= len(self.history):  # Ctrl-C came before the iteration was recorded
             self.history.append(self.last.row())
         if self.outcome is None:
             if self._stage_run.outcome is None:
@@ -179,11 +179,10 @@ class Run(Iterator[Iteration]):
     @property
     def recipe(self) -> Recipe:
         """Recipe that repeats the run, with the stages still to come."""
-        changed = [one.as_stage(cut=later.number == one.number) for one, later in pairwise(self._stage_runs)]
-        done = [stage for stage in changed if stage is not None]
+        own = [one.as_stage(cut=later.number == one.number) for one, later in pairwise(self._stage_runs)]
+        done = [stage for stage in (*own, self._stage_run.as_stage()) if stage is not None]
         title = self.smoother.title if isinstance(self.smoother, Recipe) else ""
-        stages = *done, self._stage_run.as_stage(), *self._remaining_stages
-        return Recipe.of(*stages, title=title, rules=self.mesh.node_rules.rules)
+        return Recipe.of(*done, *self._remaining_stages, title=title, rules=self.mesh.node_rules.rules)
 
     @property
     def message(self) -> str:
@@ -227,6 +226,7 @@ class Run(Iterator[Iteration]):
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._stage_runs) > 1
         mesh = self._result_mesh
+        mesh._set(_inverted=after.inverted)  # for its representation
         volumes = volume_changes(self.mesh, mesh)
         walls = self._shapes.reports(self.stage.smoother, self.best.points)
         return Result(
@@ -268,7 +268,7 @@ class Run(Iterator[Iteration]):
         return next((one.smoother for one in self._stage_runs if one.smoother.slides or by_rule), None)
 
     @property
-    def _target_q(self) -> tuple[float, ...] | None:
+    def _target_q(self) -> tuple[float, float] | None:
         """Least q of target of the mesh as given and of the result; None without a target."""
         return self._shapes.target_q(self._target, self.start, self.best)
 
@@ -280,8 +280,8 @@ class Run(Iterator[Iteration]):
     @property
     def layers_message(self) -> str:
         """The layers that were found and whether the run keeps them, as a sentence; "" without layers."""
-        stages = *self._stage_runs, *self._remaining_stages
-        return self._shapes.layers_message(*(stage.smoother for stage in stages))
+        later = [stage.smoother for stage in self._remaining_stages]
+        return self._shapes.layers_message(*(one.smoother for one in self._stage_runs), *later)
 
     @property
     def _target(self) -> Target | None:
@@ -309,7 +309,8 @@ class Run(Iterator[Iteration]):
         done, last, reached = self._stage_run, self.last, self.best
         kept = f" Iteration {reached.number} of it was kept." if reached is not last else ""
         count = count_phrase(last.number - done.stage_start.number, "iteration")
-        self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
+        outcome = "" if done.outcome is None else done.outcome.value
+        self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {outcome}{kept}")
         self._stage_runs.append(self._stage_of(self._remaining_stages[0], done.number + 1, reached, last))
         self._note_ignored()
         self._end_if_done()

@@ -54,12 +54,13 @@ class ShapeWatch:
         after, kept = self._mesh.with_points(points), smoother.keeps_layers
         return layer_report(layers, self._mesh, after, self._given_lengths, kept)
 
-    def target_q(self, target: Target | None, *iterations: Iteration) -> tuple[float, ...] | None:
-        """Least q of target of the hexes at some iterations; None without a target."""
+    def target_q(self, target: Target | None, start: Iteration, best: Iteration) -> tuple[float, float] | None:
+        """Least q of target of the hexes at two iterations; None without a target."""
         if target is None:
             return None
         mesh = self._mesh.with_element_target(target)
-        return tuple(float(measure_against_target(mesh, one.points, one.quality).q.min()) for one in iterations)
+        before, after = (measure_against_target(mesh, one.points, one.quality).q for one in (start, best))
+        return float(before.min()), float(after.min())
 
     def layers_message(self, *smoothers: Smoother) -> str:
         """The layers that were found and whether the methods of a run keep them, as a sentence; "" without layers."""
@@ -83,8 +84,9 @@ class ShapeWatch:
         losses = describe_losses(walls)
         if losses or (smoother.keeps_layers and walls):
             return losses or self.layers_message(smoother)
-        compared = result is not None and result.element_target is None
-        return grading_message(self._mesh, result, self._quality) if compared else ""
+        if result is None or result.element_target is not None:
+            return ""
+        return grading_message(self._mesh, result, self._quality)
 
     @cached_property
     def _given_lengths(self) -> np.ndarray:

@@ -76,7 +76,7 @@ class StageRun:
     ):
         self.stage, self.number = stage, number
         self.start, self.run_last = start, run_last
-        self.stage_start = run_last if predecessor is None else predecessor.stage_start
+        self.stage_start: Iteration = run_last if predecessor is None else predecessor.stage_start
         self.last, self.current = run_last, start
         self.outcome: Outcome | None = None
         self.decision = ""
@@ -84,8 +84,8 @@ class StageRun:
         self.target = mesh.element_target
         self._mesh, self._unit = mesh, mesh.mean_edge_length or 1.0
         self._node_sizes = node_sizes(mesh)
-        self._origin = start if predecessor is None else predecessor._origin
-        self._best = start if predecessor is None else predecessor._best
+        self._origin: Iteration = start if predecessor is None else predecessor._origin
+        self._best: Iteration = start if predecessor is None else predecessor._best
         self._origin_quality = measure_against_target(mesh, self._origin.points, self._origin.quality)
         self._best_rank = self._rank(self._best)
         self._update_best(start)
@@ -153,7 +153,7 @@ class StageRun:
     def _size(self, moves: np.ndarray) -> float:
         """Size of the largest of some moves (n, 3), in mean edge lengths or, with a target, in lengths at each node."""
         sizes = self._node_sizes
-        relative = moves / (sizes if np.isscalar(sizes) else sizes[:, None])
+        relative = moves / (sizes[:, None] if isinstance(sizes, np.ndarray) else sizes)
         return largest_norm(relative) if self.stage.stop.move == "length" else float(np.abs(relative).max())
 
     def set_limits(self, stop: StoppingCriteria) -> None:

@@ -49,8 +49,6 @@ class Smoother(Parametrised, ABC):
     #: True for a method whose steps keep the linear motion of a mesh; those of others are constrained afterwards, by
     #: `hexmend.smoothers.constrained_steps`.
     keeps_linear_motion: ClassVar[bool] = False
-    #: Dihedral angle, in degrees or auto, beyond which an edge of the boundary is a feature; of methods that slide.
-    feature_angle: ClassVar[FeatureAngle] = FEATURE_ANGLE
     #: Bytes per hex that its run needs at most in addition to the open mesh, topology included: measured by `hexmend
     #: bench --only memory`, with a fifth added. See `hexmend.run.memory`.
     bytes_per_hex: ClassVar[int] = 1000
@@ -67,6 +65,11 @@ class Smoother(Parametrised, ABC):
         default values.
         """
         return SQUARES
+
+    @property
+    def feature_angle(self) -> FeatureAngle:
+        """Dihedral angle, in degrees or auto, beyond which an edge of the boundary is a feature."""
+        return FEATURE_ANGLE
 
     @property
     def slides(self) -> bool:
@@ -262,4 +265,5 @@ def method(cls: S) -> S:
         raise TypeError(f"{cls.__name__} is no hexmend.Smoother")
     _check_texts(cls, "name", "title", "help", "source")
     METHODS.add(cls.name, cls)
-    return reads_old_names(cls, former_attributes(Smoother) | PARAMETERS.get(cls.name, {}))
+    reads_old_names(cls, former_attributes(Smoother) | PARAMETERS.get(cls.name, {}))
+    return cls

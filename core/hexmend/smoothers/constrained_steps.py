@@ -101,6 +101,7 @@ def _without_inversions(
 ) -> tuple[np.ndarray, ElementQuality]:
     """Move by the admissible part of moves (n, 3), shortened around hexes that they would invert."""
     motion = mesh.linear_motion
+    assert motion is not None  # such a mesh alone has constrained steps
     moves, root = admissible_displacements(motion, moves), motion.roots(mesh.n_nodes)
     for halving in range(HALVINGS + 2):
         moved = mesh.constrained(points + moves)

@@ -31,9 +31,6 @@ PATIENCE = 3
 class SlidingSmoother(Smoother):
     """Method that may let the nodes of the boundary slide on the surface."""
 
-    boundary: str = parameter(
-        "fixed", choices=("fixed", "slide"), help="Keep boundary nodes fixed, or let them slide on the surface (5.2.1)."
-    )
     feature_angle: float = parameter(
         FEATURE_ANGLE,
         low=1,
@@ -44,7 +41,9 @@ class SlidingSmoother(Smoother):
         automatic=AUTO,
         advanced=True,
     )
-
+    boundary: str = parameter(
+        "fixed", choices=("fixed", "slide"), help="Keep boundary nodes fixed, or let them slide on the surface (5.2.1)."
+    )
     surface_tolerance: float = parameter(
         AUTO,
         low=0,

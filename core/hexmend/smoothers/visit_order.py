@@ -107,6 +107,6 @@ class VisitOrder:
             A row of nodes for each group.
         """
         nodes = self.sequence(points, sweep)
-        if nodes is not self._nodes:
+        if nodes is not self._nodes or self._groups is None:
             self._nodes, self._groups = nodes, self._mesh.topology.wavefronts(nodes.repeat(self._steps))
         return self._groups

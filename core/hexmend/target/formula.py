@@ -61,7 +61,7 @@ def evaluate(text: str, values: Mapping[str, np.ndarray]) -> list[np.ndarray]:
         tree = ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, MemoryError, RecursionError):
         raise ParameterError(f"formula {text!r} cannot be parsed: expected such as 0.1 + 0.02 * x") from None
-    names = {**_CONSTANTS, **values}
+    names: dict[str, np.ndarray | float] = {**_CONSTANTS, **values}
     parts = tree.elts if isinstance(tree, ast.Tuple) else [tree]
     with np.errstate(all="ignore"):
         return [_value(part, names, text) for part in parts]

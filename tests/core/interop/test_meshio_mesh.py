@@ -138,7 +138,7 @@ def test_physical_groups_of_gmsh_are_sets():
 def test_hexes_wound_the_other_way_are_turned_unless_they_are_wanted_so():
     other = hx.to_meshio(CUBE.rebuilt(hexes=CUBE.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]]))
     assert "renumbered" in hx.from_meshio(other).notes[-1]
-    assert hx.from_meshio(other, as_is=True).quality().max() == 0
+    assert hx.from_meshio(other, as_is=True).quality("q").max() == 0
 
 
 @pytest.mark.parametrize(("other", "words"), [

@@ -90,7 +90,7 @@ def test_no_array_is_chosen_to_colour_a_grid():
 def test_every_grid_of_pyvista_with_hexes_is_taken(grid):
     mesh = hx.from_pyvista(grid)
     assert (mesh.n_hexes, mesh.n_nodes) == (8, 27)
-    assert mesh.quality().min() == pytest.approx(1)
+    assert mesh.quality("q").min() == pytest.approx(1)
 
 
 def test_a_grid_of_vtk_itself_is_taken():
@@ -127,9 +127,9 @@ def test_cells_of_other_kinds_are_handled_as_in_a_file(tmp_path):
 
 def test_hexes_wound_the_other_way_are_turned_unless_they_are_wanted_so():
     grid = hx.to_pyvista(CUBE.rebuilt(hexes=CUBE.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]]))
-    assert hx.from_pyvista(grid).quality().min() > 0
+    assert hx.from_pyvista(grid).quality("q").min() > 0
     assert "renumbered" in hx.from_pyvista(grid).notes[-1]
-    assert hx.from_pyvista(grid, as_is=True).quality().max() == 0
+    assert hx.from_pyvista(grid, as_is=True).quality("q").max() == 0
 
 
 def test_hidden_ghost_cells_of_a_piece_are_left_out():

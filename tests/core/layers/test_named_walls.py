@@ -89,7 +89,7 @@ def test_what_is_wrong_is_named():
         smooth(mesh, layers="set:keep")
     with pytest.raises(
         ParameterError,
-        match=r"layers = plat: there is no set 'plat': there are 'floor', 'keep', 'plate' \(expected auto",
+        match=r"layers = plat: there is no set 'plat': did you mean plate\? there are 'floor', 'keep', 'plate' \(expected auto",
     ):
         smooth(mesh, layers="plat")
 

@@ -19,7 +19,7 @@ from hexmend_app.features.script.source_code import (
     comment_text,
     integers_source,
     multiline_source,
-    settings_source,
+    rules_source,
     source_of,
 )
 from hexmend_app.picture import Scene, from_toml, to_toml
@@ -98,9 +98,7 @@ class ScriptLines:
             arguments = [f"{name}={it!r}" for name, it in values if it != getattr(default, name)]
             return f"{self.use(ChartStyle)}({', '.join(arguments)})"
         if isinstance(value, MotionRules):
-            return f"{self.use(MotionRules)}({settings_source(value)})"
-        if isinstance(value, Recipe) and value.rules:
-            self.use(MotionRules)
+            return rules_source(value)
         if isinstance(value, Recipe | Stage | Parametrised):
             return source_of(value)
         return integers_source(value) if getattr(value, "ndim", 0) else repr(value)

@@ -129,8 +129,9 @@ class Script(QObject):
         match event:
             case MeshEdited(after=after, before=before):
                 if after not in names:
-                    self._lines.use(event.change)
-                    names.add_state(event.title, after, mesh_call(names.mesh(before), event.change, event.values))
+                    function = self._lines.use(event.change)
+                    source = mesh_call(function, event.change, names.mesh(before), event.values)
+                    names.add_state(event.title, after, source)
             case NodesMoved(after=after, before=before):
                 if after not in names:
                     source, mesh = names.mesh(event.source), names.mesh(before)

@@ -47,12 +47,12 @@ def source_of(value: Parametrised | Recipe | Stage) -> str:
 
 
 def rules_source(rules: MotionRules) -> str:
-    """Return the source of rules of motion, which needs the class `MotionRules`.
+    """Return the source of rules of motion.
 
     >>> rules_source(MotionRules(interfaces="slide", fix=("inlet",)))
-    "MotionRules(interfaces='slide', fix=['inlet'])"
+    "hx.MotionRules(interfaces='slide', fix=['inlet'])"
     """
-    return f"MotionRules({settings_source(rules)})"
+    return f"hx.MotionRules({settings_source(rules)})"
 
 
 def settings_source(rules: MotionRules) -> str:
@@ -70,16 +70,16 @@ def arguments_source(work: Smoother | Recipe, stop: StoppingCriteria | None) -> 
     return source_of(work) if stop is None or stop == StoppingCriteria() else f"{source_of(work)}, {source_of(stop)}"
 
 
-def mesh_call(mesh: str, change: Callable[..., Any], values: Sequence[Any]) -> str:
-    """Return the source of a call of a core function that returns a mesh.
+def mesh_call(name: str, change: Callable[..., Any], mesh: str, values: Sequence[Any]) -> str:
+    """Return the source of a call of a core function that returns a mesh, which has a name in the script.
 
-    >>> from hexmend.mesh.fixing import with_pinned
-    >>> mesh_call("mesh_1", with_pinned, (3, False))
-    'with_pinned(mesh_1, 3, False)'
+    >>> from hexmend.mesh.fixing import fix
+    >>> mesh_call("hx.fix", fix, "mesh_1", (3,))
+    'hx.fix(mesh_1, 3)'
     """
     literal = str | bool | tuple | float | None
     sources = (repr(value) if isinstance(value, literal) else integers_source(value) for value in values)
-    return f"{change.__name__}({', '.join([mesh, *sources])})" + _MESH_OF.get(change, "")
+    return f"{name}({', '.join([mesh, *sources])})" + _MESH_OF.get(change, "")
 
 
 def comment_text(text: str) -> str:

@@ -13,7 +13,7 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.boundary.marking import with_curve, without_curves
 from hexmend.io.surfaces.sliding import sliding_on_boundary, sliding_on_file
-from hexmend.mesh.fixing import with_pinned, with_region_free
+from hexmend.mesh.fixing import fix, fix_outside, unfix
 from hexmend.mesh.mesh import Mesh, TargetSurface
 from hexmend.mesh.tags import with_tag, with_tag_renamed, without_tag
 from hexmend.quality import summarise
@@ -147,11 +147,11 @@ class Commands(QObject):
 
     def pin(self, nodes: int | np.ndarray, on: bool) -> None:
         """Pin nodes, so that no method moves them, or unpin them, if the mesh is editable."""
-        self._amend("pin" if on else "unpin", with_pinned, nodes, on)
+        self._amend("pin" if on else "unpin", fix if on else unfix, nodes)
 
     def free_only(self, hexes: Sequence[int], rings: int) -> None:
         """Pin all nodes except those of some hexes and of rings of hexes around them, if the mesh is editable."""
-        self._amend("free a region", with_region_free, np.asarray(hexes, dtype=np.int64), rings)
+        self._amend("free a region", fix_outside, np.asarray(hexes, dtype=np.int64), rings)
 
     def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:
         """Add hexes to a tag or remove them from it, if the mesh is editable; an empty tag is deleted."""

@@ -40,5 +40,5 @@ class MeshPadder(BackgroundChange):
 
 def _pad(mesh: Mesh, choice: PaddingChoice, task: Task) -> MeshChange:
     """Pad, mend, measure and prepare a mesh; mending ends when the task is cancelled."""
-    padding = pad(mesh, *choice, watch=lambda _: not task.cancelled.is_set())
+    padding = pad(mesh, *choice, progress=False, watch=lambda _: not task.cancelled.is_set())
     return MeshChange(padding, "pad", prepared_state(padding.mesh), pad, tuple(choice))

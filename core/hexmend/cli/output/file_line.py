@@ -7,7 +7,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from hexmend.cli.output.progress import progress_line
+from hexmend.cli.output.progress_line import progress_line
 from hexmend.io.storage.file_progress import FileProgress, watch_files
 from hexmend.signal_guard import uninterrupted
 from hexmend.terminal_text import printable

@@ -9,14 +9,14 @@ from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
+from hexmend.cli.output.progress_line import progress_line
 from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.cli.process.terminal import redraws_lines
 from hexmend.io.storage.file_progress import watch_files
+from hexmend.run.progress import current_method, describe_iteration
 from hexmend.signal_guard import uninterrupted
 
 if TYPE_CHECKING:
-    import rich.progress
-
     from hexmend.iteration import Iteration
     from hexmend.run import Run
 
@@ -25,9 +25,6 @@ LINE_INTERVAL = 4.0
 
 #: Seconds after which a live line is drawn on a terminal, because rich takes time to load.
 LIVE_DELAY = 0.4
-
-#: Characters of a bar.
-_BAR_WIDTH = 24
 
 
 class Progress:
@@ -97,18 +94,6 @@ def follow(run: Run, watch: Callable[[Iteration], object] = lambda iteration: No
             print("Interrupted: the result so far is kept.", file=sys.stderr)
 
 
-def current_method(run: Run) -> str:
-    """Return the name of the method that is running, with its position if there are several."""
-    place = f" ({run.stage_number} of {run.stage_count})" if run.stage_count > 1 else ""
-    return f"{run.stage.smoother.name}{place}"
-
-
-def describe_iteration(run: Run) -> str:
-    """Return the quality and the largest move of the newest iteration as text."""
-    q, inverted, move = run.last.quality.q, run.last.quality.n_inverted, run.last.largest_move
-    return f"{inverted:,} inverted, q min {q.min():.4f}, q mean {q.mean():.4f}, move {move:.2g}"
-
-
 class _Live:
     """A line that changes in place and is removed at the end."""
 
@@ -134,32 +119,6 @@ class _Live:
     def close(self) -> None:
         if self._line is not None:
             self._line.stop()
-
-
-def progress_line(template: str, *, bar: bool = False) -> rich.progress.Progress:
-    """Make a line with a spinner, the elapsed time and a text; it is removed when it is stopped.
-
-    Parameters
-    ----------
-    template : str
-        The text, with fields of rich's task, such as `{task.description}`.
-    bar : bool
-        Show the share that is done as a bar in place of the elapsed time.
-    """
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-    from rich.table import Column
-
-    text = Column(no_wrap=True, ratio=1)  # shortened on a narrow terminal
-    return Progress(
-        SpinnerColumn(table_column=Column(no_wrap=True)),
-        BarColumn(_BAR_WIDTH) if bar else TimeElapsedColumn(table_column=Column(no_wrap=True)),
-        TextColumn(template, markup=False, table_column=text),
-        console=Console(stderr=True, highlight=False),
-        expand=True,
-        transient=True,
-        redirect_stdout=sys.stdout.isatty(),  # else what is printed meanwhile would be written to stderr
-    )
 
 
 class _Lines:

@@ -8,7 +8,8 @@ from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from hexmend.cli.output.progress import LINE_INTERVAL, progress_line
+from hexmend.cli.output.progress import LINE_INTERVAL
+from hexmend.cli.output.progress_line import progress_line
 from hexmend.cli.process.terminal import redraws_lines
 
 if TYPE_CHECKING:

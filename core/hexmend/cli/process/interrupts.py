@@ -15,8 +15,8 @@ import signal
 import sys
 
 from hexmend.cli.process.signal_timer import comes_from_timer, send_later, send_now
-from hexmend.cli.process.terminal import is_dumb
 from hexmend.signal_guard import ON_RETURN, is_interruptible, uninterrupted
+from hexmend.terminal_text import is_dumb
 
 TYPE_CHECKING = False  # `typing` would cost as much as `--version` does
 if TYPE_CHECKING:

@@ -5,10 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-
-def is_dumb() -> bool:
-    """Return True if the variable TERM says that the terminal understands no control codes."""
-    return os.environ.get("TERM", "").lower() in ("dumb", "unknown")
+from hexmend.terminal_text import is_dumb
 
 
 def shows_colours() -> bool:

@@ -82,7 +82,7 @@ class MotionRules:
 
     def limited_to(self, names: Collection[str]) -> MotionRules:
         """Return the rules of the sets of these names alone, and the choice for interfaces."""
-        sets = {key: tuple(name for name in getattr(self, key) if name in names) for key in _SETS}
+        sets: dict[str, Any] = {key: tuple(name for name in getattr(self, key) if name in names) for key in _SETS}
         pairs = tuple(pair for pair in self.periodic if set(pair) <= set(names))
         return replace(self, periodic=pairs, **sets)
 
@@ -96,8 +96,9 @@ class MotionRules:
         def renamed(names: tuple[str, ...]) -> tuple[str, ...]:
             return tuple(new if one == name else one for one in names)
 
-        sets = {key: renamed(getattr(self, key)) for key in _SETS}
-        return replace(self, periodic=tuple(renamed(pair) for pair in self.periodic), **sets)
+        sets: dict[str, Any] = {key: renamed(getattr(self, key)) for key in _SETS}
+        sets["periodic"] = tuple(renamed(pair) for pair in self.periodic)
+        return replace(self, **sets)
 
     @classmethod
     def from_values(cls, data: Mapping[str, Any]) -> MotionRules:

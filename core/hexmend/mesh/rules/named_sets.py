@@ -8,6 +8,7 @@ from hexmend.arrays import mask
 from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import suggestion
 
 
 def set_names(mesh: Mesh) -> list[str]:
@@ -44,8 +45,9 @@ def nodes_in_set(mesh: Mesh, name: str) -> np.ndarray:
     found = [cells.nodes[cells.sets[name]].ravel() for cells in mesh.cells if name in cells.sets]
     if found:
         return np.unique(np.concatenate(found))
-    known = ", ".join(map(repr, set_names(mesh))) or "none"
-    raise MeshError(f"there is no set {name!r}: there are {known}")
+    names = set_names(mesh)
+    known = ", ".join(map(repr, names)) or "none"
+    raise MeshError(f"there is no set {name!r}: {suggestion(name, names)}there are {known}")
 
 
 def boundary_faces_in_sets(mesh: Mesh) -> dict[str, np.ndarray]:
@@ -69,7 +71,7 @@ def boundary_faces_in_sets(mesh: Mesh) -> dict[str, np.ndarray]:
             marks = np.zeros(len(faces) + 1, dtype=bool)
             marks[number[rows[:, 0], rows[:, 1]]] = True
             found[f"side set {name}"] = marks[:-1]
-    weights = np.random.default_rng(0).integers(1, 2**62, mesh.n_nodes) if mesh.cells else None
+    weights = np.random.default_rng(0).integers(1, 2**62, mesh.n_nodes if mesh.cells else 0)
     for cells in mesh.cells:
         if cells.kind == "quad" and cells.sets:
             keys, own = (weights[nodes].sum(axis=1) for nodes in (faces, cells.nodes))  # overflow does no harm

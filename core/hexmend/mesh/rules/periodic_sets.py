@@ -60,15 +60,14 @@ def match_periodic(mesh: Mesh, one: str, other: str) -> PeriodicPair:
     if not nodes.size or np.array_equal(nodes, others):
         raise MeshError(f"{one!r} and {other!r} are not periodic: they have the same nodes, or none")
     x, y = mesh.points[nodes], mesh.points[others]
-    best = None
+    fits = []
     normals = _outward_area(mesh, nodes), _outward_area(mesh, others)
     for rotation, shift in _candidates(x, y, *normals):
         partner, distance = _nearest(x @ rotation.T + shift, y)
-        if best is None or distance.max() < best[2].max():
-            best = rotation, partner, distance
+        fits.append((rotation, partner, distance))
         if distance.max() <= MATCH_TOLERANCE * mesh.mean_edge_length:
             break
-    rotation, partner, distance = best
+    rotation, partner, distance = min(fits, key=lambda fit: fit[2].max())
     near = shortest_edges(mesh.points, mesh.hexes)[nodes]
     far = distance - MATCH_TOLERANCE * np.where(np.isfinite(near), near, mesh.mean_edge_length)
     if far.max() > 0 or np.unique(partner).size < partner.size:

@@ -61,7 +61,7 @@ def with_more_rules(mesh: Mesh, rules: MotionRules) -> Mesh:
     Parameters
     ----------
     mesh : Mesh
-        Its rules may be limited to a region: see `hexmend.mesh.fixing.with_region_free`.
+        Its rules may be limited to a region: see `hexmend.mesh.fixing.fix_outside`.
     rules : MotionRules
 
     Returns

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -42,7 +43,7 @@ class _LastValues:
     """The values that were computed last, kept as long as their mesh lives: the four metrics share the computation."""
 
     def __init__(self) -> None:
-        self._of: tuple[weakref.ref, ...] = ()
+        self._of: tuple[weakref.ref[Any], ...] = ()
         self._values: Mapping[str, np.ndarray] = {}
 
     def get(self, *arrays: object) -> Mapping[str, np.ndarray] | None:
@@ -56,7 +57,7 @@ class _LastValues:
         self._of, self._values = (), values
         self._of = tuple(weakref.ref(array, self._forget) for array in arrays)
 
-    def _forget(self, gone: weakref.ref) -> None:
+    def _forget(self, gone: weakref.ref[Any]) -> None:
         if gone in self._of:
             self._of, self._values = (), {}
 

@@ -47,7 +47,8 @@ def run(task: Task, version: str) -> dict[str, Any]:
         case = read_case(task.case)
         mesh = _mesh(task)
         row |= _sizes(mesh)
-        result = smooth(with_rules(mesh, case.rules) if case.rules else mesh, case.smoother, case.stop)
+        mesh = with_rules(mesh, case.rules) if case.rules else mesh
+        result = smooth(mesh, case.smoother, case.stop, progress=False)
         row |= _figures(result)
         if task.output:
             write(task.output, result.mesh)

@@ -30,7 +30,7 @@ def _optima() -> dict[str, Any]:
 
 
 def _row(mesh: Mesh) -> dict[str, Any]:
-    result = smooth(mesh, "mend", StoppingCriteria(max_iterations=1000), goal="shape")
+    result = smooth(mesh, "mend", StoppingCriteria(max_iterations=1000), progress=False, goal="shape")
     return {
         "mesh": mesh.name,
         "hexes": mesh.n_hexes,
@@ -55,7 +55,7 @@ def _untangling() -> dict[str, Any]:
     for (name, size), amplitude, seed in itertools.product(_SCRAMBLED, _AMPLITUDES, _SEEDS):
         mesh = make(name, size=size, scramble=amplitude, seed=seed)
         before = summarise(mesh)
-        result = smooth(mesh, "mend", StoppingCriteria(max_iterations=400), goal="shape")
+        result = smooth(mesh, "mend", StoppingCriteria(max_iterations=400), progress=False, goal="shape")
         seconds.append(result.seconds)
         ends[result.outcome.key] += 1
         if result.after.inverted > before.locked_inverted:

@@ -111,7 +111,8 @@ def _preconditioners() -> dict[str, Any]:
     rows = []
     for size in _SIZES:
         # Near the optimum, where the Hessian is definite: elsewhere the solver ends at the first negative curvature.
-        optimum = smooth(make("five-side", size=size), "mend", StoppingCriteria(max_iterations=1000), goal="shape").mesh
+        stop = StoppingCriteria(max_iterations=1000)
+        optimum = smooth(make("five-side", size=size), "mend", stop, progress=False, goal="shape").mesh
         mesh = scramble_nodes(optimum, _MOVED, seed=0)
         energy = MeshEnergy(mesh)
         x = energy.to_edge_units(mesh.points)

@@ -44,7 +44,7 @@ with np.load(path) as arrays:
 measure(mesh.points, mesh.hexes)
 smoother = METHODS[name](**json.loads(values))
 before = resident_mb()
-smooth(mesh, smoother, StoppingCriteria(max_iterations=int(iterations), tolerance=0))
+smooth(mesh, smoother, StoppingCriteria(max_iterations=int(iterations), tolerance=0), progress=False)
 print(json.dumps({"hexes": mesh.n_hexes, "mb": peak_mb() - before, "needed_mb": needed(smoother, mesh) / 2**20}))
 """
 

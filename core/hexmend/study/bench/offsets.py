@@ -41,7 +41,7 @@ def _thesis() -> Iterator[tuple[str, Mesh, dict[str, float] | None]]:
 
 def _row(name: str, mesh: Mesh, published: dict[str, float] | None) -> dict[str, Any]:
     stop = StoppingCriteria(max_iterations=1000)
-    ends = [smooth(mesh, METHODS["mend"](goal="shape", offset=offset), stop) for offset in _OFFSETS]
+    ends = [smooth(mesh, METHODS["mend"](goal="shape", offset=offset), stop, progress=False) for offset in _OFFSETS]
     return {
         "mesh": name,
         "hexes": mesh.n_hexes,

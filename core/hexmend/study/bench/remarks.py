@@ -114,7 +114,7 @@ def _scaling() -> Remark:
     both = Mesh(np.concatenate([mesh.points, small]), np.concatenate([mesh.hexes, mesh.hexes + mesh.n_nodes]))
     counts, stop = [], StoppingCriteria(max_iterations=_ITERATIONS)
     for name, values in (("local-sd", {}), ("global-mnr", {"delta_unit": "mesh"})):
-        result = smooth(both, METHODS[name](delta=0.01, offset=0.0, **values), stop)
+        result = smooth(both, METHODS[name](delta=0.01, offset=0.0, **values), stop, progress=False)
         inverted = measure(result.mesh.points, both.hexes).inverted
         counts.append(f"{name} {inverted[: mesh.n_hexes].sum():,} and {inverted[mesh.n_hexes :].sum():,}")
     before = measure(mesh.points, mesh.hexes).inverted.sum()

@@ -54,7 +54,7 @@ def _rows(name: str, mesh: Mesh) -> Iterator[dict[str, Any]]:
     for method in _METHODS:
         for weight in _WEIGHTS:
             smoother = METHODS[method](boundary="slide", surface_weight=weight)
-            result = smooth(mesh, smoother, StoppingCriteria(max_iterations=_ITERATIONS))
+            result = smooth(mesh, smoother, StoppingCriteria(max_iterations=_ITERATIONS), progress=False)
             row = {"mesh": name, "hexes": mesh.n_hexes, "method": method, "weight": weight}
             row |= {"iterations": result.iterations, "seconds": result.seconds + result.setup_seconds}
             yield row | _figures(mesh, quads, result.mesh.points)

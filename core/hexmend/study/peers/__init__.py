@@ -89,7 +89,8 @@ def _hexsmoothing(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray,
 
 
 def _hexmend(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray, float]:
-    result = smooth(mesh, "mend", StoppingCriteria(max_iterations=1000, max_seconds=seconds), goal="shape")
+    stop = StoppingCriteria(max_iterations=1000, max_seconds=seconds)
+    result = smooth(mesh, "mend", stop, progress=False, goal="shape")
     return result.mesh.points, result.seconds + result.setup_seconds
 
 

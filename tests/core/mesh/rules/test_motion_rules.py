@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.errors import MeshError, ParameterError
-from hexmend.mesh.fixing import with_region_free
+from hexmend.mesh.fixing import fix_outside
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.flat_sets import normal_of_set
@@ -59,7 +59,7 @@ def test_rules_leave_the_pins_and_a_region_limits_them():
     mesh = MESH.replace(pinned=pinned).with_rules(free="low", fix="x1")
     np.testing.assert_array_equal(mesh.pinned, pinned)
     assert mesh.free[pinned].all()
-    part = with_region_free(mesh, TWO["high"][:1], 0)
+    part = fix_outside(mesh, TWO["high"][:1], 0)
     assert not part.free[np.setdiff1d(np.arange(part.n_nodes), part.hexes[TWO["high"][0]])].any()
 
 
@@ -195,7 +195,7 @@ def test_periodic_pairs_of_a_file_leave_nodes_outside_a_region():
     mesh = scrambled(MESH, 0.2).replace(
         side_sets={}, periodic_pairs=(("y0", "y1"),), pinned=np.zeros(MESH.n_nodes, dtype=bool)
     )
-    part = with_region_free(mesh.with_rules(free="high"), TWO["low"], 0)
+    part = fix_outside(mesh.with_rules(free="high"), TWO["low"], 0)
     outside = np.setdiff1d(np.arange(mesh.n_nodes), mesh.hexes[TWO["low"]])
     after = smooth(part, boundary="slide").mesh
     np.testing.assert_array_equal(after.points[outside], mesh.points[outside])

@@ -25,7 +25,7 @@ from hexmend.errors import ParameterError
 from hexmend.io import read, writer_for
 from hexmend.io.surfaces.curve_file import with_curves_of_file
 from hexmend.iteration import Iteration, Result
-from hexmend.mesh.fixing import with_region_free
+from hexmend.mesh.fixing import fix_outside
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_rules
@@ -58,7 +58,7 @@ def run(args: argparse.Namespace) -> int:
     if isinstance(method, Recipe):  # the mesh has the recipe's rules now, changed by the options
         method = replace(method, rules=MotionRules())
     if args.only:
-        mesh = with_region_free(mesh, hexes_in_set(mesh, args.only), rings)
+        mesh = fix_outside(mesh, hexes_in_set(mesh, args.only), rings)
     check_memory(args, [method], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
     smoothing = iterate(with_surface(args, mesh, method), method, limits)
     if smoothing.layers:

@@ -1,0 +1,130 @@
+"""Progress of `smooth`: a bar where somebody watches, lines or a function on request, else nothing."""
+
+import io
+import sys
+from types import SimpleNamespace
+
+import pytest
+
+import hexmend as hx
+from hexmend.errors import ParameterError
+from hexmend.run import progress
+
+MESH = hx.gallery.make("cube", size=64, scramble=0.3)
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+@pytest.fixture
+def at_once(monkeypatch):
+    """Let displays show every iteration."""
+    for name in ("BAR_DELAY", "BAR_INTERVAL", "LINE_INTERVAL"):
+        monkeypatch.setattr(progress, name, 0.0)
+
+
+def smoothed(option=None, stream=None, monkeypatch=None):
+    """Smooth with standard error replaced; return what was written to it."""
+    stream = stream if stream is not None else io.StringIO()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys, "stderr", stream)
+        patch.setenv("COLUMNS", "60")
+        patch.setenv("TERM", "xterm")
+        result = hx.smooth(MESH, "laplacian", max_iterations=3, tolerance=0, progress=option)
+    assert result.iterations == 3
+    return stream.getvalue()
+
+
+@pytest.mark.usefixtures("at_once")
+def test_a_terminal_shows_a_bar_that_is_removed():
+    written = smoothed(stream=Terminal())
+    *bars, gone, end = written.split("\r")[1:]
+    assert len(bars) == 3
+    assert {len(bar) for bar in (*bars, gone)} == {59}  # less than the terminal is wide
+    assert bars[0].startswith("[#######.............] laplacian: iteration 1 of at most 3")
+    assert bars[2].startswith("[####################]")
+    assert gone.strip() == end == ""
+    assert "\n" not in written
+
+
+@pytest.mark.usefixtures("at_once")
+@pytest.mark.parametrize("option", [None, False])
+def test_nothing_is_written_where_nobody_watches(option):
+    assert smoothed(option) == ""
+    assert option is None or smoothed(option, Terminal()) == ""
+
+
+def test_a_short_run_shows_no_bar():
+    assert smoothed(stream=Terminal()) == ""
+
+
+@pytest.mark.usefixtures("at_once")
+def test_lines_are_written_on_request():
+    lines = smoothed(True).splitlines()
+    assert [line.split(",")[0] for line in lines] == [
+        f"laplacian: iteration {number} of at most 3" for number in (1, 2, 3)
+    ]
+    assert all("0 inverted, q min 0." in line for line in lines)
+
+
+@pytest.mark.usefixtures("at_once")
+def test_a_dumb_terminal_shows_no_bar(monkeypatch):
+    monkeypatch.setattr(progress, "is_dumb", lambda: True)
+    assert smoothed(stream=Terminal()) == ""
+
+
+def test_a_program_without_standard_error_runs(monkeypatch):
+    monkeypatch.setattr(sys, "stderr", None)
+    assert hx.smooth(MESH, "laplacian", max_iterations=1).iterations == 1
+
+
+@pytest.mark.usefixtures("at_once")
+def test_a_terminal_that_goes_away_stops_no_run():
+    class Gone(Terminal):
+        def write(self, text):
+            raise OSError
+
+    assert smoothed(stream=Gone()) == ""
+
+
+def test_a_function_gets_each_iteration():
+    seen = []
+    assert smoothed(seen.append) == ""
+    assert [iteration.number for iteration in seen] == [1, 2, 3]
+    assert all(isinstance(iteration, hx.Iteration) for iteration in seen)
+
+
+def test_the_bar_is_removed_when_the_run_is_interrupted(at_once, monkeypatch):
+    stream = Terminal()
+    monkeypatch.setattr(sys, "stderr", stream)
+
+    def interrupt(iteration):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        hx.smooth(MESH, "laplacian", watch=interrupt)
+    assert "#" in stream.getvalue() or "." in stream.getvalue()
+    assert stream.getvalue().rsplit("\r", 2)[1].strip() == ""
+
+
+@pytest.mark.usefixtures("at_once")
+def test_a_notebook_shows_a_bar_that_changes_in_place(monkeypatch):
+    shown, updated = [], []
+    handle = SimpleNamespace(update=lambda data, raw: updated.append(data))
+    shell = SimpleNamespace(kernel=object())
+    display = SimpleNamespace(display=lambda data, raw, display_id: shown.append(data) or handle)
+    monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
+    monkeypatch.setitem(sys.modules, "IPython.display", display)
+    assert smoothed(stream=Terminal()) == ""
+    assert len(shown) == 1
+    assert '<progress max="1" value="0.333"' in shown[0]["text/html"]
+    assert shown[0]["text/plain"].startswith("laplacian: iteration 1 of at most 3")
+    assert [data["text/plain"][:22] for data in updated] == ["laplacian: iteration 2", "laplacian: iteration 3", ""]
+
+
+@pytest.mark.parametrize("option", [3, "bar", []])
+def test_other_values_are_refused(option):
+    with pytest.raises(ParameterError, match="expected True, False, None, or a function of an iteration"):
+        hx.smooth(MESH, progress=option)
