@@ -1,23 +1,43 @@
-"""Interactive view of a mesh in a notebook, by PyVista."""
+"""Mesh in the viewer's colours, shown by PyVista: in a notebook, in a window, or with more added to it."""
 
 from __future__ import annotations
 
-import math
+import os
+import sys
+from collections.abc import Sequence
 from typing import Any
 
-from hexmend.errors import HexmendError
+import numpy as np
+
+from hexmend.arrays import mask
+from hexmend.errors import HexmendError, MeshError
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import METRICS, Metric, measure
-from hexmend_app.scene.render.graphics import prepare_off_screen
+from hexmend.quality import measure
+from hexmend.quality.mesh_quality import find_metric
+from hexmend.quality.selection import region
+from hexmend.terminal_text import in_notebook
+from hexmend_app.picture.colours import Colours
+from hexmend_app.scene.colour.colouring import INVERTED, resolve
+from hexmend_app.scene.render.graphics import GraphicsError, prepare_off_screen
+
+#: Options of `plot` for `pyvista.Plotter`; others are those of its method `show`.
+_OF_PLOTTER = ("border", "lighting", "line_smoothing", "notebook", "off_screen", "theme", "title", "window_size")
+
+#: Colour bar of a plot, and shading: faces in the shade keep a colour that can be compared with the bar.
+_BAR = {"vertical": True, "position_x": 0.86, "position_y": 0.2, "height": 0.6, "fmt": "%.4g", "title_font_size": 18}
+_SHADING = {"ambient": 0.5, "diffuse": 0.5, "specular": 0.0}
 
 
-def plotter(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
-    """Return a PyVista plotter with the surface of a mesh, coloured by a metric.
+def plotter(mesh: Mesh, metric: str = "q", *, hexes: Sequence[int] | np.ndarray | None = None, **options: Any) -> Any:
+    """Return a PyVista plotter with the surface of a mesh in the viewer's colours.
 
     Parameters
     ----------
     mesh : Mesh
     metric : str
+        Name of a metric; underscores count as dashes.
+    hexes : (k,) int or (m,) bool, optional
+        Only these hexes; all by default.
     **options
         Passed to `pyvista.Plotter`, such as `off_screen=True`.
 
@@ -25,19 +45,30 @@ def plotter(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
     ------
     ParameterError
         If there is no metric of that name.
+    MeshError
+        For hexes that do not exist, and for no hexes.
     """
-    quantity = METRICS[metric]
-    values = quantity.values(mesh, measure(mesh.points, mesh.hexes))
-    prepare_off_screen()
+    if not (_opens_window(options) and _has_display()):
+        prepare_off_screen()
     import pyvista as pv
 
     from hexmend_app.scene.geometry.skin import Skin
 
-    faces = Skin(mesh).visible()
+    quantity, quality = find_metric(metric), measure(mesh.points, mesh.hexes)
+    values = quantity.values(mesh, quality)
+    colouring = resolve(Colours(metric=quantity.name), values, quality.inverted)
+    faces = Skin(mesh).visible(None if hexes is None else _marks(mesh, hexes))
     skin = pv.PolyData.from_regular_faces(faces.places(mesh.points), faces.quads)
-    skin.cell_data[quantity.title] = values[faces.hexes]
+    skin.cell_data[colouring.title] = np.where(quality.inverted, np.nan, values)[faces.hexes]
+    colours = np.column_stack([colouring.table, np.full(len(colouring.table), 255, np.uint8)])
+    table = pv.LookupTable(values=colours, scalar_range=(colouring.low, colouring.high), nan_color=INVERTED)
     result = pv.Plotter(**options)
-    result.add_mesh(skin, scalars=quantity.title, clim=_range(quantity), show_edges=True, edge_opacity=0.5)
+    looks = {"name": "mesh", "show_edges": True, "edge_opacity": 0.5, "scalar_bar_args": _BAR, **_SHADING}
+    result.add_mesh(skin, scalars=colouring.title, cmap=table, clim=table.scalar_range, **looks)
+    if quality.n_inverted:
+        bar = result.scalar_bars[colouring.title]
+        bar.SetNanAnnotation("inverted")
+        bar.DrawNanAnnotationOn()
     result.add_axes()
     return result
 
@@ -52,13 +83,56 @@ def view(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
     HexmendError
         If PyVista's packages for notebooks are not installed.
     """
-    result = plotter(mesh, metric, notebook=True, window_size=[800, 560])
+    return _show_in_notebook(plotter(mesh, metric, notebook=True, window_size=[800, 560]), options)
+
+
+def plot(
+    mesh: Mesh,
+    metric: str = "q",
+    *,
+    hexes: Sequence[int] | np.ndarray | None = None,
+    show: bool = True,
+    **options: Any,
+) -> Any:
+    """Show a mesh in a window or a notebook; see `hexmend.notebook.plot`."""
+    of_plotter = {name: options.pop(name) for name in _OF_PLOTTER if name in options}
+    if in_notebook() and not of_plotter.get("off_screen"):
+        of_plotter = {"notebook": True, "window_size": [800, 560]} | of_plotter
+    if not _has_display() and "screenshot" in options:
+        of_plotter.setdefault("off_screen", True)
+    if show and _opens_window(of_plotter) and not _has_display():
+        raise GraphicsError(
+            "there is no display to open a window on: save a picture by "
+            'mesh.plot(off_screen=True, screenshot="mesh.png"), or take the plotter of mesh.plot(show=False)'
+        )
+    result = plotter(mesh, metric, hexes=hexes, **of_plotter)
+    if not show:
+        return result
+    return _show_in_notebook(result, options) if of_plotter.get("notebook") else result.show(**options)
+
+
+def _show_in_notebook(result: Any, options: dict[str, Any]) -> Any:
+    """Show a plotter where a notebook displays what is returned."""
     try:
         return result.show(jupyter_backend=options.pop("jupyter_backend", "html"), return_viewer=True, **options)
     except ImportError as error:
         raise HexmendError(f'the view needs a missing package ({error}): pip install "hexmend[notebook]"') from None
 
 
-def _range(metric: Metric) -> tuple[float, float] | None:
-    """Return the range of a metric if it is finite, which makes the colours of two meshes comparable."""
-    return metric.full_range if all(map(math.isfinite, metric.full_range)) else None
+def _marks(mesh: Mesh, hexes: Sequence[int] | np.ndarray) -> np.ndarray:
+    """Return True for the hexes to be drawn, (m,) bool."""
+    chosen = region(mesh, hexes=hexes)
+    if not chosen.size:
+        raise MeshError("there are no hexes to show: the selection is empty")
+    return mask(chosen, mesh.n_hexes)
+
+
+def _opens_window(options: dict[str, Any]) -> bool:
+    """Return True if a plotter with some options draws on the screen."""
+    return not (options.get("off_screen") or options.get("notebook"))
+
+
+def _has_display() -> bool:
+    """Return True if a window can be opened."""
+    on_linux = sys.platform.startswith("linux")
+    return not on_linux or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
