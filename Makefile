@@ -13,7 +13,7 @@ help:
 	@echo "make run [MESH=path]   open the viewer (on the demo mesh, or on yours)"
 	@echo "make test              run the quick tests, on a virtual screen;  make test-slow  runs the others"
 	@echo "make mutants           put small faults into copies of the core: do its tests find them? half an hour"
-	@echo "make lint              check the style;  make format  mends it"
+	@echo "make lint              check the style and the types;  make format  mends the style"
 	@echo "make bench             measure speed and memory"
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
 	@echo "make docs              write anew what in docs is generated: tables, reference, drawings"
@@ -50,6 +50,7 @@ mutants: $(VENV)/.test $(VENV)/.kernels
 lint: $(VENV)/.test $(VENV)/.pins
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
+	@$(BIN)/mypy
 	@$(BIN)/clang-format --dry-run -Werror $(CXX_SOURCES)
 
 format: $(VENV)/.test
@@ -129,4 +130,4 @@ $(VENV)/.kernels: $(VENV)/.app scripts/build-kernels $(shell find core/native -t
 	@touch $@
 
 clean:
-	rm -rf $(VENV) build dist .pytest_cache .ruff_cache .hypothesis core/hexmend/kernels/*.so
+	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .hypothesis core/hexmend/kernels/*.so

@@ -1,0 +1,46 @@
+"""What type checkers see of the package; `make lint` runs one over it."""
+
+import ast
+import inspect
+from importlib.resources import files
+from pathlib import Path
+
+import hexmend as hx
+from hexmend.smoothers import METHODS
+
+FACE = Path(hx.__file__)
+
+
+def names_for_type_checkers():
+    """Return the name and the module of each import that the package has for type checkers alone."""
+    (block,) = (
+        node for node in ast.parse(FACE.read_text("utf-8")).body
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name)
+    )  # fmt: skip
+    return {alias.asname or alias.name: node.module for node in block.body for alias in node.names}
+
+
+def test_the_package_is_marked_as_typed():
+    assert files("hexmend").joinpath("py.typed").is_file()
+
+
+def test_type_checkers_know_every_public_name_and_every_method():
+    own = {smoother.__name__ for smoother in METHODS.values() if smoother.__module__.startswith("hexmend.")}
+    known = names_for_type_checkers()
+    assert own | set(hx.__all__) == set(known)
+    for name, module in known.items():
+        home = __import__(module, fromlist=[name])
+        assert getattr(home, name) is getattr(hx, name)
+
+
+def test_public_functions_and_methods_are_typed():
+    for name in hx.__all__:
+        value = getattr(hx, name)
+        members = [value] if inspect.isfunction(value) else [
+            member for key, member in vars(value).items() if inspect.isfunction(member) and not key.startswith("_")
+        ] if inspect.isclass(value) else []  # fmt: skip
+        for member in members:
+            signature = inspect.signature(member)
+            assert signature.return_annotation is not inspect.Signature.empty, (name, member)
+            for parameter in list(signature.parameters.values())[inspect.isclass(value) :]:
+                assert parameter.annotation is not inspect.Parameter.empty, (name, member, parameter)
