@@ -16,7 +16,13 @@ ROOT = Path(__file__).resolve().parents[1]
 HOME = "/home/me"
 
 #: A block that holds one of these words needs a library, and is left out where that is not installed.
-NEEDS = {"hx.view(": "trame_pyvista", "hexmend_app": "PySide6", "_pyvista(": "pyvista", "meshio": "meshio"}
+NEEDS = {
+    "hx.view(": "trame_pyvista",
+    "hexmend_app": "PySide6",
+    ".plot(": "PySide6",
+    "_pyvista(": "pyvista",
+    "meshio": "meshio",
+}
 
 _BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
@@ -55,7 +61,7 @@ def _run(page):
         if any(word in block and find_spec(library) is None for word, library in NEEDS.items()):
             continue
         program = block.replace(HOME, os.getcwd())
-        for name in re.findall(r"hx\.read\(\"(.+?)\"\)", program):
+        for name in re.findall(r"(?<=hx\.read\(\")[^\"]+(?=\"\))|(?<=hx\.smooth\(\")[^\"]+\.[a-z]+(?=\")", program):
             if not Path(name).exists():
                 hx.write(name, hx.gallery.make("bridge-sharp", size=500, scramble=0.4, seed=1))
         exec(compile(program, str(page), "exec"), module.__dict__)
