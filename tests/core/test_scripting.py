@@ -136,7 +136,9 @@ def test_a_representation_is_one_line_with_its_figures():
     )
     assert repr(result.mesh).endswith(f"{result.after.inverted} inverted>")
     assert repr(result.before).startswith(f"<Summary: 500 hexes, 726 nodes, {inverted} inverted; q min ")
-    first = next(hx.iterate(mesh, "local-sd"))
+    run = hx.iterate(mesh, "local-sd")
+    first = next(run)
+    assert repr(run) == f"<Run of local-sd: iteration 1 of at most 300, {first.inverted} inverted>"
     assert repr(first).startswith(f"<Iteration 1: {first.inverted} inverted; q min {first.q_min:.4f}, q mean ")
     assert repr(hx.measure(mesh.points, mesh.hexes)).startswith(f"<ElementQuality of 500 hexes: {inverted} inverted; ")
     for value in (mesh, result, result.before, first):

@@ -12,8 +12,7 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.errors import HexmendError, MeshError
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
-from hexmend.quality.mesh_quality import find_metric
+from hexmend.quality.mesh_quality import find_metric, measure_mesh
 from hexmend.quality.selection import region
 from hexmend.terminal_text import in_notebook
 from hexmend_app.picture.colours import Colours
@@ -54,7 +53,7 @@ def plotter(mesh: Mesh, metric: str = "q", *, hexes: Sequence[int] | np.ndarray 
 
     from hexmend_app.scene.geometry.skin import Skin
 
-    quantity, quality = find_metric(metric), measure(mesh.points, mesh.hexes)
+    quantity, quality = find_metric(metric), measure_mesh(mesh)
     values = quantity.values(mesh, quality)
     colouring = resolve(Colours(metric=quantity.name), values, quality.inverted)
     faces = Skin(mesh).visible(None if hexes is None else _marks(mesh, hexes))
@@ -96,10 +95,11 @@ def plot(
 ) -> Any:
     """Show a mesh in a window or a notebook; see `hexmend.notebook.plot`."""
     of_plotter = {name: options.pop(name) for name in _OF_PLOTTER if name in options}
-    if in_notebook() and not of_plotter.get("off_screen"):
-        of_plotter = {"notebook": True, "window_size": [800, 560]} | of_plotter
     if not _has_display() and "screenshot" in options:
         of_plotter.setdefault("off_screen", True)
+    if in_notebook():
+        in_page = {"notebook": True, "window_size": [800, 560]}
+        of_plotter = ({"notebook": False} if of_plotter.get("off_screen") else in_page) | of_plotter
     if show and _opens_window(of_plotter) and not _has_display():
         raise GraphicsError(
             "there is no display to open a window on: save a picture by "

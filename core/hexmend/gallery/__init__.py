@@ -11,6 +11,7 @@ from typing import Any
 
 from hexmend.gallery.gallery_mesh import GALLERY, GalleryMesh
 from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import from_values
 
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
@@ -35,6 +36,6 @@ def make(name: str, **parameters: Any) -> Mesh:
     Raises
     ------
     ParameterError
-        For an unknown name, and for a value that is not allowed.
+        For an unknown name of a mesh or parameter (the message suggests the nearest) and a value that is not allowed.
     """
-    return GALLERY[name](**parameters).build()
+    return from_values(GALLERY[name], parameters, name).build()

@@ -96,6 +96,10 @@ class Run(Iterator[Iteration]):
                 return iteration
         raise StopIteration
 
+    def __repr__(self) -> str:
+        at = f"iteration {self.last.number:,} of at most {self.max_iterations:,}"
+        return f"<Run of {self.smoother.name}: {at}, {self.last.inverted:,} inverted>"
+
     def switch_method(self, smoother: Smoother | str, stop: StoppingCriteria | None = None) -> None:
         """Continue the current stage with another method, other parameters or other limits.
 

@@ -92,3 +92,8 @@ def test_sets_and_layers_name_the_parts():
     assert len(five.node_sets["bottom"]) == len(five.node_sets["top"]) == 281
     assert np.bincount(five.hex_data["layer"])[1:].tolist() == [245] * 30
     assert len(make("bridge-sharp").node_sets["arch"]) == 41 * 41
+
+
+def test_a_parameter_that_is_nearly_right_is_suggested():
+    with pytest.raises(ParameterError, match=r"cube has no parameter 'sise': did you mean size\?"):
+        make("cube", sise=8)
