@@ -2,8 +2,13 @@
 
 import ast
 import inspect
+import os
+import subprocess
+import sys
 from importlib.resources import files
 from pathlib import Path
+
+import pytest
 
 import hexmend as hx
 from hexmend.smoothers import METHODS
@@ -44,3 +49,37 @@ def test_public_functions_and_methods_are_typed():
             assert signature.return_annotation is not inspect.Signature.empty, (name, member)
             for parameter in list(signature.parameters.values())[inspect.isclass(value) :]:
                 assert parameter.annotation is not inspect.Parameter.empty, (name, member, parameter)
+
+
+SCRIPT = """
+import hexmend as hx
+
+mesh = hx.read("part.inp")
+result = hx.smooth(mesh, hx.Mend(goal="shape"), max_iterations=50, progress=print)
+worst = mesh.quality("q")[mesh.worst(10)].min() + result.after.q_min
+inverted: int = mesh.quality().inverted
+hx.smoth(mesh)
+hx.smooth(mesh, progress=3)
+hx.Mend(gaol="shape")
+mesh.quality().iverted
+"""
+
+
+@pytest.mark.slow
+def test_a_type_checker_finds_the_wrong_names_of_a_script_and_no_others(tmp_path):
+    pytest.importorskip("mypy")
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT, encoding="utf-8")
+    words = [
+        sys.executable,
+        "-m",
+        "mypy",
+        "--strict",
+        "--follow-imports=silent",
+        "--cache-dir",
+        str(tmp_path / "cache"),
+    ]
+    environment = os.environ | {"MYPYPATH": str(FACE.parents[1])}
+    done = subprocess.run([*words, script], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    errors = [line.split(":")[1] for line in done.stdout.splitlines() if ": error:" in line]
+    assert errors == ["8", "9", "10", "11"], done.stdout + done.stderr
