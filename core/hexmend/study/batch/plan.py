@@ -23,6 +23,7 @@ from hexmend.run.recipe import Recipe, check_keys, migrate, read_table
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
 from hexmend.study.batch.case import Case, TaskLimits
+from hexmend.study.batch.peer_case import PeerCase
 from hexmend.toml_text import parse_toml
 
 #: Most cases of one study.
@@ -42,7 +43,7 @@ class Plan:
     Parameters
     ----------
     title : str
-    cases : tuple of Case
+    cases : tuple of Case or PeerCase
         With unique names.
     limits : TaskLimits
         Limits of each task.
@@ -51,7 +52,7 @@ class Plan:
     """
 
     title: str
-    cases: tuple[Case, ...]
+    cases: tuple[Case | PeerCase, ...]
     limits: TaskLimits = field(default_factory=TaskLimits)
     surface: Path | None = None
 

@@ -39,15 +39,19 @@ def _figures(when: str, description: str) -> tuple[Column, ...]:
     return tuple(
         Column(f"{key}_{when}", int if "inverted" in key else float, f"{label[:1].upper()}{label[1:]}, {description}.")
         for key, label in ((key, SUMMARY_QUANTITIES[key].label) for key in CHANGED_FIGURES)
-    )
+    ) + (Column(f"objective_p1_{when}", float, f"Objective with p = 1, Σ η, {description}."),)
 
 
 #: Columns that the client fills: mesh and case of the row.
 PLACE = (
     Column("mesh", str, "The mesh file, as given on the command line."),
     Column("case", str, "Name of the case: the method with its values from the lists."),
-    Column("method", str, "The method's name, or a recipe's title."),
-    Column("parameters", str, "All values of the method, as `name=value` words; empty for a recipe."),
+    Column("method", str, "The method's name, a recipe's title, or another program's name."),
+    Column(
+        "parameters",
+        str,
+        "All values of the method, as `name=value` words; empty for a recipe, the version of another program.",
+    ),
     Column("mesh_hash", str, "SHA-256 of the mesh file."),
     Column("key", str, "Key of the task; its result is `tasks/KEY.json`."),
 )
@@ -61,12 +65,20 @@ ANSWER = (
     Column("free_nodes", int, "Number of nodes that are not fixed."),
     *_figures("before", "of the initial mesh"),
     *_figures("after", "of the result"),
+    Column(
+        "boundary_distance",
+        float,
+        "Largest distance between the boundaries of the initial mesh and the result, in per cent of the diagonal of "
+        "its bounding box; with a surface, between that and the result.",
+    ),
     Column("worse", str, "Quantities that became worse: inverted, q_min, scaled_jacobian, q_of_target, layers."),
     Column("outcome", str, "Reason for the end of the run, as in `smooth --json`."),
     Column("message", str, "The reason with its figures, in sentences."),
     Column("iterations", int, "Iterations until the run ended."),
     Column("kept", int, "Number of the iteration that is the result."),
-    Column("seconds", float, "Seconds in the method, without its preparation."),
+    Column(
+        "seconds", float, "Seconds in the method, without its preparation; of another program those of its process."
+    ),
     Column("setup_seconds", float, "Seconds of the preparation of the method."),
     Column("task_seconds", float, "Seconds of the whole process, including start, reading and writing."),
     Column("threads", int, "Number of threads of the task."),

@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import json
 import os
+import subprocess
 import threading
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from hexmend import kernels
+from hexmend.boundary.comparison import surface_change
 from hexmend.errors import FileError, HexmendError
 from hexmend.io import read, read_surface, write
-from hexmend.iteration import Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.quality import summarise
+from hexmend.quality import measure, objective, summarise
 from hexmend.run import smooth
 from hexmend.run.memory import peak_mb
-from hexmend.study.batch.case import read_case
+from hexmend.study.batch.case import Case, read_case
+from hexmend.study.batch.peer_case import PeerCase, bare_mesh
 from hexmend.study.batch.process_group import end_group
-from hexmend.study.batch.table_columns import CHANGED_FIGURES, Status, answer
+from hexmend.study.batch.table_columns import Status, answer
 from hexmend.study.batch.task import Task, content_hash
 
 
@@ -46,18 +49,24 @@ def run(task: Task, version: str) -> dict[str, Any]:
         _check_environment(task, version)
         case = read_case(task.case)
         mesh = _mesh(task)
-        row |= _sizes(mesh)
-        mesh = with_rules(mesh, case.rules) if case.rules else mesh
-        result = smooth(mesh, case.smoother, case.stop, progress=False)
-        row |= _figures(result)
+        if isinstance(case, PeerCase):
+            mesh = bare_mesh(mesh)
+        figures = _figures(mesh)
+        row |= {key: figures.pop(key) for key in ("hexes", "nodes", "free_nodes")}
+        row |= {f"{key}_before": value for key, value in figures.items()}
+        result, more = _run_peer(case, mesh, task) if isinstance(case, PeerCase) else _run_case(case, mesh)
+        row |= {f"{key}_after": value for key, value in _figures(result).items() if key in figures}
+        row |= more
         if task.output:
-            write(task.output, result.mesh)
+            write(task.output, result)
             row["output"] = task.output
         status, reason = Status.DONE, ""
     except _Mismatch as error:
         status, reason = Status.LOST, str(error)
     except FileError as error:
         status, reason = _status_of(task, error), str(error)
+    except subprocess.TimeoutExpired as error:
+        status, reason = Status.TIME, f"It was not done within {error.timeout:g} s, and was ended."
     except MemoryError:
         status, reason = Status.MEMORY, "It needed more memory than it may have."
     except HexmendError as error:
@@ -105,18 +114,27 @@ def _status_of(task: Task, error: FileError) -> Status:
     return Status.LOST if task.output and error.path == Path(task.output) else Status.UNREADABLE
 
 
-def _sizes(mesh: Mesh) -> dict[str, Any]:
-    figures = summarise(mesh).to_dict()
-    return {key: figures[key] for key in ("hexes", "nodes", "free_nodes")} | {
-        f"{key}_before": figures[key] for key in CHANGED_FIGURES
-    }
+def _run_case(case: Case, mesh: Mesh) -> tuple[Mesh, dict[str, Any]]:
+    """Run a method or recipe; return the result and columns of the row."""
+    result = smooth(with_rules(mesh, case.rules) if case.rules else mesh, case.smoother, case.stop, progress=False)
+    more = {key: getattr(result, key) for key in ("message", "iterations", "kept", "seconds", "setup_seconds")}
+    more |= {"worse": " ".join(result.worse), "outcome": result.outcome.key}
+    more["boundary_distance"] = result.surface.max_percent_of_diagonal if result.surface else 0.0
+    return result.mesh, more
 
 
-def _figures(result: Result) -> Mapping[str, Any]:
-    after = result.after.to_dict()
-    run = {key: getattr(result, key) for key in ("message", "iterations", "kept", "seconds", "setup_seconds")}
-    run |= {"worse": " ".join(result.worse), "outcome": result.outcome.key}
-    return {f"{key}_after": after[key] for key in CHANGED_FIGURES} | run
+def _run_peer(case: PeerCase, mesh: Mesh, task: Task) -> tuple[Mesh, dict[str, Any]]:
+    """Run another program; return the result and columns of the row."""
+    result, seconds = case.run(mesh, task.max_seconds)
+    moved = not np.array_equal(result.points[mesh.fixed], mesh.points[mesh.fixed])
+    distance = surface_change(mesh, result).max_percent_of_diagonal if moved else 0.0
+    return result, {"seconds": seconds, "boundary_distance": distance}
+
+
+def _figures(mesh: Mesh) -> dict[str, Any]:
+    """Return the figures of `Summary`, and the objective with p = 1."""
+    quality = measure(mesh.points, mesh.hexes)
+    return summarise(mesh, quality).to_dict() | {"objective_p1": objective(quality, p=1.0)}
 
 
 def _exit_with_client() -> None:

@@ -29,7 +29,6 @@ from hexmend.study.bench.scale import SCALE
 from hexmend.study.bench.section import BenchSection, by_size
 from hexmend.study.bench.surface_quality import SURFACE_QUALITY
 from hexmend.study.bench.surfaces import SURFACES
-from hexmend.study.peers import PEERS
 
 #: Seconds per iteration and node in the tables of the thesis for BridgeSharp: 4.1 for the optimisers, 4.2 for GETMe,
 #: 4.3 for Laplacian smoothing.
@@ -47,7 +46,7 @@ THESIS_SECONDS_PER_NODE = {
 def sections() -> dict[str, BenchSection]:
     """Return all sections by name, those of the entry-point group `hexmend.benchmarks` included."""
     optimisation = OPTIMA, UNTANGLING, GOALS, BOUNDARIES, SURFACES, SURFACE_QUALITY, OFFSETS, REMARKS, SIZES
-    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, *optimisation, SCALING, SCALE, FILES, MEMORY, PEERS
+    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, *optimisation, SCALING, SCALE, FILES, MEMORY
     found = {section.name: section for section in own}
     for entry in entry_points(group="hexmend.benchmarks"):
         try:
