@@ -37,7 +37,10 @@ def write_batch_study(folder: Path, study: Mapping[str, Any], machine: Mapping[s
     tables = [cases_table(study), meshes_table(rows)]
     paths = [folder / f"study{suffix}" for suffix in (".csv", ".md", ".tex")]
     write_csv(paths[0], rows)
-    lines = [f"# {escape(study['title'])}", f"{len(rows):,} of {study['tasks']:,} tasks are done. {_words(machine)}"]
+    lines = [
+        f"# {escape(study['title'])}",
+        f"{len(rows):,} of {study['tasks']:,} tasks are done. {machine_words(machine)}",
+    ]
     if study["interrupted"]:
         lines.append("The study was interrupted: run the same command again to continue.")
     failures = failures_table(rows)
@@ -89,7 +92,7 @@ def cases_table(study: Mapping[str, Any]) -> Table:
 def meshes_table(rows: Rows) -> Table:
     """Make the table with a row for each mesh and its best case: fewest inverted hexes, then highest q min."""
     head = ("", "hexes", "inverted", "q min", "valid", "best by", "inverted then", "q min then", "sc. Jacobian then")
-    lines, names = [], _names(rows)
+    lines, names = [], mesh_names(rows)
     for mesh in dict.fromkeys(row["mesh"] for row in rows):
         mine = [row for row in rows if row["mesh"] == mesh]
         done = [row for row in mine if row["status"] == "done"]
@@ -114,7 +117,7 @@ def failures(rows: Rows) -> list[tuple[str, str, str, str]]:
     for row in rows:
         if row["status"] != "done":
             groups.setdefault((row["mesh"], row["status"], row["reason"]), []).append(row["case"])
-    cases, files = len({row["case"] for row in rows}), _names(rows)
+    cases, files = len({row["case"] for row in rows}), mesh_names(rows)
     return [
         (files[mesh], f"all {cases}" if len(names) == cases > 1 else "; ".join(names), status, reason)
         for (mesh, status, reason), names in groups.items()
@@ -131,7 +134,7 @@ def failures_table(rows: Rows) -> Table | None:
     return Table("Without a result", ("", "case", "status", "reason"), failed[:_MAX_FAILURES], notes)
 
 
-def _names(rows: Rows) -> dict[str, str]:
+def mesh_names(rows: Rows) -> dict[str, str]:
     """Return a name for each mesh: that of the file, or the whole path if two files have the same name."""
     meshes = dict.fromkeys(row["mesh"] for row in rows)
     counts = Counter(Path(mesh).name for mesh in meshes)
@@ -154,5 +157,6 @@ def _line(rows: Rows) -> list[str]:
     return [*cells, f"{max(peaks):,.0f}" if peaks else "–"]
 
 
-def _words(machine: Mapping[str, Any]) -> str:
+def machine_words(machine: Mapping[str, Any]) -> str:
+    """Describe the computer as a sentence, from `hexmend.study.bench.sections.machine`."""
     return f"Asked for on: {'; '.join(f'{key} {escape(str(value))}' for key, value in machine.items())}."

@@ -1,14 +1,15 @@
-"""Meshes of the folder that the environment variable HEXMEND_MESHES names."""
+"""Meshes of a collection: those of given folders, or of the folder that the variable HEXMEND_MESHES names."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
 from hexmend.errors import FileError, MeshError
 from hexmend.io import read, readable_suffixes
+from hexmend.io.format_lookup import format_by_place
 from hexmend.mesh.mesh import Mesh
 
 
@@ -23,3 +24,44 @@ def collection() -> Iterator[tuple[Path, Mesh]]:
     for path in mesh_files():
         with suppress(FileError, MeshError):
             yield path, read(path)
+
+
+def find_meshes(places: Iterable[Path]) -> list[Path]:
+    """List the meshes of folders and their subfolders, in the order of names, and those that are named themselves.
+
+    Parameters
+    ----------
+    places : iterable of Path
+        Folders, files, or folders that are one mesh, such as OpenFOAM cases.
+
+    Returns
+    -------
+    list of Path
+        Files with a suffix of a mesh, and folders that are a mesh.
+
+    Raises
+    ------
+    FileError
+        For a place that does not exist, and for a folder without meshes.
+    """
+    found: list[Path] = []
+    for place in places:
+        if not place.exists():
+            raise FileError(place, "there is no such file or folder", "Name a folder of meshes, or meshes.")
+        meshes = list(_meshes_in(place)) if place.is_dir() else [place]
+        if not meshes:
+            raise FileError(place, "no mesh is in this folder", f"Expected files {', '.join(readable_suffixes())}.")
+        found += meshes
+    return list(dict.fromkeys(found))
+
+
+def _meshes_in(folder: Path) -> Iterator[Path]:
+    """Yield the meshes in a folder, which may itself be one."""
+    if format_by_place(folder) is not None:
+        yield folder
+        return
+    for path in sorted(folder.iterdir()):
+        if path.is_dir():
+            yield from () if path.name.startswith(".") else _meshes_in(path)
+        elif path.suffix.lower() in readable_suffixes() and not path.name.startswith("."):
+            yield path
