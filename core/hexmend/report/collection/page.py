@@ -18,7 +18,7 @@ h1 { font-size: 22px; } h2 { font-size: 17px; margin-top: 32px; }
 p { max-width: 100ch; color: #4a4f55; }
 div { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-th, td { padding: 4px 8px; border-bottom: 1px solid #d9dce0; text-align: right; vertical-align: middle; }
+th, td { padding: 4px 6px; border-bottom: 1px solid #d9dce0; text-align: right; vertical-align: middle; }
 th { position: sticky; top: 0; background: #f3f4f6; vertical-align: bottom; }
 th button { font: inherit; font-weight: 600; text-align: inherit; color: inherit; background: none; border: 0;
   padding: 0; cursor: pointer; }
@@ -27,7 +27,7 @@ th[aria-sort=descending] button::after { content: " \\25BC"; }
 th:first-child, td:first-child, .text { text-align: left; }
 td.text { min-width: 30ch; }
 td:first-child { white-space: nowrap; }
-img { width: 120px; height: 90px; vertical-align: middle; margin-right: 8px; object-fit: contain; }
+img { width: 80px; height: 60px; vertical-align: middle; margin-right: 8px; object-fit: contain; }
 """
 
 #: Sorts the rows of a table by the column of a head: by number where a cell begins with one, else by text; cells

@@ -10,7 +10,7 @@ from hexmend.errors import ParameterError
 
 _PARTS = (
     "kernels, processes, iterations, preconditioners, optima, tangled, goals, boundaries, surfaces, surface-quality, "
-    "offsets, remarks, sizes, scaling, scale, files, memory, start, viewer, filters, views or watching"
+    "offsets, remarks, sizes, scaling, scale, files, memory, start, viewer, filters, views, view-share or watching"
 )
 _COLLECTION = "collection"
 _COLLECTION_OPTIONS = (
