@@ -66,7 +66,6 @@ class Viewer {
   reset() {
     const { is } = this;
     this.root.querySelector("form").reset();
-    is.between.value = is.between.max;
     this.camera.reset();
     this.chosen = -1;
     this.alone = false;

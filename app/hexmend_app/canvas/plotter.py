@@ -190,5 +190,6 @@ def open_window(title: str = "PyVista") -> Any:
     try:
         from pyvistaqt import BackgroundPlotter
     except ImportError as error:
-        raise HexmendError(f'pyvistaqt cannot be imported ({error}): pip install "hexmend[app]"') from None
+        remedy = "run  pip install '.[app]'  in the source folder of Hexmend"
+        raise HexmendError(f"pyvistaqt cannot be imported ({error}): {remedy}") from None
     return BackgroundPlotter(title=title, app=QApplication.instance(), auto_update=False)

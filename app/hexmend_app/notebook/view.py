@@ -116,7 +116,8 @@ def _show_in_notebook(result: Any, options: dict[str, Any]) -> Any:
     try:
         return result.show(jupyter_backend=options.pop("jupyter_backend", "html"), return_viewer=True, **options)
     except ImportError as error:
-        raise HexmendError(f'the view needs a missing package ({error}): pip install "hexmend[notebook]"') from None
+        remedy = "run  pip install '.[notebook]'  in the source folder of Hexmend"
+        raise HexmendError(f"the view needs a missing package ({error}): {remedy}") from None
 
 
 def _marks(mesh: Mesh, hexes: Sequence[int] | np.ndarray) -> np.ndarray:

@@ -12,11 +12,13 @@ from typing import Any
 
 from hexmend import __version__
 from hexmend.io.storage.atomic import atomic_write
+from hexmend.quality.regressions import describe_regressions
 from hexmend.quantity import format_count, format_quality, format_significant
 from hexmend.report.tables import Table
+from hexmend.solver_checks import SOLVERS, Report, check_mesh
 from hexmend.study.bench.sections import machine
 from hexmend.study.table_row import Row
-from hexmend.terminal_text import printable
+from hexmend.terminal_text import count_phrase, printable
 from hexmend_app.report import html_elements as html
 from hexmend_app.report.case import Case, Version, command_line
 from hexmend_app.report.figure_set import Style, table_of, write_figures, write_opposite_view
@@ -78,12 +80,15 @@ def chapter(
     sections = {
         "The mesh": _figures(case, style, interactive, place),
         "Quality": [html.tables(table_of(case)), *map(_failed, case.failed)],
+        "Checks of solvers": _checks(case),
         "The worst hexes": _worst(case, locked),
         "Locked hexes and suggestions": _locked(case, locked),
         "Runs": _runs(case),
         "Source": [_origin(case)],
         "Commands to reproduce this": [html.commands(map(command_line, repeat))],
     }
+    if not interactive:  # on paper the table is on the first page
+        sections = {"Quality": sections.pop("Quality"), **sections}
     first, last = case.initial.summary, case.versions[-1].summary
     row = [case.name, format_count(first.hexes), _change(first.inverted, last.inverted, format_count)]
     row += [_change(one, other, format_quality) for one, other in (
@@ -147,6 +152,7 @@ def write_page(path: Path, text: str) -> None:
 def _preface(case: Case) -> str:
     first = case.initial.summary
     sentences = [
+        *_worse(case),
         f"{format_count(first.hexes)} hexes and {format_count(first.nodes)} nodes, "
         f"{format_count(first.free_nodes)} of them free.",
         *(
@@ -158,6 +164,30 @@ def _preface(case: Case) -> str:
     if case.interrupted:
         sentences.append("The runs were interrupted: the report shows the results so far.")
     return html.paragraph(" ".join(sentences))
+
+
+def _worse(case: Case) -> list[str]:
+    """Return a sentence for each method on what became worse."""
+    results = case.versions[1:]
+    worse = [(one.name, describe_regressions(case.initial.summary, one.summary)) for one in results]
+    sentences = [f"{name}: {text}" for name, text in worse if text]
+    return sentences or ["Nothing became worse: inverted hexes, q min, least scaled Jacobian."] * bool(results)
+
+
+def _checks(case: Case) -> list[str]:
+    """Return the verdicts of all solvers' checks on each version."""
+    head = ["solver", *(version.name for version in case.versions)]
+    rows = []
+    for solver in SOLVERS.values():
+        reports = [check_mesh(one.mesh, solver.name, one.figures) for one in case.versions]
+        rows.append([solver.title, *map(_solver_verdict, reports)])
+    return [html.table(Table("", head, rows))]
+
+
+def _solver_verdict(report: Report) -> str:
+    """Return the verdict, with the number of checks that have it unless all are passed."""
+    count = sum(one.verdict == report.verdict for one in report.results)
+    return report.verdict if report.verdict == "passed" else f"{report.verdict} ({count_phrase(count, 'check')})"
 
 
 def _figures(case: Case, style: Style, interactive: bool, place: str) -> list[str]:

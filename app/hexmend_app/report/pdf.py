@@ -33,7 +33,8 @@ def check_pdf() -> None:
         import weasyprint as _  # noqa: F401
     except ImportError:
         raise HexmendError(
-            "a PDF report needs WeasyPrint: run  pip install 'hexmend[app]'  or write .html and print it in a browser"
+            "a PDF report needs WeasyPrint: run  pip install '.[app]'  in the source folder of Hexmend, "
+            "or write .html and print it in a browser"
         ) from None
     except OSError as error:
         raise HexmendError(

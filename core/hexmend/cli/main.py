@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 #: The command that is run for a mesh file without a command, or without any arguments.
 _DEFAULT = "view"
 
+#: Command that installs the viewer.
+_INSTALL_APP = "pip install '.[app]'  in the source folder of Hexmend"
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status.
@@ -90,7 +93,7 @@ def _main(words: list[str]) -> int:
             return _unknown(words[0], loaders)
         words.insert(0, _DEFAULT)
     if words[0] not in loaders:
-        print("hexmend: the viewer is not installed: run  pip install 'hexmend[app]'", file=sys.stderr)
+        print(f"hexmend: the viewer is not installed: run  {_INSTALL_APP}", file=sys.stderr)
         return 2
     return _run(loaders[words[0]], words[1:])
 
@@ -160,7 +163,7 @@ def _help(loaders: dict[str, Callable[[], Command]]) -> int:
         try:
             print(f"  {name:<10} {load().help}")
         except ImportError:
-            print(f"  {name:<10} not installed: pip install 'hexmend[app]'")
+            print(f"  {name:<10} not installed: {_INSTALL_APP}")
     return 0
 
 

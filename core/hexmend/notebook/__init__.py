@@ -117,4 +117,4 @@ def _provided(name: str) -> Callable[..., Any]:
             return entry.load()
         except ImportError as error:  # the libraries that it draws with are an extra
             reason = f"{reason} ({error})"
-    raise HexmendError(f'{reason}: pip install "hexmend[{extras}]"')
+    raise HexmendError(f'{reason}: run  pip install ".[{extras}]"  in the source folder of Hexmend')

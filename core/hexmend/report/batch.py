@@ -68,7 +68,8 @@ def write_parquet(path: Path, rows: Rows, types: Mapping[str, type]) -> None:
         import pyarrow as pa
         from pyarrow import parquet
     except ImportError:
-        raise HexmendError(f"{path.name} needs pyarrow: run  pip install 'hexmend[study]'") from None
+        remedy = "run  pip install '.[study]'  in the source folder of Hexmend"
+        raise HexmendError(f"{path.name} needs pyarrow: {remedy}") from None
     known = {str: pa.string(), int: pa.int64(), float: pa.float64()}
     schema = pa.schema([(name, known[type_]) for name, type_ in types.items()])
     with atomic_write(path) as temporary:

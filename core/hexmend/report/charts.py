@@ -182,7 +182,8 @@ def check_matplotlib() -> None:
         import_module("matplotlib.figure")
     except ImportError:
         raise HexmendError(
-            "figures need matplotlib, which is not installed: run  pip install 'hexmend[report]'"
+            "figures need matplotlib, which is not installed: run  pip install '.[report]'  in the source folder "
+            "of Hexmend"
         ) from None
 
 

@@ -2,21 +2,56 @@
 
 from __future__ import annotations
 
+import difflib
 import os
+from pathlib import Path
 
+from hexmend.errors import FileError
 from hexmend.io.storage.toml_files import read_toml, write_toml
 from hexmend.run.recipe import Recipe, from_toml, to_toml
+
+
+def supplied_recipes() -> dict[str, Path]:
+    """Return the files of the recipes that come with Hexmend, by name.
+
+    Returns
+    -------
+    dict of str to Path
+        Empty if the package is installed without them.
+    """
+    core = Path(__file__).resolve().parents[2]
+    folders = core / "hexmend_app" / "resources" / "recipes", core.parent / "resources" / "recipes"
+    files = next((sorted(folder.glob("*.toml")) for folder in folders if folder.is_dir()), [])
+    return {file.stem: file for file in files}
 
 
 def read_recipe(path: str | os.PathLike[str]) -> Recipe:
     """Read a recipe from a TOML file.
 
+    Parameters
+    ----------
+    path : path-like
+        A file, or the name of a recipe that comes with Hexmend, such as "gentle". A file of that name is preferred.
+
     Raises
     ------
     FileError
-        If the file cannot be read or is not a recipe; the message names the line, or the stage and the key.
+        If the file cannot be read or is not a recipe; the message names the line, or the stage and the key. For an
+        unknown name, it lists the names.
     """
-    return read_toml(path, "a recipe", from_toml)
+    return read_toml(_recipe_file(Path(path)), "a recipe", from_toml)
+
+
+def _recipe_file(path: Path) -> Path:
+    if path.suffix or path.parent != Path() or path.exists():
+        return path
+    files = supplied_recipes()
+    if path.name in files:
+        return files[path.name]
+    near = difflib.get_close_matches(path.name, files, n=1)
+    hint = f"Did you mean {near[0]}? " if near else ""
+    remedy = f"{hint}Recipes of Hexmend: {', '.join(files) or 'none is installed'}; a file of yours ends in .toml."
+    raise FileError(path, "there is no recipe of this name", remedy)
 
 
 def write_recipe(path: str | os.PathLike[str], recipe: Recipe) -> None:

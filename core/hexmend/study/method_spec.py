@@ -10,12 +10,14 @@ from typing import Any
 from hexmend.errors import ParameterError
 from hexmend.parameters import current_name, declared, from_strings
 from hexmend.run.recipe import Recipe
-from hexmend.run.recipe_files import read_recipe
+from hexmend.run.recipe_files import read_recipe, supplied_recipes
 from hexmend.smoothers import METHODS, Smoother
 
 
 def split_names(text: str) -> list[str]:
     """Split names at commas; the path of an existing recipe is one name even if it contains commas.
+
+    The name of a recipe that comes with Hexmend is replaced by the path of its file.
 
     >>> split_names("laplacian, mend")
     ['laplacian', 'mend']
@@ -27,7 +29,8 @@ def split_names(text: str) -> list[str]:
         end = next((end for end, path in paths.items() if path.endswith(".toml") and Path(path).is_file()), 1)
         names.append(",".join(parts[:end]).strip())
         del parts[:end]
-    return names
+    files = {} if all(name in METHODS for name in names) else supplied_recipes()
+    return [str(files.get(name, name)) if name not in METHODS else name for name in names]
 
 
 def parse_methods(

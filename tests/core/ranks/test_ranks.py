@@ -147,7 +147,7 @@ def test_without_the_packages_the_command_names_them(tangled, tmp_path, monkeypa
     monkeypatch.delitem(sys.modules, "hexmend.cli.commands.smooth.on_ranks", raising=False)
     monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "2")
     assert main(["smooth", str(tangled), "-o", str(tmp_path / "out.vtu")]) == 2
-    assert "pip install 'hexmend[mpi]'" in capsys.readouterr().err
+    assert "pip install '.[mpi]'  in the source folder of Hexmend" in capsys.readouterr().err
 
 
 @needs_mpi

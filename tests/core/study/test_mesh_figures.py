@@ -70,7 +70,8 @@ def test_without_the_viewer_a_line_names_the_missing_figures_and_the_remedy(tmp_
         joining(*there)
         figures, missing = draw_figures(tmp_path, measured)
         assert figures == []
-        assert missing == "Without figures 4.3, 4.5, 4.6, 4.7, of meshes: run  pip install 'hexmend[app]'"
+        remedy = "run  pip install '.[app]'  in the source folder of Hexmend"
+        assert missing == f"Without figures 4.3, 4.5, 4.6, 4.7, of meshes: {remedy}"
 
 
 def test_the_reason_is_named_where_nothing_can_be_drawn(tmp_path, measured, joining):

@@ -212,7 +212,7 @@ def test_the_report_compares_measured_with_published_figures(study, tmp_path):
 
 def test_without_matplotlib_the_tables_are_written_and_the_remedy_is_named(study, tmp_path, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "matplotlib.figure", None)
-    with pytest.raises(HexmendError, match=r"pip install 'hexmend\[report\]'"):
+    with pytest.raises(HexmendError, match=r"pip install '.\[report\]'"):
         write_study(tmp_path, study.record())
     assert sorted(path.name for path in tmp_path.iterdir()) == ["study.json", "study.md"]
     assert "## Figures" not in (tmp_path / "study.md").read_text(encoding="utf-8")
@@ -248,7 +248,10 @@ def test_the_command_runs_a_table(tmp_path, capsys, monkeypatch):
     assert main(["study", "thesis", "--quick", "--only", "4.11", "-o", str(tmp_path)]) == 0
     said, complained = capsys.readouterr()
     assert "Written to" in said
-    assert "Without figure 4.3, of meshes: run  pip install 'hexmend[app]'" in complained.splitlines()
+    assert (
+        "Without figure 4.3, of meshes: run  pip install '.[app]'  in the source folder of Hexmend"
+        in complained.splitlines()
+    )
     for mesh in ("fiveside4", "fiveside5"):
         assert {path.suffix for path in tmp_path.glob(f"table-4.11-{mesh}.*")} == {".csv", ".md", ".tex", ".json"}
 

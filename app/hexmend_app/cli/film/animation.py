@@ -9,7 +9,7 @@ from pathlib import Path
 from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.cli.arguments.checks import check_memory
 from hexmend.cli.arguments.run_arguments import method_and_limits, with_surface
-from hexmend.cli.output.progress import follow
+from hexmend.cli.output.progress import follow, show_count
 from hexmend.io import read
 from hexmend.run import iterate
 from hexmend_app.cli.numbers import invalid_value, parse_integer, parse_size
@@ -40,7 +40,7 @@ def run(args: argparse.Namespace) -> int:
     movement = Displacement(mesh, start, mesh.points, run.start.quality) if args.arrows else None
     states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), mesh))
     frames = pictures(states, look, size, view=view, movement=movement, chart=args.histogram)
-    write_film(path, [*frames], rate)
+    write_film(path, [*show_count(frames, len(numbers), "drawing frames")], rate)
     result = run.result()
     print(result.message)
     if result.surface is not None:

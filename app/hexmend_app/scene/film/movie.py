@@ -24,7 +24,8 @@ def check_installed(path: Path) -> None:
         raise FileError(
             path,
             "a film cannot be written as .mp4 without PyAV",
-            'Install it (pip install "hexmend[film]"), or use .gif, .webp or .png.',
+            "Run  pip install '.[film]'  in the source folder of Hexmend (its FFmpeg is under the GPL, hence no part "
+            "of [app]), or use .gif, .webp or .png.",
         )
 
 

@@ -23,8 +23,8 @@ def add_method(parser: argparse.ArgumentParser) -> None:
     add_repeated(parser, "--set", "KEY=VALUE", "a parameter of the method")
     _add_boundary(parser)
     _add_target(parser)
-    text = "run the methods of this recipe one after another; limits hold for each of them"
-    parser.add_argument("--recipe", metavar="FILE.toml", help=text)
+    text = "run the methods of this recipe, a FILE.toml or a name such as gentle; limits hold for each of them"
+    parser.add_argument("--recipe", metavar="RECIPE", help=text)
     _add_limits(parser)
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from time import monotonic
 from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Self, TypeVar
 
 from hexmend.cli.output.progress_line import progress_line
 from hexmend.cli.process.interrupts import ExitAfterIteration
@@ -19,6 +19,8 @@ from hexmend.signal_guard import uninterrupted
 if TYPE_CHECKING:
     from hexmend.iteration import Iteration
     from hexmend.run import Run
+
+_Item = TypeVar("_Item")
 
 #: Seconds between plain lines, and of iterations before the first of them: a short run prints none.
 LINE_INTERVAL = 4.0
@@ -119,6 +121,35 @@ class _Live:
     def close(self) -> None:
         if self._line is not None:
             self._line.stop()
+
+
+def show_count(items: Iterable[_Item], total: int, text: str) -> Iterator[_Item]:
+    """Yield items, and show on a terminal how many of them are done, from `LIVE_DELAY` on.
+
+    Parameters
+    ----------
+    items : iterable
+    total : int
+        Number of items.
+    text : str
+        Description, such as "drawing frames".
+    """
+    if not redraws_lines():
+        yield from items
+        return
+    due, line = monotonic() + LIVE_DELAY, None
+    try:
+        for number, item in enumerate(items, 1):
+            if line is None and monotonic() >= due:
+                line = progress_line("{task.description}: {task.completed:,} of {task.total:,}", bar=True)
+                task = line.add_task(text, total=total)
+                line.start()
+            if line is not None:
+                line.update(task, completed=number)
+            yield item
+    finally:
+        if line is not None:
+            line.stop()
 
 
 class _Lines:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 from hexmend.cli.process.terminal import shows_colours
@@ -18,7 +19,7 @@ _WORSE_STYLE = "red"
 _PADDING = 3
 
 #: Characters of a line where standard output is no terminal, and has no width of its own.
-_PIPE_WIDTH = 240
+_PIPE_WIDTH = 100
 
 
 def print_table(table: Table) -> None:
@@ -40,4 +41,4 @@ def print_table(table: Table) -> None:
             rich_table.add_row(*(Text(cell, _WORSE_STYLE if isinstance(cell, WorsenedText) else "") for cell in row))
         console.print(rich_table)
     for note in table.notes:
-        print(note)
+        print(fill(note, console.width, break_long_words=False, break_on_hyphens=False))

@@ -43,7 +43,8 @@ class Cluster:
         try:
             import distributed  # noqa: F401
         except ImportError:
-            raise ParameterError("--scheduler needs Dask: run  pip install 'hexmend[study]'") from None
+            remedy = "run  pip install '.[study]'  in the source folder of Hexmend"
+            raise ParameterError(f"--scheduler needs Dask: {remedy}") from None
         self._address = address
 
     def answers(self, tasks: Sequence[Task]) -> Generator[tuple[Task, dict[str, Any]]]:

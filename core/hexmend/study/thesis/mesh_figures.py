@@ -94,7 +94,7 @@ def draw_figures(
         Numbers of the others, and what to do; "" if all were drawn.
     """
     found = [(figure, state) for figure in MESH_FIGURES if (state := _state(figure, results)) is not None]
-    draw, drawn, problem = _drawer(), [], "run  pip install 'hexmend[app]'"
+    draw, drawn, problem = _drawer(), [], "run  pip install '.[app]'  in the source folder of Hexmend"
     for figure, (mesh, summary) in found:
         if draw is None:
             break

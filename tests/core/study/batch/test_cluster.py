@@ -124,4 +124,4 @@ def test_without_dask_the_message_names_what_to_install(laboratory, monkeypatch,
     words = ["study", laboratory.recipe(WAITS.replace("trial", "mend")), laboratory.mesh(), "--scheduler", "tcp://a:1"]
     laboratory.recipe('methods = ["mend"]')
     assert main([*map(str, words), "-o", str(laboratory.out)]) == 2
-    assert "pip install 'hexmend[study]'" in capsys.readouterr().err
+    assert "pip install '.[study]'  in the source folder of Hexmend" in capsys.readouterr().err

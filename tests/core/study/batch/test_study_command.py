@@ -63,7 +63,8 @@ def test_without_pyarrow_only_the_csv_is_written_and_a_line_says_so(laboratory):
     (laboratory.folder / "site/pyarrow.py").write_text("raise ImportError")
     done = laboratory.run(laboratory.recipe('methods = ["laplacian"]'), laboratory.mesh())
     assert done.returncode == 0
-    assert done.stderr == "hexmend: study.parquet needs pyarrow: run  pip install 'hexmend[study]'\n"
+    remedy = "run  pip install '.[study]'  in the source folder of Hexmend"
+    assert done.stderr == f"hexmend: study.parquet needs pyarrow: {remedy}\n"
     assert len(rows_of(laboratory)) == 1
     assert not (laboratory.out / "study.parquet").exists()
 

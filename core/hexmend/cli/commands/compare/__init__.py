@@ -13,7 +13,7 @@ _HELP = "Run several methods on a mesh and write a table of the results as CSV, 
 def _arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", metavar="MESH", help="the mesh file")
     parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the tables")
-    text = "see `hexmend methods` (default: all of them); a FILE.toml is a recipe"
+    text = "see `hexmend methods` (default: all of them); a FILE.toml or a name such as gentle is a recipe"
     parser.add_argument("--methods", metavar="A,B,...", help=text)
     add_settings(parser)
     add_surface(parser)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hexmend.cli.commands.info.judgement import Judgement
 from hexmend.cli.output.mesh_messages import print_notes
 from hexmend.cli.output.text_tables import print_spreads, print_summaries
-from hexmend.doctor import examine
+from hexmend.doctor import Finding, examine
 from hexmend.io import read
 from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.mesh import Mesh
@@ -29,6 +30,7 @@ from hexmend.terminal_text import count_phrase, printable
 
 if TYPE_CHECKING:
     from hexmend.locking import Locking
+    from hexmend.solver_checks import Report
 
 #: Places of a problem that are printed.
 _MAX_PLACES = 10
@@ -59,9 +61,10 @@ def run(args: argparse.Namespace) -> int:
         print(_layer_line(wall))
     if args.metrics:
         print_spreads(metrics)
-    if solver is not None:
-        _print_checks(mesh, solver, quality)
-    _print_problems(args, mesh)
+    checks = None if solver is None else _print_checks(mesh, solver, quality)
+    findings = examine(mesh, quick=not args.doctor)
+    _print_problems(args, findings)
+    print(printable(Judgement.of(args.mesh, quality, locking, findings, checks).line))
     return 0
 
 
@@ -91,10 +94,14 @@ def _print_json(
         answer["layers"] = layers
     if locking is not None:
         answer["locking"] = locking.to_dict()
+    checks = None
     if args.solver is not None:
-        answer |= _checks(mesh, args.solver, quality)
+        checks, fields = _checks(mesh, args.solver, quality)
+        answer |= fields
+    findings = examine(mesh, quick=not args.doctor)
     if args.doctor:
-        answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in examine(mesh)]
+        answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in findings]
+    answer |= Judgement.of(args.mesh, quality, locking, findings, checks).to_dict()
     print(to_json(answer))
 
 
@@ -117,20 +124,22 @@ def _known_solver(name: str) -> str:
     return SOLVERS[name.lower()].name
 
 
-def _checks(mesh: Mesh, solver: str, quality: ElementQuality) -> dict[str, object]:
-    """Return the solver's checks for JSON."""
+def _checks(mesh: Mesh, solver: str, quality: ElementQuality) -> tuple[Report, dict[str, object]]:
+    """Return the solver's checks, and their fields for JSON."""
     from hexmend.solver_checks import check_mesh
 
     report = check_mesh(mesh, _known_solver(solver), quality)
     checks = [result.to_dict() for result in report.results]
-    return {"checks": checks, "solver": report.solver.name, "verdict": report.verdict}
+    return report, {"checks": checks, "solver": report.solver.name, "verdict": report.verdict}
 
 
-def _print_checks(mesh: Mesh, solver: str, quality: ElementQuality) -> None:
+def _print_checks(mesh: Mesh, solver: str, quality: ElementQuality) -> Report:
     from hexmend.cli.output.check_table import print_checks
     from hexmend.solver_checks import check_mesh
 
-    print_checks(check_mesh(mesh, solver, quality))
+    report = check_mesh(mesh, solver, quality)
+    print_checks(report)
+    return report
 
 
 def _layer_line(wall: dict[str, Any]) -> str:
@@ -164,8 +173,7 @@ def _print_locked(args: argparse.Namespace, locking: Locking) -> None:
         print(f"      With a layer under the boundary it can stay as it is: hexmend pad {args.mesh} -o OUT")
 
 
-def _print_problems(args: argparse.Namespace, mesh: Mesh) -> None:
-    findings = examine(mesh, quick=not args.doctor)
+def _print_problems(args: argparse.Namespace, findings: Sequence[Finding]) -> None:
     if args.doctor and not findings:
         print("The doctor finds no problems. Use hexmend smooth to improve the shape of hexes.")
     for finding in findings:

@@ -94,7 +94,8 @@ def _run_on_ranks(args: argparse.Namespace) -> int:
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] not in ("mpi4py", "pymetis"):
             raise
-        raise ParameterError("several processes need mpi4py and pymetis: pip install 'hexmend[mpi]'") from None
+        remedy = "run  pip install '.[mpi]'  in the source folder of Hexmend"
+        raise ParameterError(f"several processes need mpi4py and pymetis: {remedy}") from None
 
 
 def _keep(checkpoints: Checkpoints, mesh: Mesh, iteration: Iteration) -> None:

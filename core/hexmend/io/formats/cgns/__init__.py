@@ -23,7 +23,7 @@ def read(path: Path) -> Mesh:
     with open(path, "rb") as file:
         head = file.read(64)
     if ADF_MARK in head:
-        remedy = "pip install hexmend[app] reads it; or adf2hdf converts it."
+        remedy = "pip install '.[app]' in the source folder of Hexmend adds a reader; or adf2hdf converts it."
         raise FileError(path, "is a CGNS file of the ADF kind", remedy)
     return to_mesh(path, hdf5.read_content("hexmend.io.formats.cgns.reader:content", path))
 

@@ -1,0 +1,112 @@
+"""Judgement of a mesh by `hexmend info`: whether it is fit for solving, and the next command."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hexmend.doctor import Finding
+from hexmend.quality import METRICS, ElementQuality
+from hexmend.quantity import format_count
+
+if TYPE_CHECKING:
+    from hexmend.locking import Locking
+    from hexmend.solver_checks import Report
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """Judgement of a mesh by its hexes.
+
+    Parameters
+    ----------
+    fit : bool
+        True if no hex is inverted, the doctor finds no problem, and no check of the user's solver fails.
+    sentence : str
+    command : str
+        The next command as a line for the shell; "" if none helps.
+    """
+
+    fit: bool
+    sentence: str
+    command: str
+
+    @classmethod
+    def of(
+        cls,
+        path: str,
+        quality: ElementQuality,
+        locking: Locking | None,
+        findings: Sequence[Finding],
+        checks: Report | None = None,
+    ) -> Judgement:
+        """Judge a mesh.
+
+        Parameters
+        ----------
+        path : str
+            Its file, for the command.
+        quality : ElementQuality
+        locking : Locking or None
+        findings : sequence of Finding
+        checks : Report, optional
+            Checks of the user's solver.
+        """
+        total, inverted = quality.inverted.size, int(np.count_nonzero(quality.inverted))
+        if repairable := _kinds(finding for finding in findings if finding.mendable):
+            return cls(False, f"To be repaired before solving: {repairable}.", _command("repair", path))
+        if inverted:
+            sentence = f"Not fit for solving: {format_count(inverted)} of {_hexes(total)} {_are(inverted)} inverted."
+            return cls(False, sentence, _untangling(path, quality, locking))
+        if findings:
+            return cls(False, f"Not fit for solving: {_kinds(findings)}.", shlex.join(["hexmend", path]))
+        if checks is not None and checks.verdict == "failed":
+            return cls(False, f"Not fit for solving. {checks.sentence}", _command("smooth", path))
+        limit, _ = METRICS["scaled-jacobian"].acceptable
+        poor = int(np.count_nonzero(quality.scaled_jacobian < limit))
+        if poor:
+            counted = f"{format_count(poor)} of {_hexes(total)} {'has' if poor == 1 else 'have'}"
+            sentence = f"Fit for solving, but poor: {counted} a scaled Jacobian below {limit:g}."
+            return cls(True, sentence, _command("smooth", path))
+        sentence = f"Fit for solving: no hex is inverted or has a scaled Jacobian below {limit:g}."
+        return cls(True, sentence, shlex.join(["hexmend", path]))
+
+    @property
+    def line(self) -> str:
+        """The sentence and the command as one line."""
+        return f"{self.sentence} Next: {self.command}" if self.command else self.sentence
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the judgement as data for JSON; `next` is None where no command helps."""
+        return {"fit": self.fit, "judgement": self.sentence, "next": self.command or None}
+
+
+def _untangling(path: str, quality: ElementQuality, locking: Locking | None) -> str:
+    """Return the command for inverted hexes: sliding or a layer where all of them are locked by the boundary."""
+    if locking is None or not np.isin(np.flatnonzero(quality.inverted), locking.hexes).all():
+        return _command("smooth", path)
+    if locking.freed.any():
+        return _command("smooth", path, "--boundary", "slide")
+    if locking.needs_layer.any():
+        return _command("pad", path)
+    return _command("smooth", path, "--boundary", "slide") if locking.undecided.any() else ""
+
+
+def _command(name: str, path: str, *options: str) -> str:
+    return shlex.join(["hexmend", name, path, "-o", "OUT", *options])
+
+
+def _kinds(findings: Iterable[Finding]) -> str:
+    return ", ".join(finding.kind.replace("-", " ") for finding in findings)
+
+
+def _hexes(count: int) -> str:
+    return f"{format_count(count)} {'hex' if count == 1 else 'hexes'}"
+
+
+def _are(count: int) -> str:
+    return "is" if count == 1 else "are"

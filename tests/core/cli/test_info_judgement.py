@@ -1,0 +1,61 @@
+"""Judgement and next command at the end of `hexmend info`."""
+
+import json
+
+import numpy as np
+import pytest
+
+from hexmend import gallery, io
+from hexmend.cli.main import main
+from hexmend.quality import measure
+
+
+def ended(path, mesh, capsys, *words):
+    """Write the mesh; return the last line of the report, and the record."""
+    io.write(path, mesh)
+    assert main(["info", str(path), *words]) == 0
+    line = capsys.readouterr().out.splitlines()[-1]
+    assert main(["info", str(path), "--json", *words]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert line == " Next: ".join(filter(None, [record["judgement"], record["next"]]))
+    return line, record
+
+
+def test_a_good_mesh_is_fit(tmp_path, capsys):
+    path = tmp_path / "cube.vtu"
+    line, record = ended(path, gallery.make("cube", size=8), capsys)
+    assert line == f"Fit for solving: no hex is inverted or has a scaled Jacobian below 0.2. Next: hexmend {path}"
+    assert record["fit"] is True
+
+
+def test_inverted_hexes_are_counted_and_the_command_mends_them(tmp_path, capsys):
+    path, mesh = tmp_path / "in 1.vtu", gallery.make("cube", size=125, scramble=0.5)
+    inverted = int(measure(mesh.points, mesh.hexes).inverted.sum())
+    line, record = ended(path, mesh, capsys)
+    assert inverted
+    assert line.startswith(f"Not fit for solving: {inverted} of 125 hexes ")
+    assert (record["fit"], record["next"]) == (False, f"hexmend smooth '{path}' -o OUT")
+    out = tmp_path / "out.vtu"
+    assert main(["smooth", str(path), "-o", str(out)]) == 0
+    capsys.readouterr()
+    assert main(["info", str(out), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["fit"] is True
+
+
+def test_a_flat_mesh_is_poor(tmp_path, capsys):
+    mesh = gallery.make("cube", size=8)
+    shear = np.array([[1, 0, 0], [6.0, 1, 0], [0, 0, 1]])  # sine of the angle between edges: 1 / sqrt(37) = 0.16
+    line, record = ended(tmp_path / "sheared.vtu", mesh.with_points(mesh.points @ shear), capsys)
+    assert line.startswith(
+        "Fit for solving, but poor: 8 of 8 hexes have a scaled Jacobian below 0.2. Next: hexmend smooth"
+    )
+    assert record["fit"] is True
+
+
+@pytest.mark.parametrize("solver", ["nastran", "openfoam"])
+def test_a_failed_check_of_the_solver_decides(tmp_path, capsys, solver):
+    mesh = gallery.make("cube", size=8)
+    shear = np.array([[1, 0, 0], [30.0, 1, 0], [0, 0, 1]])
+    line, record = ended(tmp_path / "sheared.vtu", mesh.with_points(mesh.points @ shear), capsys, "--for", solver)
+    assert record["fit"] is (record["verdict"] != "failed")
+    assert line.startswith("Not fit for solving." if record["verdict"] == "failed" else "Fit for solving")
