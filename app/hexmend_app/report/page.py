@@ -171,7 +171,9 @@ def _worse(case: Case) -> list[str]:
     results = case.versions[1:]
     worse = [(one.name, describe_regressions(case.initial.summary, one.summary)) for one in results]
     sentences = [f"{name}: {text}" for name, text in worse if text]
-    return sentences or ["Nothing became worse: inverted hexes, q min, least scaled Jacobian."] * bool(results)
+    return sentences or [
+        "No method made the number of inverted hexes, q min or the least scaled Jacobian worse."
+    ] * bool(results)
 
 
 def _checks(case: Case) -> list[str]:
