@@ -23,7 +23,7 @@ from screenshots import (
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.colours import Range
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Box
+from hexmend_app.picture.cut_shapes import Box
 from hexmend_app.shell.window import Window
 from hexmend_app.theme.theme_choice import ThemeChoice, choose
 

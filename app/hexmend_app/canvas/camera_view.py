@@ -17,7 +17,7 @@ from hexmend_app.canvas.camera_animation import CameraAnimation
 from hexmend_app.canvas.render_widget import RenderWidget
 from hexmend_app.canvas.view_keys import move_of
 from hexmend_app.picture.camera_pose import CameraPose
-from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 from hexmend_app.scene.views.panes import Panes
 from hexmend_app.state.view.camera_request import PoseHistoryData

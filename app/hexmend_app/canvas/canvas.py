@@ -23,6 +23,7 @@ from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.scene.cutting.box_widget import BoxWidget
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
+from hexmend_app.scene.cutting.sphere_widget import SphereWidget
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.picking import Hit
 from hexmend_app.state.view.side_views import Wipe
@@ -48,6 +49,8 @@ class Canvas(CameraView):
         The user moved or rotated the plane in the view.
     box_dragged(low, high)
         The user moved a side of the box in the view.
+    sphere_dragged(centre, radius)
+        The user moved the sphere in the view, or changed its radius.
     clicked(hit)
         The user clicked on a hex, (hex, nearest node), or outside the mesh, None.
     dug(hex)
@@ -59,6 +62,7 @@ class Canvas(CameraView):
 
     plane_dragged = Signal(object)
     box_dragged = Signal(object, object)
+    sphere_dragged = Signal(object, float)
     clicked = Signal(object)
     dug = Signal(int)
     menu_requested = Signal(object, QPoint)
@@ -67,6 +71,8 @@ class Canvas(CameraView):
         super().__init__(parent)
         self.plane = PlaneWidget(self.panes.pane, self.plane_dragged.emit)
         self.box = BoxWidget(self.panes.pane, self.box_dragged.emit)
+        self.sphere = SphereWidget(self.panes.pane, self.sphere_dragged.emit)
+        self._handle_widgets = self.plane, self.box, self.sphere
         self.colour_bar = ColourBar()
         self._bar_overlay = Overlay(self.colour_bar, self.interactor, (1.0, 0.5), key="colour_bar")
         layout = QVBoxLayout(self)
@@ -97,8 +103,8 @@ class Canvas(CameraView):
         if self._closed:
             return
         self.panes.set_dark(THEME.dark)
-        self.plane.set_dark(THEME.dark)
-        self.box.set_dark(THEME.dark)
+        for handles in self._handle_widgets:
+            handles.set_dark(THEME.dark)
         self.changed()
 
     def draw(self, frame: Frame, live: bool = False) -> None:
@@ -108,7 +114,7 @@ class Canvas(CameraView):
         if not frame.is_of(last):
             self._selected = None, False
             self.camera_animation.restart()
-            for handles in (self.plane, self.box):
+            for handles in self._handle_widgets:
                 handles.set_bounds(self.viewport.bounds)
         self._place_handles()
         self._show_colours()
@@ -130,7 +136,7 @@ class Canvas(CameraView):
         return frame is not None and frame.mesh.hexes is mesh.hexes
 
     def show_handles(self, handles: bool, at: int) -> None:
-        """Show or hide the handles of the box or of the plane with index `at`."""
+        """Show or hide the handles of the cut; among planes, those of the one with index `at`."""
         self._handles = handles, at
         self._place_handles()
         self.draw_soon()
@@ -140,8 +146,10 @@ class Canvas(CameraView):
         handles, at = self._handles
         cut = Cut() if self.viewport.frame is None else self.viewport.frame.look.cut
         shown = handles and self.viewport in self.panes.visible
-        self.plane.set(cut.planes[at] if at < len(cut.planes) else None, shown)
+        plane = cut.planes[at] if at < len(cut.planes) else None
+        self.plane.set(plane if cut.slab is None else cut.slab.middle, shown)
         self.box.set(cut.box, shown)
+        self.sphere.set(cut.sphere, shown)
 
     # Selection
 
@@ -263,8 +271,8 @@ class Canvas(CameraView):
         """Release graphics resources while the window still exists."""
         self._closed = True
         self.shading_task.shut_down()
-        self.plane.close()
-        self.box.close()
+        for handles in self._handle_widgets:
+            handles.close()
         self.release_graphics()
         super().closeEvent(event)
 

@@ -168,7 +168,7 @@ def with_options(args: argparse.Namespace, scene: Scene, **keys: dict[str, Any])
     keys = {table: {**given, **keys.get(table, {})} for table, given in _given(args).items()}
     keys["cut"] |= cut_options.cut_keys(args)
     replaced: dict[str, Any] = {}  # whole tables
-    if args.clip or args.clip_box:
+    if cut_options.cuts(args):
         replaced["cut"] = Cut()
     if args.metric:
         keys["colours"] = {"range": _range_of(args.metric), **keys["colours"]}

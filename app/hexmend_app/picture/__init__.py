@@ -6,8 +6,8 @@ A `Scene` consists of tables (`Camera`, `Cut`, `Show`, `Colours`, `Page`, ...); 
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.picture.camera import Camera, PicturePanel, WipeLayout
 from hexmend_app.picture.colours import Colours, Range
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Box, Plane
+from hexmend_app.picture.cut import Cut, CutKind, CutStyle
+from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab, Sphere
 from hexmend_app.picture.page import AxesStyle, Captions, ColourBarStyle, Corner, LineStyle, Page, TextPlace
 from hexmend_app.picture.scene import FORMAT, Scene
 from hexmend_app.picture.scene_files import camera_from, camera_text, from_toml, read_scene, to_toml, write_scene
@@ -24,7 +24,10 @@ __all__ = [
     "ConfigTable",
     "Corner",
     "Cut",
+    "CutKind",
     "CutStyle",
+    "Depth",
+    "DepthUnit",
     "Isolate",
     "LineStyle",
     "Page",
@@ -33,6 +36,8 @@ __all__ = [
     "Range",
     "Scene",
     "Show",
+    "Slab",
+    "Sphere",
     "TextPlace",
     "WipeLayout",
     "camera_from",

@@ -136,7 +136,7 @@ class Look(ConfigTable):
     Parameters
     ----------
     cut : Cut
-        Cut of the mesh by planes or by a box.
+        Cut of the mesh by planes, a box, a slab, a sphere or the depth of hexes.
     show : Show
         Filters of the shown hexes.
     structure : Structure

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
@@ -14,10 +14,24 @@ from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.option import option
-from hexmend_app.picture.cut_planes import Box, Plane
+from hexmend_app.picture.cut_shapes import Box, Depth, Plane, Slab, Sphere
 
 #: Maximum number of planes, and maximum length of the text that lists the remaining hexes.
 _MAX_PLANES, _MAX_TEXT = 12, 100_000_000
+
+
+class CutKind(StrEnum):
+    """Shape that cuts the mesh."""
+
+    PLANES = "planes"
+    BOX = "box"
+    SLAB = "slab"
+    SPHERE = "sphere"
+    DEPTH = "depth"
+
+
+#: Shapes with plane sides, which can cut hexes smoothly.
+PLANE_KINDS = frozenset({CutKind.PLANES, CutKind.BOX, CutKind.SLAB})
 
 
 class CutStyle(StrEnum):
@@ -31,7 +45,7 @@ class CutStyle(StrEnum):
 
 @dataclass(frozen=True)
 class Cut(ConfigTable):
-    """Cut of the mesh by planes or by a box; nothing is cut without planes and box.
+    """Cut of the mesh by planes, a box, a slab, a sphere or the depth of hexes; nothing is cut without any of them.
 
     Parameters
     ----------
@@ -39,10 +53,17 @@ class Cut(ConfigTable):
         Planes, for example { normal = [1, 0, 0], position = 0.5 }, or with a point instead of a position.
     box : Box, optional
         Box, for example { low = [0, 0, 0], high = [1, 1, 1] }, whose outside is hidden.
+    slab : Slab, optional
+        Slab between two planes, for example { normal = [1, 0, 0], position = 0.5, thickness = 0.1 }, whose outside is
+        hidden.
+    sphere : Sphere, optional
+        Sphere, for example { centre = [0, 0, 0], radius = 1 }; hexes whose centre lies outside are hidden.
+    depth : Depth, optional
+        Depths of hexes below the boundary, for example { low = 2, high = 3, unit = "layers" }; other hexes are hidden.
     style : CutStyle
-        crinkle shows hexes at the cut whole, smooth cuts them.
+        crinkle shows hexes at the cut whole, smooth cuts them, which requires planes, a box or a slab.
     notch : bool
-        Hide only what lies beyond all planes, which removes a corner; for a box, hide its inside.
+        Hide only what lies beyond all planes, which removes a corner; for another shape, hide its inside.
     hexes : str
         Hexes that a cut by whole hexes has left, as ranges of numbers from 0, for example "0-120, 130"; by default
         the hexes whose centre is not cut away.
@@ -50,6 +71,9 @@ class Cut(ConfigTable):
 
     planes: tuple[Plane, ...] = option((), most=_MAX_PLANES)
     box: Box | None = option()
+    slab: Slab | None = option()
+    sphere: Sphere | None = option()
+    depth: Depth | None = option()
     style: CutStyle = option(CutStyle.CRINKLE)
     notch: bool = option(False)
     hexes: str = option("", most=_MAX_TEXT)
@@ -60,21 +84,40 @@ class Cut(ConfigTable):
         return cls((Plane(tuple(map(float, normal)), point=tuple(map(float, point))),), style=style)
 
     def check(self) -> None:
-        """Raise `ParameterError` for planes with a box, and for invalid hexes."""
-        if self.planes and self.box is not None:
-            raise ParameterError("the cut has planes and a box: expected one of them")
+        """Raise `ParameterError` for several shapes, one that cannot be cut smoothly, and invalid hexes."""
+        if len(self._shapes) > 1:
+            shapes = " and ".join(kind if kind is CutKind.PLANES else f"a {kind}" for kind in self._shapes)
+            raise ParameterError(f"the cut has {shapes}: expected one of them")
+        if self.style is CutStyle.SMOOTH and self.active and not self.by_planes:
+            raise ParameterError(f"a cut by {self.kind} has whole hexes: expected style crinkle")
         if self.hexes:
             if not self.crinkled:
-                raise ParameterError("hexes require a cut by whole hexes: expected planes or a box, and style crinkle")
+                raise ParameterError(
+                    "hexes require a cut by whole hexes: expected planes or another shape, and style crinkle"
+                )
             try:
                 _ = self._ranges
             except ValueError as error:
                 raise ParameterError(f"hexes: {error}") from None
 
     @property
+    def _shapes(self) -> list[CutKind]:
+        return [kind for kind in CutKind if getattr(self, kind) not in ((), None)]
+
+    @property
+    def kind(self) -> CutKind | None:
+        """Shape of the cut; None if nothing is cut."""
+        return next(iter(self._shapes), None)
+
+    @property
     def active(self) -> bool:
-        """True if there are planes or a box."""
-        return bool(self.planes) or self.box is not None
+        """True if there are planes or another shape."""
+        return self.kind is not None
+
+    @property
+    def by_planes(self) -> bool:
+        """True if the cut has planes, or another shape with plane sides."""
+        return self.kind in PLANE_KINDS
 
     @property
     def crinkled(self) -> bool:
@@ -88,13 +131,25 @@ class Cut(ConfigTable):
 
     @property
     def absolute(self) -> bool:
-        """True if all planes have points, and the box has coordinates."""
-        return all(plane.point is not None for plane in self.planes) and not (self.box is not None and self.box.shares)
+        """True if all planes have points, and another shape has coordinates."""
+        flat = self.planes if self.slab is None else (self.slab,)
+        fractions = any(shape is not None and shape.shares for shape in (self.box, self.sphere))
+        return not fractions and all(plane.point is not None for plane in flat)
 
     @cached_property
     def sides(self) -> tuple[Plane, ...]:
-        """The planes, or those of the sides of the box; beyond any of them, or with `notch` all, hexes are hidden."""
-        return self.planes if self.box is None else self.box.sides(inwards=self.notch)
+        """The planes, or those of the sides of the box or slab; beyond any, or with `notch` all, hexes are hidden."""
+        shape = self.slab if self.box is None else self.box
+        return self.planes if shape is None else shape.sides(inwards=self.notch)
+
+    def hidden(self, points: np.ndarray) -> np.ndarray:
+        """Return True for points, (k, 3), that are cut away, (k,) bool; a depth, which only hexes have, hides none."""
+        if self.sphere is not None:
+            return self.sphere.contains(points) == self.notch
+        if not self.by_planes:
+            return np.zeros(len(points), bool)
+        beyond = [side.signed_distance(points) > 0 for side in self.sides]
+        return np.all(beyond, axis=0) if self.notch else np.any(beyond, axis=0)
 
     def on(self, mesh: Mesh) -> Cut:
         """Return the cut with points and coordinates in a mesh.
@@ -110,8 +165,11 @@ class Cut(ConfigTable):
             )
         if self.absolute:
             return self
-        box = None if self.box is None else self.box.on(mesh)
-        return replace(self, planes=tuple(plane.on(mesh) for plane in self.planes), box=box)
+        shapes = {"planes": tuple(plane.on(mesh) for plane in self.planes)}
+        for kind in (CutKind.BOX, CutKind.SLAB, CutKind.SPHERE):
+            shape = getattr(self, kind)
+            shapes[kind] = None if shape is None else shape.on(mesh)
+        return replace(self, **shapes)
 
     def with_plane(self, at: int, plane: Plane) -> Cut:
         """Return a copy in which the plane with the index `at` is replaced; it lists no hexes."""
@@ -152,3 +210,32 @@ class Cut(ConfigTable):
             ranges.append((first, last))
             previous = last
         return tuple(ranges)
+
+
+def proposed_cuts(
+    bounds: np.ndarray, before: Mapping[CutKind, Cut] | None = None, layers: int = 1
+) -> dict[CutKind, Cut]:
+    """Return cuts by planes, a box, a slab and a sphere in the middle of a mesh, and one that hides its outer layer.
+
+    Parameters
+    ----------
+    bounds : (2, 3) float64
+        Lowest and highest corner of the mesh.
+    before : mapping of CutKind to Cut, optional
+        Cuts whose normals are used again.
+    layers : int
+        Number of layers of hexes from the boundary inwards.
+    """
+    middle, extent = bounds.mean(axis=0), np.ptp(bounds, axis=0)
+    centre = tuple(middle.tolist())
+    normal = (1.0, 0.0, 0.0) if before is None else before[CutKind.PLANES].planes[0].normal
+    across = (1.0, 0.0, 0.0) if before is None else before[CutKind.SLAB].slab.normal
+    box = Box(tuple((middle - extent / 4).tolist()), tuple((middle + extent / 4).tolist()))
+    thickness = 0.1 * float(extent @ np.abs(across))
+    return {
+        CutKind.PLANES: Cut.at(normal, centre),
+        CutKind.BOX: Cut(box=box),
+        CutKind.SLAB: Cut(slab=Slab(across, point=centre, thickness=thickness)),
+        CutKind.SPHERE: Cut(sphere=Sphere(centre, float(np.linalg.norm(extent)) / 4)),
+        CutKind.DEPTH: Cut(depth=Depth(min(2, layers), layers)),
+    }

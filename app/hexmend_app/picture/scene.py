@@ -44,7 +44,7 @@ class Scene(ConfigTable):
     panels : tuple of PicturePanel
         Panels of the page, row by row; by default one panel for each mesh.
     cut : Cut
-        Cut of the mesh by planes or by a box.
+        Cut of the mesh by planes, a box, a slab, a sphere or the depth of hexes.
     show : Show
         Filters of the shown hexes.
     structure : Structure

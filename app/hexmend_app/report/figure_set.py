@@ -153,7 +153,7 @@ def _surface(case: Case, folder: Path, style: Style) -> Figure:
 
 def _cut(case: Case, folder: Path, style: Style) -> Figure:
     scene = style.scene
-    if not scene.cut.planes and scene.cut.box is None:
+    if not scene.cut.active:
         scene = replace(scene, cut=Cut((Plane(position=0.5),)))
     options = f"{cut_open(scene.cut)}, {seen_from(scene.camera)}"
     return _mesh_figure(case, folder, style, "cut", scene, options)

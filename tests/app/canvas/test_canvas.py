@@ -12,7 +12,7 @@ from hexmend.quality import measure
 from hexmend_app.canvas.canvas import Canvas
 from hexmend_app.canvas.view_captions import Caption
 from hexmend_app.canvas.wipe_handle import WipeHandle
-from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.view.side_views import Wipe

@@ -14,7 +14,7 @@ from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter
 from hexmend_app.picture.appearance import Arrows, Look, Since, Structure, Traces
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Box, Plane
+from hexmend_app.picture.cut_shapes import Box, Plane
 from hexmend_app.picture.visibility import Isolate, Show
 
 
@@ -64,7 +64,7 @@ def test_decoding_encoded_values_returns_equal_values(value):
     (Look, {"show": {"peel": True}}, r"\[look\] show peel = True is not a whole number"),
     (Look, {"show": {"hidden": {}}}, r"\[look\] show hidden = {} is not a list"),
     (Look, {"show": {"hidden": [1, "a"]}}, r"\[look\] show hidden = 'a' is not a whole number"),
-    (Look, {"cut": {"sphere": {}}}, r"\[look\] cut has an unknown key 'sphere'"),
+    (Look, {"cut": {"cone": {}}}, r"\[look\] cut has an unknown key 'cone'"),
     (Ring, {"edges": 1}, "look.edges is of another type: expected bool"),
     (Ring, {"peel": True}, "look.peel is of another type: expected int"),
     (Ring, {"peel": 1.5}, "look.peel is of another type: expected int"),

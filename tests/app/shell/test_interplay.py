@@ -17,7 +17,7 @@ from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Box, Plane
+from hexmend_app.picture.cut_shapes import Box, Plane
 from hexmend_app.scene.layers import mesh as mesh_layer
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase

@@ -264,9 +264,11 @@ class FeatureCamera(Feature):
 
     @property
     def _plane(self) -> object:
-        """Selected cutting plane; None if the cut is off or by a box."""
-        planes = self.session.view.look.cut.planes
-        return planes[self.session.view.plane_at] if planes else None
+        """Selected cutting plane, or the middle of the slab; None if there is neither."""
+        cut = self.session.view.look.cut
+        if cut.slab is not None:
+            return cut.slab.middle
+        return cut.planes[self.session.view.plane_at] if cut.planes else None
 
     def _face(self) -> None:
         self.canvas.face(self._plane)

@@ -31,7 +31,7 @@ class BoxPage(QWidget):
         self._bounds = np.array([[0.0] * 3, [1.0] * 3])
         self._corners = self._bounds.copy()  # low, high
         self._sliders, self._texts = [], []
-        grid = form_grid(self, tr("Position"))
+        grid = form_grid(self, tr("Thickness"))
         for axis, name in enumerate("XYZ"):
             slider = QRangeSlider(Qt.Orientation.Horizontal)
             slider.setRange(0, _TICKS)

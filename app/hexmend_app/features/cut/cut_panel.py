@@ -1,38 +1,38 @@
-"""Panel that cuts the mesh with planes or a box."""
+"""Panel that cuts the mesh with planes, a box, a slab, a sphere, or by the depth of hexes."""
 
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QWidget
 
 from hexmend_app.features.cut.box_page import BoxPage
+from hexmend_app.features.cut.cut_settings import CutPanelSettings
+from hexmend_app.features.cut.depth_page import DepthPage
+from hexmend_app.features.cut.number_row import NumberRow
 from hexmend_app.features.cut.plane_page import PlanePage
 from hexmend_app.features.cut.plane_row import PlaneRow
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Box, Plane
+from hexmend_app.features.cut.sphere_page import SpherePage
+from hexmend_app.picture.cut import PLANE_KINDS, Cut, CutKind, CutStyle, proposed_cuts
+from hexmend_app.picture.cut_shapes import Box, Plane
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
 
 _MAX_PLANES = 6
+_UNIT_BOUNDS = np.array([[0.0] * 3, [1.0] * 3])
 
-
-@dataclass(frozen=True)
-class CutPanelSettings:
-    """The current or proposed cuts by planes and by a box, and which of the two is selected."""
-
-    planes: Cut
-    box: Cut
-    boxed: bool
-
-    def __post_init__(self) -> None:
-        if not (self.planes.planes and self.planes.absolute and self.box.box is not None and self.box.absolute):
-            raise ValueError("the proposed cuts have no planes or no box")
+#: Kinds of cuts with their texts and help.
+_KINDS = (
+    (CutKind.PLANES, "Planes", "Cut along one or more planes."),
+    (CutKind.BOX, "Box", "Cut along the six sides of a box."),
+    (CutKind.SLAB, "Slab", "Cut along two parallel planes."),
+    (CutKind.SPHERE, "Sphere", "Show the hexes in a sphere."),
+    (CutKind.DEPTH, "Depth", "Show the hexes with a depth below the boundary in a range."),
+)
 
 
 class CutPanel(QWidget):
@@ -41,40 +41,41 @@ class CutPanel(QWidget):
     Signals
     -------
     cut_changed(Cut)
-        The user changed the cut; without planes and box if it is off.
+        The user changed the cut; without any shape if it is off.
     plane_chosen(int)
         The user selected the plane to edit here and in the view.
     handles_changed(bool)
-        The user showed or hid the plane or the box in the view.
+        The user showed or hid the handles of the cut in the view.
     snap_changed(bool)
         The user switched snapping to the axes, for planes that are rotated in the view.
+    centre_requested
+        Move the centre of the sphere to the selected hex.
     """
 
     cut_changed = Signal(object)
     plane_chosen = Signal(int)
     handles_changed = Signal(bool)
     snap_changed = Signal(bool)
+    centre_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._bounds: np.ndarray | None = None  # (2, 3): lowest and highest corner
-        self._planes, self._box = Cut.at((1.0, 0.0, 0.0), (0.0, 0.0, 0.0)), Cut(box=Box())
+        self._cuts = proposed_cuts(_UNIT_BOUNDS)
         self._selected = 0
         self._switch = QCheckBox(tr("Cut"))
         set_help(self._switch, tr("Cut"), tr("Cut the mesh open (C)."))
-        self._kind = Segmented(
-            tr("Cut by"),
-            [
-                ("planes", tr("Planes"), tr("Cut along one or more planes.")),
-                ("box", tr("Box"), tr("Cut along the six sides of a box.")),
-            ],
-        )
+        self._kind = Segmented(tr("Cut by"), [(kind.value, tr(text), tr(help)) for kind, text, help in _KINDS])
         self._handles = QCheckBox(tr("Handles"))
         self._handles.setChecked(True)
-        set_help(self._handles, tr("Handles"), tr("Show the plane or the box in the view to drag and rotate it."))
+        set_help(self._handles, tr("Handles"), tr("Show the shape of the cut in the view to drag it."))
         self._plane_row = PlaneRow(_MAX_PLANES)
         self._plane_page = PlanePage()
         self._box_page = BoxPage()
+        self._thickness_label = QLabel(tr("Thickness"))
+        self._thickness = NumberRow([tr("Thickness")], tr("Distance of the two planes, in mesh units."), low=0.0)
+        self._thickness_label.setBuddy(self._thickness)
+        self._sphere_page, self._depth_page = SpherePage(), DepthPage()
         self._hide_label = QLabel(tr("Hide"))
         self._hide_planes = Segmented(
             tr("Hide"),
@@ -83,11 +84,11 @@ class CutPanel(QWidget):
                 ("all", tr("All planes"), tr("Hide only the region beyond all planes; removes a corner.")),
             ],
         )
-        self._hide_box = Segmented(
-            tr("Hidden side of the box"),
+        self._hide_inside = Segmented(
+            tr("Hidden side"),
             [
-                ("any", tr("Outside"), tr("Hide everything outside the box.")),
-                ("all", tr("Inside"), tr("Hide everything inside the box.")),
+                ("any", tr("Outside"), tr("Hide everything outside the shape or range.")),
+                ("all", tr("Inside"), tr("Hide everything inside the shape or range.")),
             ],
         )
         self._cut_mode = Segmented(
@@ -104,19 +105,22 @@ class CutPanel(QWidget):
     def _lay_out(self) -> None:
         head = QHBoxLayout()
         head.addWidget(self._switch)
-        head.addWidget(self._kind)
         head.addStretch()
         head.addWidget(self._handles)
-        grid = form_grid(self, tr("Position"))
+        grid = form_grid(self, tr("Thickness"))
         grid.addLayout(head, 0, 0, 1, 2)
-        for row, widget in enumerate((self._plane_row, self._plane_page, self._box_page), start=1):
+        pages = self._kind, self._plane_row, self._plane_page, self._box_page, self._sphere_page, self._depth_page
+        for row, widget in enumerate(pages, start=1):
             grid.addWidget(widget, row, 0, 1, 2)
         hide = QHBoxLayout()
         hide.addWidget(self._hide_planes)
-        hide.addWidget(self._hide_box)
-        grid.addWidget(self._hide_label, 4, 0)
-        grid.addLayout(hide, 4, 1)
-        grid.addWidget(self._cut_mode, 5, 0, 1, 2)
+        hide.addWidget(self._hide_inside)
+        row = len(pages) + 1
+        grid.addWidget(self._thickness_label, row, 0)
+        grid.addWidget(self._thickness, row, 1)
+        grid.addWidget(self._hide_label, row + 1, 0)
+        grid.addLayout(hide, row + 1, 1)
+        grid.addWidget(self._cut_mode, row + 2, 0, 1, 2)
 
     def _connect(self) -> None:
         self._switch.clicked.connect(self._emit)
@@ -127,32 +131,35 @@ class CutPanel(QWidget):
         self._plane_row.add_requested.connect(self._on_add)
         self._plane_row.remove_requested.connect(self._on_remove)
         self._plane_page.changed.connect(self._on_plane)
-        self._box_page.changed.connect(self._on_box)
-        for choice in (self._hide_planes, self._hide_box):
+        self._box_page.changed.connect(lambda low, high: self._change(box=Box(low, high)))
+        self._thickness.changed.connect(self._on_thickness)
+        self._sphere_page.changed.connect(lambda sphere: self._change(sphere=sphere))
+        self._sphere_page.centre_requested.connect(self.centre_requested)
+        self._depth_page.changed.connect(lambda depth: self._change(depth=depth))
+        for choice in (self._hide_planes, self._hide_inside):
             choice.chosen.connect(lambda key: self._change(notch=key == "all"))
-        self._cut_mode.chosen.connect(lambda key: self._change(style=CutStyle(key)))
+        self._cut_mode.chosen.connect(lambda key: self._set_style(CutStyle(key)))
 
     # Called by the feature
 
-    def set_bounds(self, bounds: np.ndarray | None) -> None:
+    def set_bounds(self, bounds: np.ndarray | None, layers: int = 1) -> None:
         """Set the bounds of the mesh; emits no signal.
 
-        If the cut is off, the proposed plane and box are centred in the mesh.
+        If the cut is off, the proposed shapes are centred in the mesh.
 
         Parameters
         ----------
         bounds : (2, 3) float64, optional
             Lowest and highest corner; None without a mesh.
+        layers : int
+            Number of layers of hexes from the boundary inwards.
         """
         self._bounds = bounds
         if bounds is not None:
             self._plane_page.set_bounds(bounds)
             self._box_page.set_bounds(bounds)
             if not self._switch.isChecked():
-                middle, half = bounds.mean(axis=0), np.ptp(bounds, axis=0) / 4
-                self._planes = Cut.at(self._planes.planes[0].normal, tuple(middle.tolist()))
-                self._box = Cut(box=Box(tuple((middle - half).tolist()), tuple((middle + half).tolist())))
-                self._selected = 0
+                self._cuts, self._selected = proposed_cuts(bounds, self._cuts, layers), 0
         self._refresh()
 
     def set_cut(self, cut: Cut, at: int = 0) -> None:
@@ -161,46 +168,53 @@ class CutPanel(QWidget):
         Parameters
         ----------
         cut : Cut
-            Without planes and box if it is off.
+            Without any shape if it is off.
         at : int
             Index of the selected plane.
         """
         self._switch.setChecked(cut.active)
         if cut.active:
-            cut = cut.with_hexes(None)
-            self._kind.set_value("planes" if cut.box is None else "box")
-            if cut.box is not None:
-                self._box = cut
-            else:
-                self._planes, self._selected = cut, at
+            self._kind.set_value(cut.kind.value)
+            self._cuts[cut.kind] = cut.with_hexes(None)
+            if cut.planes:
+                self._selected = at
         self._refresh()
 
     def set_handles(self, shown: bool) -> None:
         """Check or uncheck the handles; emits no signal."""
         self._handles.setChecked(shown)
 
+    def set_hex_selected(self, selected: bool) -> None:
+        """Set whether there is a selected hex, to which the sphere can be moved."""
+        self._sphere_page.set_hex_selected(selected)
+
     def settings(self) -> CutPanelSettings:
-        """Return the current or proposed planes and box."""
-        return CutPanelSettings(self._planes, self._box, self._kind.value() == "box")
+        """Return the current or proposed cut of each kind."""
+        return CutPanelSettings(tuple(self._cuts.values()), self._chosen)
 
     def restore(self, settings: CutPanelSettings) -> None:
-        """Set the proposed planes and box; a cut that is on does not change."""
-        on, boxed = self._switch.isChecked(), self._kind.value() == "box"
-        if not on or boxed:
-            self._planes = settings.planes
-        if not on or not boxed:
-            self._box = settings.box
+        """Set the proposed cuts; a cut that is on does not change."""
+        on, kind = self._switch.isChecked(), self._chosen
+        self._cuts = settings.by_kind | ({kind: self._cuts[kind]} if on else {})
         if not on:
-            self._kind.set_value("box" if settings.boxed else "planes")
+            self._kind.set_value(settings.kind.value)
         self._refresh()
 
     def cut(self) -> Cut:
-        """Return the cut, without planes and box if it is off."""
+        """Return the cut, without any shape if it is off."""
         return self.proposal() if self._switch.isChecked() and self._bounds is not None else Cut()
 
     def proposal(self) -> Cut:
         """Return the cut, or if it is off, the cut that switching on would make."""
-        return self._box if self._kind.value() == "box" else self._planes
+        return self._cuts[self._chosen]
+
+    @property
+    def _chosen(self) -> CutKind:
+        return CutKind(self._kind.value())
+
+    @property
+    def _planes(self) -> Cut:
+        return self._cuts[CutKind.PLANES]
 
     # Called by the widgets
 
@@ -214,33 +228,36 @@ class CutPanel(QWidget):
         counts = np.sum([np.abs(plane.normal) for plane in self._planes.planes], axis=0)
         normal = np.eye(3)[int(counts.round(6).argmin())]
         plane = Plane(tuple(normal), point=tuple(self._bounds.mean(axis=0)))
-        self._planes = dataclasses.replace(self._planes, planes=(*self._planes.planes, plane))
-        self._select(len(self._planes.planes) - 1)
+        self._set_planes((*self._planes.planes, plane), len(self._planes.planes))
 
     def _on_remove(self) -> None:
         remaining = tuple(plane for at, plane in enumerate(self._planes.planes) if at != self._selected)
-        self._planes = dataclasses.replace(self._planes, planes=remaining)
-        self._select(min(self._selected, len(remaining) - 1))
+        self._set_planes(remaining, min(self._selected, len(remaining) - 1))
 
-    def _select(self, at: int) -> None:
+    def _set_planes(self, planes: tuple[Plane, ...], at: int) -> None:
         self._selected = at
-        self._emit()
+        self._change(planes=planes)
         self.plane_chosen.emit(at)
 
     def _on_plane(self, plane: Plane) -> None:
-        self._planes = self._planes.with_plane(self._selected, plane)
-        self._emit()
+        if self._chosen is CutKind.SLAB:
+            self._change(slab=self.proposal().slab.moved_to(plane))
+        else:
+            planes = self._planes.planes
+            self._change(planes=(*planes[: self._selected], plane, *planes[self._selected + 1 :]))
 
-    def _on_box(self, low: tuple, high: tuple) -> None:
-        self._box = dataclasses.replace(self._box, box=Box(low, high))
+    def _on_thickness(self, thickness: tuple[float]) -> None:
+        self._change(slab=dataclasses.replace(self.proposal().slab, thickness=thickness[0]))
+
+    def _set_style(self, style: CutStyle) -> None:
+        """Set the style of all cuts that can have it."""
+        for kind in PLANE_KINDS:
+            self._cuts[kind] = dataclasses.replace(self._cuts[kind], style=style)
         self._emit()
 
     def _change(self, **keys: object) -> None:
-        """Change the hidden side of the planes or the box, or the style of both."""
-        if "style" in keys or self._kind.value() == "box":
-            self._box = dataclasses.replace(self._box, **keys)
-        if "style" in keys or self._kind.value() == "planes":
-            self._planes = dataclasses.replace(self._planes, **keys)
+        """Change the chosen cut."""
+        self._cuts[self._chosen] = dataclasses.replace(self.proposal(), **keys)
         self._emit()
 
     def _emit(self) -> None:
@@ -248,25 +265,34 @@ class CutPanel(QWidget):
         self.cut_changed.emit(self.cut())
 
     def _refresh(self) -> None:
-        on, box = self._bounds is not None and self._switch.isChecked(), self._kind.value() == "box"
-        planes, cut = self._planes.planes, self.proposal()
+        on, kind, cut = self._bounds is not None and self._switch.isChecked(), self._chosen, self.proposal()
+        planes = self._planes.planes
         self._switch.setEnabled(self._bounds is not None)
-        several = len(planes) > 1
+        by_planes, several, slab = kind is CutKind.PLANES, len(planes) > 1, kind is CutKind.SLAB
         visible = {  # little while the cut is off, to save space
-            self._kind: on,
-            self._handles: on,
-            self._plane_row: on and not box,
-            self._plane_page: on and not box,
-            self._box_page: on and box,
-            self._hide_label: on and (box or several),
-            self._hide_box: on and box,
-            self._hide_planes: on and several and not box,
-            self._cut_mode: on,
+            self._kind: True,
+            self._handles: kind is not CutKind.DEPTH,
+            self._plane_row: by_planes,
+            self._plane_page: by_planes or slab,
+            self._box_page: kind is CutKind.BOX,
+            self._thickness_label: slab,
+            self._thickness: slab,
+            self._sphere_page: kind is CutKind.SPHERE,
+            self._depth_page: kind is CutKind.DEPTH,
+            self._hide_label: several or not by_planes,
+            self._hide_inside: not by_planes,
+            self._hide_planes: several and by_planes,
+            self._cut_mode: kind in PLANE_KINDS,
         }
         for widget, shown in visible.items():
-            widget.setVisible(shown)
+            widget.setVisible(on and shown)
         self._plane_row.set_planes(len(planes), self._selected)
-        self._plane_page.set_plane(planes[self._selected])
-        self._box_page.set_corners(self._box.box.low, self._box.box.high)
-        (self._hide_box if box else self._hide_planes).set_value("all" if cut.notch else "any")
+        self._plane_page.set_flip(by_planes)
+        self._plane_page.set_plane(cut.slab.middle if slab else planes[self._selected])
+        box, sphere, depth = (self._cuts[kind] for kind in (CutKind.BOX, CutKind.SPHERE, CutKind.DEPTH))
+        self._box_page.set_corners(box.box.low, box.box.high)
+        self._thickness.set_values((self._cuts[CutKind.SLAB].slab.thickness,))
+        self._sphere_page.set_sphere(sphere.sphere)
+        self._depth_page.set_depth(depth.depth)
+        (self._hide_planes if by_planes else self._hide_inside).set_value("all" if cut.notch else "any")
         self._cut_mode.set_value(cut.style.value)

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
-from hexmend_app.features.cut.cut_panel import CutPanel, CutPanelSettings
+from hexmend_app.features.cut.cut_panel import CutPanel
+from hexmend_app.features.cut.cut_settings import CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.views.frame import Frame
@@ -34,6 +35,7 @@ class FeatureCut(Feature):
         self.panel.plane_chosen.connect(view.choose_plane)
         self.panel.handles_changed.connect(view.set_handles)
         self.panel.snap_changed.connect(view.set_snap)
+        self.panel.centre_requested.connect(self._centre_sphere)
         self._proposed: CutPanelSettings | None = None  # by a session; shown after its mesh, which resets the proposal
         self.inside = InsidePanel()
         self.inside.peel_changed.connect(lambda layers: view.change(show={"peel": layers}))
@@ -55,7 +57,7 @@ class FeatureCut(Feature):
                 part=1,
                 keys="C",
                 icon="cut",
-                help=tr("Cut the mesh open along planes or a box."),
+                help=tr("Cut the mesh open along planes, a box, a slab or a sphere, or by depth."),
                 tool=tr("Cut"),
                 handle=self._switch,
                 checked=lambda: view.look.cut.active,
@@ -97,7 +99,7 @@ class FeatureCut(Feature):
         )
 
     def states(self) -> Sequence[StatePart]:
-        """Return the planes and the box, also while nothing is cut."""
+        """Return the proposed cuts, also while nothing is cut."""
         return (StatePart(name="cut", data=CutPanelSettings, to_data=self.panel.settings, restore=self._propose),)
 
     def panels(self) -> Sequence[Panel]:
@@ -111,7 +113,7 @@ class FeatureCut(Feature):
                 group=PanelGroup.LOOK,
                 tab=tr("Cut"),
                 order=30,
-                help=tr("Cut the mesh open with planes or a box."),
+                help=tr("Cut the mesh open with planes, a box, a slab or a sphere, or by depth."),
             ),
             Panel(
                 id="inside",
@@ -129,6 +131,7 @@ class FeatureCut(Feature):
         """Connect dragging and digging in the view."""
         canvas.plane_dragged.connect(self._view.drag_plane)
         canvas.box_dragged.connect(self._view.drag_box)
+        canvas.sphere_dragged.connect(self._view.drag_sphere)
         canvas.dug.connect(self._dig)
 
     def refresh(self) -> None:
@@ -146,12 +149,14 @@ class FeatureCut(Feature):
             self.panel.set_handles(view.handles)
         if self._seen.changed("mesh", document.start):
             mesh = document.now.mesh
-            self.inside.set_layers(int(mesh.topology.layers.max()))
+            layers = int(mesh.topology.layers.max())
+            self.inside.set_layers(layers)
             points = mesh.points[mesh.topology.used]
-            self.panel.set_bounds(np.array([points.min(axis=0), points.max(axis=0)]))
+            self.panel.set_bounds(np.array([points.min(axis=0), points.max(axis=0)]), layers + 1)
         if self._proposed is not None:
             self.panel.restore(self._proposed)
             self._proposed = None
+        self.panel.set_hex_selected(self.session.selection.hex is not None)
         self.inside.set_look(view.look, view.rings)
         if self.canvas is not None:
             self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)
@@ -172,6 +177,12 @@ class FeatureCut(Feature):
             self._view.set_cut(self.panel.proposal() if on else Cut())
             if on:
                 self.host.show_panel("cut")
+
+    def _centre_sphere(self) -> None:
+        """Move the centre of the sphere to the selected hex."""
+        mesh, h, sphere = self.session.document.now.mesh, self.session.selection.hex, self._view.look.cut.sphere
+        if h is not None and sphere is not None:
+            self._view.drag_sphere(tuple(mesh.points[mesh.hexes[h]].mean(axis=0).tolist()), sphere.radius)
 
     def _dig(self, h: int) -> None:
         if h == self.session.selection.hex:

@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QSlider, QWidget
 
-from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.theme.style import icon, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
@@ -63,7 +63,7 @@ class PlanePage(QWidget):
         self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.000"))
         set_help(self._value, tr("Position in mesh units"), tr("Position along the plane's normal, in mesh units."))
-        grid = form_grid(self, tr("Position"))
+        grid = form_grid(self, tr("Thickness"))
         for row, (text, widget, companion) in enumerate(
             ((tr("Axis"), self._axis, self._flip), (tr("Position"), self._slider, self._value))
         ):
@@ -86,6 +86,10 @@ class PlanePage(QWidget):
         """Show a plane; emits no signal."""
         self._plane = plane
         self._refresh()
+
+    def set_flip(self, shown: bool) -> None:
+        """Show or hide the button that flips the plane."""
+        self._flip.setVisible(shown)
 
     def _direction(self) -> np.ndarray:
         """Return the slider's axis, (3,): the unit normal with its largest component positive."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.arrays import row_norms
-from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.cut_shapes import Plane
 
 #: Number of cells along the diagonal of the mesh; a cell is a few pixels wide.
 _CELLS = 128

@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkPlaneCutter
 
 from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
 from hexmend_app.scene.geometry import plane_sides
 from hexmend_app.scene.layers.surface import coloured, colours_of, hexes_of

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.geometry import plane_sides
 
 #: Maximum number of planes whose heights are stored; those of more planes are computed each time.

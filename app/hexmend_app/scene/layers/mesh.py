@@ -8,7 +8,7 @@ import numpy as np
 import pyvista as pv
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.colour.hex_colours import HexColours
 from hexmend_app.scene.cutting.coarse_section import coarse_section
 from hexmend_app.scene.cutting.cut import remaining_skin, sections

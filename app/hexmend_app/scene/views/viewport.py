@@ -142,7 +142,7 @@ class Viewport:
         return (
             self.coarse_cuts
             and self.frame.mesh.n_hexes >= COARSE_CUT_HEXES
-            and 0 < len(look.cut.planes) <= MOST_PLANES
+            and 0 < len(look.cut.sides) <= MOST_PLANES
             and not (look.cut.notch or look.cut.hexes or filtered)
             and last.look.cut != look.cut
             and replace(last.look, cut=look.cut) == look
@@ -151,8 +151,8 @@ class Viewport:
     def _draw_coarse_cut(self) -> None:
         """Draw the hexes at a cut, and the skin coarsely."""
         self._coarse_cut, cut, points = True, self.frame.look.cut, self.frame.mesh.points
-        opened = self.filters.planes.sections(points, cut.planes)
-        self.mesh_layer.draw_coarse_cut(self.frame, cut.planes, opened, self.colours)
+        opened = self.filters.planes.sections(points, cut.sides)
+        self.mesh_layer.draw_coarse_cut(self.frame, cut.sides, opened, self.colours)
 
     def _finish_cut(self) -> None:
         """Draw a cut as it is, if it is drawn coarsely."""

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from hexmend.advice import Advice
 from hexmend.aliases import former_attributes
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import migrate_surface_tolerance
 from hexmend_app.codec.codec import DecodeError
+from hexmend_app.codec.config_table import encode
 from hexmend_app.picture.appearance import with_material_colours
+from hexmend_app.picture.cut import CutKind, proposed_cuts
 from hexmend_app.state.mesh.run_record import NodeOffsets
 from hexmend_app.state.run.run_setup import RunSetupData
 
@@ -31,6 +35,9 @@ _WITHOUT_TABLES = 5
 _WITH_MATERIAL_LAYER = 6
 #: The last version whose files may lack fields that were added within a version.
 _WITH_MISSING_FIELDS = 7
+
+#: The last version in which only planes and a box could cut.
+_WITH_PLANES_AND_BOX = 8
 
 
 def migrate(window: Any, version: int) -> Any:
@@ -54,7 +61,24 @@ def migrate(window: Any, version: int) -> Any:
             raise DecodeError(f"the window's view or cut is not of its type: {error!r}"[:200]) from None
     if version <= _WITH_MATERIAL_LAYER:
         window = _with_material_colours(window)
+    if version <= _WITH_PLANES_AND_BOX:
+        window = _with_other_cuts(window)
     return window
+
+
+def _with_other_cuts(window: dict[str, Any]) -> dict[str, Any]:
+    """Add proposed cuts by a slab, a sphere and depth, in the middle of the box, to those by planes and by a box."""
+    features = window.get("features") if isinstance(window, dict) else None
+    former = features.get("cut") if isinstance(features, dict) else None
+    if not isinstance(former, dict):
+        return window
+    try:
+        planes, box, kind = former["planes"], former["box"], "box" if former["boxed"] else "planes"
+        proposed = proposed_cuts(np.array([box["box"]["low"], box["box"]["high"]], dtype=float))
+    except (LookupError, TypeError, ValueError) as error:
+        raise DecodeError(f"the window's proposed cuts are not of their type: {error!r}"[:200]) from None
+    others = [encode(proposed[kind]) for kind in (CutKind.SLAB, CutKind.SPHERE, CutKind.DEPTH)]
+    return {**window, "features": {**features, "cut": {"cuts": [planes, box, *others], "kind": kind}}}
 
 
 def _with_material_colours(window: dict[str, Any]) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.quality import METRICS
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.cut_planes import Box, Plane
+from hexmend_app.picture.cut_shapes import Box, Plane, Sphere
 from hexmend_app.picture.page import Page
 from hexmend_app.picture.visibility import Isolate, Show, known_metric
 from hexmend_app.state.mesh.document import Document
@@ -69,9 +69,9 @@ class ViewModel(QObject):
     ----------
     look : Look
     handles : bool
-        True to show the handles of the cut's plane or box in the view.
+        True to show the handles of the cut in the view.
     plane_at : int
-        Index of the selected plane of a cut, which has the handles.
+        Index of the selected plane of a cut by planes, which has the handles.
     snap : bool
         True to align dragged planes with an axis that they are close to.
     rings : int
@@ -161,9 +161,17 @@ class ViewModel(QObject):
             self.changed.emit()
 
     def drag_plane(self, plane: Plane) -> None:
-        """Move the selected plane to where it is dragged, snapping to an axis if `snap` is set."""
-        if self.look.cut.planes:
-            self.set_cut(self.look.cut.with_plane(self.plane_at, plane.snapped() if self.snap else plane))
+        """Move the selected plane, or the middle of the slab, to where it is dragged; snap to an axis if `snap`."""
+        cut, plane = self.look.cut, plane.snapped() if self.snap else plane
+        if cut.planes:
+            self.set_cut(cut.with_plane(self.plane_at, plane))
+        elif cut.slab is not None:
+            self.set_cut(dataclasses.replace(cut, slab=cut.slab.moved_to(plane), hexes=""))
+
+    def drag_sphere(self, centre: tuple[float, float, float], radius: float) -> None:
+        """Move the sphere of the cut to where it is dragged, or change its radius."""
+        if self.look.cut.sphere is not None:
+            self.set_cut(dataclasses.replace(self.look.cut, sphere=Sphere(centre, radius), hexes=""))
 
     def drag_box(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
         """Move the box of the cut to where it is dragged; corners as (x, y, z)."""

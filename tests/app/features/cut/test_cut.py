@@ -8,7 +8,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
-from hexmend_app.picture import Cut
+from hexmend_app.picture import Cut, Plane
 from tests.app.driving import drag, key, named, pixels, press, seen_at, tick
 
 
@@ -128,3 +128,55 @@ def test_a_cut_switched_off_and_on_between_two_refreshes_is_shown_as_on(window):
     window.session.view.set_cut(clip)
     window.refresh()
     assert box.isChecked()
+
+
+@pytest.mark.slow
+def test_the_sphere_is_moved_and_resized_in_the_view(window, qtbot):
+    key(window, Qt.Key.Key_C)
+    choose(window, "Sphere")
+    window.canvas.draw_still()
+    before = window.session.view.look.cut.sphere
+    view, centre = window.canvas.interactor, np.array(before.centre)
+    rim = seen_at(window, centre + (before.radius, 0, 0))
+    inwards = seen_at(window, centre + (0.6 * before.radius, 0, 0))
+    drag(view, rim, inwards)
+    smaller = window.session.view.look.cut.sphere
+    assert 0.4 * before.radius < smaller.radius < 0.9 * before.radius
+    assert smaller.centre == pytest.approx(before.centre)
+    window.refresh()
+    at = seen_at(window, centre)
+    drag(view, at, at + QPoint(0, -40))
+    moved = window.session.view.look.cut.sphere
+    assert moved.centre[2] > before.centre[2]
+    assert moved.radius == pytest.approx(smaller.radius)
+
+
+def test_the_sphere_is_centred_on_the_selected_hex(window):
+    key(window, Qt.Key.Key_C)
+    choose(window, "Sphere")
+    button = named(window.features["cut"].panel, QPushButton, "Centre on hex")
+    assert not button.isEnabled()
+    window.session.selection.choose(17)
+    window.refresh()
+    press(button)
+    mesh = window.session.document.now.mesh
+    assert window.session.view.look.cut.sphere.centre == pytest.approx(mesh.points[mesh.hexes[17]].mean(axis=0))
+
+
+@pytest.mark.parametrize(("kind", "handles"), [("Slab", "plane"), ("Sphere", "sphere"), ("Box", "box")])
+def test_only_the_handles_of_the_cut_are_in_the_view(window, kind, handles):
+    key(window, Qt.Key.Key_C)
+    choose(window, kind)
+    on = {name for name in ("plane", "sphere", "box") if getattr(window.canvas, name).widget.GetEnabled()}
+    assert on == {handles}
+    tick(named(window, QCheckBox, "Handles"))
+    assert not getattr(window.canvas, handles).widget.GetEnabled()
+
+
+def test_the_slab_is_dragged_by_its_middle(window):
+    key(window, Qt.Key.Key_C)
+    choose(window, "Slab")
+    slab = window.session.view.look.cut.slab
+    turned = Plane((0.0, 0.05, 1.0), point=(1, 2, 3))
+    window.canvas.plane_dragged.emit(turned)
+    assert window.session.view.look.cut.slab == slab.moved_to(Plane((0, 0, 1), point=(1, 2, 3)))

@@ -11,7 +11,8 @@ from superqt import QRangeSlider
 
 from hexmend_app.features.cut.cut_panel import CutPanel
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Box
+from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab, Sphere
+from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
 
@@ -229,7 +230,7 @@ def test_a_box_is_moved_by_its_sliders_and_inverted(panel, emitted):
     assert not slider(panel).isVisible()
     sides = named(panel, QRangeSlider, "Y extent of the box")
     QTest.mouseClick(sides, _LEFT, pos=QPoint(sides.width() - 3, sides.height() // 2))
-    QTest.mouseClick(named(panel, Segmented, "Hidden side of the box").button("all"), _LEFT)
+    QTest.mouseClick(named(panel, Segmented, "Hidden side").button("all"), _LEFT)
     box = emitted[-1]
     assert (box.box.low, box.notch) == ((0, 7.5, 2.5), True)
     assert box.box.high[1] > 22.5
@@ -246,3 +247,71 @@ def test_a_box_dragged_in_the_view_is_not_rounded_to_the_sliders(panel, emitted)
     QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
     assert emitted[-1].box == box.box
     assert emitted[-1].smooth
+
+
+def choose_kind(panel, key):
+    switch_on(panel)
+    QTest.mouseClick(kind(panel).button(key), _LEFT)
+
+
+def type_into(panel, name, text):
+    box = named(panel, NumberBox, name)
+    box.setFocus()
+    box.lineEdit().selectAll()
+    QTest.keyClicks(box, text)
+
+
+def test_a_slab_is_turned_moved_and_made_thicker(panel, emitted):
+    choose_kind(panel, "slab")
+    assert emitted[-1] == Cut(slab=Slab((1, 0, 0), point=(1, 15, 3), thickness=0.4))
+    assert not named(panel, QPushButton, "Flip").isVisible()
+    type_into(panel, "Thickness", "1.5")
+    QTest.mouseClick(axis(panel).button("z"), _LEFT)
+    assert emitted[-1].slab == Slab((0, 0, 1), point=(1, 15, 3), thickness=1.5)
+    QTest.keyClick(slider(panel), Qt.Key.Key_End)
+    assert emitted[-1].slab.point[2] == pytest.approx(4)
+    QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
+    assert emitted[-1].smooth
+    QTest.mouseClick(named(panel, Segmented, "Hidden side").button("all"), _LEFT)
+    assert emitted[-1].notch
+    before = emitted[-1]
+    QTest.mouseClick(kind(panel).button("planes"), _LEFT)
+    assert emitted[-1].planes == (Plane((1, 0, 0), point=(1, 15, 3)),)
+    QTest.mouseClick(kind(panel).button("slab"), _LEFT)
+    assert emitted[-1] == before
+
+
+def test_a_sphere_is_typed_and_has_whole_hexes(panel, emitted):
+    choose_kind(panel, "planes")
+    QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
+    QTest.mouseClick(kind(panel).button("sphere"), _LEFT)
+    assert emitted[-1].crinkled
+    assert not cut(panel).isVisible()
+    type_into(panel, "Centre Y", "7.25")
+    type_into(panel, "Radius", "3")
+    assert emitted[-1].sphere == Sphere((1, 7.25, 3), 3)
+    type_into(panel, "Radius", "-1")
+    assert emitted[-1].sphere.radius > 0
+
+
+def test_numbers_that_are_dragged_are_shown_rounded_and_kept(panel, emitted):
+    choose_kind(panel, "sphere")
+    panel.set_cut(Cut(sphere=Sphere((1 / 3, 2 / 3, 3), 1 / 7)))
+    assert named(panel, NumberBox, "Centre X").value() == 0.3333
+    type_into(panel, "Radius", "0.123456")
+    assert emitted[-1].sphere == Sphere((1 / 3, 2 / 3, 3), 0.123456)
+    assert named(panel, NumberBox, "Radius").lineEdit().text() == "0.123456"
+
+
+def test_the_ends_of_a_depth_may_be_typed_in_any_order(panel, emitted):
+    panel.set_bounds(_BOUNDS, layers=5)
+    choose_kind(panel, "depth")
+    assert emitted[-1] == Cut(depth=Depth(2, 5))
+    assert not named(panel, QCheckBox, "Handles").isVisible()
+    type_into(panel, "Least depth", "7")
+    assert emitted[-1].depth == Depth(5, 7)
+    type_into(panel, "Greatest depth", "12")
+    assert emitted[-1].depth == Depth(7, 12)
+    assert named(panel, NumberBox, "Greatest depth").lineEdit().text() == "12"
+    QTest.mouseClick(named(panel, Segmented, "Unit of depth").button("edges"), _LEFT)
+    assert emitted[-1].depth == Depth(7, 12, DepthUnit.EDGES)

@@ -13,7 +13,7 @@ from hexmend import gallery, io
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.shell.start.program import application
 from hexmend_app.state.run.run_controller import Phase

@@ -10,7 +10,7 @@ from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Box
+from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Slab, Sphere
 from hexmend_app.widgets.section import Section
 from tests.app.conftest import close, window_with_mesh
 from tests.app.driving import key, named, open_and_wait, tick, walk_to
@@ -156,7 +156,9 @@ def test_an_isolated_patch_follows_the_node(window, qtbot, tmp_path):
 def test_a_disabled_cut_is_restored(window, qtbot, tmp_path, mesh_file):
     view = window.session.view
     box = Cut(box=Box((0.1, 0.1, 0.1), (0.4, 0.4, 0.4)), style=CutStyle.SMOOTH)
-    for clip in (Cut.at((1, 2, 3), (0.5, 0.5, 0.5)), box):
+    slab = Cut(slab=Slab((0, 1, 0), point=(1, 2, 3), thickness=0.5), notch=True)
+    sphere, depth = Cut(sphere=Sphere((1, 2, 3), 0.5)), Cut(depth=Depth(0.5, 3, DepthUnit.EDGES))
+    for clip in (Cut.at((1, 2, 3), (0.5, 0.5, 0.5)), slab, sphere, depth, box):
         view.set_cut(clip)
         window.refresh()
     view.set_cut(Cut())

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Box, Plane
+from hexmend_app.picture.cut_shapes import Box, Plane
 from hexmend_app.scene.cutting import cut
 from hexmend_app.scene.geometry.filters import Filters
 from hexmend_app.scene.geometry.skin import Skin

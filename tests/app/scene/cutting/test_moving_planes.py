@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.cutting.coarse_section import coarse_section
 from hexmend_app.scene.cutting.moving_planes import MOST_PLANES, MovingPlanes
 from hexmend_app.scene.geometry import plane_sides

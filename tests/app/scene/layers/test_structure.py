@@ -12,7 +12,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Box
+from hexmend_app.picture.cut_shapes import Box
 from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.layers.optional.structure import (

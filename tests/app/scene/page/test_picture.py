@@ -22,7 +22,7 @@ from hexmend_app.cli.scene_options import look_of
 from hexmend_app.picture import ColourBarStyle, LineStyle, Page, Scene, Show, TextPlace
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Box, Plane
+from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab
 from hexmend_app.scene.colour.colouring import INVERTED, resolve
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
@@ -127,6 +127,12 @@ def test_a_metric_other_than_q_is_drawn(pictures):
         (["--clip", "w"], "--clip 'w' cannot be used"),
         (["--clip", "0,0,0"], "a direction that is not zero"),
         (["--clip", "x:1.5"], "a position from 0 to 1"),
+        (["--clip-slab", "x:0.5"], "an axis, a position and a thickness"),
+        (["--clip-slab", "x:0.5:2"], "an axis, a position and a thickness"),
+        (["--clip-sphere", "0.5,0.5,2,0.1"], "three positions from 0 to 1 and a radius"),
+        (["--clip-sphere", "0.5,0.5,0.5"], "4 numbers separated by commas"),
+        (["--clip-depth", "3:2"], "the lower first"),
+        (["--clip-depth", "1:2", "--smooth"], "has whole hexes"),
         (["--size", "big"], "as in 1600x1000"),
         (["--size", "16x16"], "64 to 8192 pixels"),
         (["--quality-range", "0.8,0.2"], "the lower number first"),
@@ -216,6 +222,17 @@ def test_several_planes_and_boxes_are_asked_for():
     assert asked(mesh, "--clip-box", "0,0.5,0.25,1,0,1") == Cut(box=Box((0, 1, 0), (2, 4, 4)))
     with pytest.raises(ParameterError, match="the lower first"):
         asked(mesh, "--clip-box", "0.5,0,0,1,0,1")
+
+
+def test_other_shapes_are_asked_for():
+    mesh = grid(4)
+    slab = Slab((1, 0, 0), point=(1, 0, 0), thickness=2)
+    assert asked(mesh, "--clip-slab", "x:0.25:0.5", "--smooth") == Cut(slab=slab, style=CutStyle.SMOOTH)
+    inside_out = asked(mesh, "--clip-sphere", "0.5,0,1,0.25", "--notch")
+    assert (inside_out.sphere.centre, inside_out.notch) == ((2, 0, 4), True)
+    assert inside_out.sphere.radius == pytest.approx(0.25 * 4 * 3**0.5)
+    assert asked(mesh, "--clip-depth", "2") == Cut(depth=Depth(2, 2))
+    assert asked(mesh, "--clip-depth", "0.5:3e") == Cut(depth=Depth(0.5, 3, DepthUnit.EDGES))
 
 
 def test_nodes_that_no_hex_uses_do_not_count():

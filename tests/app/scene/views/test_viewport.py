@@ -7,7 +7,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_planes import Plane
+from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.camera.camera_controller import CameraController

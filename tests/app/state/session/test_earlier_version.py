@@ -15,7 +15,7 @@ from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session.session_file import VERSION
 from hexmend_app.picture import Colours, Isolate, Plane, Range, Show, read_scene
 from hexmend_app.picture.appearance import Arrows, Since, Structure, Traces
-from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut import Cut, CutKind, CutStyle
 from hexmend_app.state.session import session_data
 from hexmend_app.state.settings import settings
 from tests.app.conftest import close, separate_settings, window_with_mesh
@@ -56,7 +56,7 @@ def test_all_of_a_session_is_restored(fresh_window, qtbot, version):
     compare = features["compare"].panel.settings()
     assert compare.ticked == {"laplacian", "local-sd", "getme", "mend", "getme-sequential"}
     assert (compare.sorted_by, compare.descending) == ("q_min", True)
-    assert features["cut"].panel.settings().boxed
+    assert features["cut"].panel.settings().kind is CutKind.BOX
     assert not features["hex_inspector"].worst_list.settings().isolates
     assert features["hex_inspector"].panel.corners_in_view
     assert (features["smooth"].panel.steps, features["tags"].panel.name) == (2, "7")
@@ -89,7 +89,7 @@ def test_the_look_of_a_session_of_version_5_is_read():
     assert look.structure == Structure(frozenset({"irregular", "sharp", "fixed", "locked"}))
     assert look.movement == Traces(Since.ITERATION, Arrows.ALL, 1.1)
     assert (look.lines.shown, look.page.shading) == (False, False)
-    assert data.features["cut"]["planes"] == data.features["cut"]["planes"] | {"style": "crinkle", "notch": True}
+    assert data.features["cut"]["cuts"][0] == data.features["cut"]["cuts"][0] | {"style": "crinkle", "notch": True}
 
 
 @pytest.mark.parametrize("version", [4, 5])

@@ -116,6 +116,4 @@ def _single(faces: np.ndarray, hexes: np.ndarray) -> np.ndarray:
 def _uncut(points: np.ndarray, cells: Cells, cut: Cut | None) -> np.ndarray:
     if cut is None or not cut.active:
         return np.ones(len(cells.nodes), bool)
-    centres = points[cells.nodes].mean(axis=1)
-    beyond = np.stack([plane.signed_distance(centres) > 0 for plane in cut.sides])
-    return ~(beyond.all(axis=0) if cut.notch else beyond.any(axis=0))
+    return ~cut.hidden(points[cells.nodes].mean(axis=1))

@@ -254,11 +254,7 @@ def node_marks(
 
 def points_kept_by_cut(look: Look, points: np.ndarray) -> np.ndarray | bool:
     """Return True for points, (k, 3), that a smooth cut leaves; True if there is no smooth cut."""
-    cut = look.cut
-    if not cut.smooth:
-        return True
-    beyond = [plane.signed_distance(points) > 0 for plane in cut.sides]
-    return ~(np.all(beyond, axis=0) if cut.notch else np.any(beyond, axis=0))
+    return ~look.cut.hidden(points) if look.cut.smooth else True
 
 
 def _rgb(colour: str) -> np.ndarray:

@@ -20,7 +20,7 @@ from hexmend.io.files import check_readable, reading
 from hexmend.mesh.mesh import Mesh
 
 #: Version that is written; earlier ones can be read.
-VERSION = 8
+VERSION = 9
 #: Largest number of meshes in a session.
 MAX_MESHES = 10_000
 
