@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+import numpy as np
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
@@ -20,6 +21,7 @@ from hexmend_app.canvas.shading_task import ShadingTask
 from hexmend_app.canvas.view_captions import HEIGHT
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.picture.cut import Cut
+from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.scene.cutting.box_widget import BoxWidget
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
@@ -37,6 +39,8 @@ if TYPE_CHECKING:
 
 #: Width of the focus ring in pixels, and reasons of keyboard focus.
 _RING = 2
+#: Largest distance in pixels of a measured point from a node whose position it takes.
+_SNAP = 10
 _BY_KEYS = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason, Qt.FocusReason.ShortcutFocusReason)
 
 
@@ -49,6 +53,8 @@ class Canvas(CameraView):
         The user moved or rotated the plane in the view.
     box_dragged(low, high)
         The user moved a side of the box in the view.
+    measured(place)
+        The user clicked a point while measuring; as (x, y, z).
     sphere_dragged(centre, radius)
         The user moved the sphere in the view, or changed its radius.
     clicked(hit)
@@ -64,6 +70,7 @@ class Canvas(CameraView):
     box_dragged = Signal(object, object)
     sphere_dragged = Signal(object, float)
     clicked = Signal(object)
+    measured = Signal(object)
     dug = Signal(int)
     menu_requested = Signal(object, QPoint)
 
@@ -82,6 +89,7 @@ class Canvas(CameraView):
             self._bar_overlay.keep_off(part, area)
         layout.addLayout(self.frame, 1)
         self._handles = False, 0
+        self._measuring = False
         self._selected: tuple[int | None, bool] = (None, False)
         self._connect_pointer()
         self.interactor.installEventFilter(self)
@@ -94,7 +102,7 @@ class Canvas(CameraView):
     def _connect_pointer(self) -> None:
         pointer = Pointer(self.interactor)
         pointer.pressed.connect(self.camera_animation.begin_move)
-        pointer.clicked.connect(lambda place: self.clicked.emit(self._at(place)))
+        pointer.clicked.connect(self._click)
         pointer.dug.connect(self._dig)
         pointer.double_clicked.connect(self._rotate_about)
         pointer.menu_requested_at.connect(self._request_menu)
@@ -235,6 +243,23 @@ class Canvas(CameraView):
         """Return the hex at a position of the view, and its nearest node."""
         hit = self._pick(place)
         return None if hit is None else (hit.hex, hit.node)
+
+    def set_measuring(self, on: bool) -> None:
+        """Let clicks pick points to measure, instead of selecting hexes."""
+        self._measuring = on
+        if on:
+            self.interactor.setCursor(Qt.CursorShape.CrossCursor)
+        else:
+            self.interactor.unsetCursor()
+
+    def _click(self, place: QPointF) -> None:
+        if not self._measuring:
+            self.clicked.emit(self._at(place))
+        elif (hit := self._pick(place)) is not None:
+            node = self.viewport.frame.mesh.points[hit.node]
+            distance = pixels(self.panes.pane.renderer, float(np.linalg.norm(hit.place - node)), node)
+            near = distance <= _SNAP * self.devicePixelRatioF()
+            self.measured.emit(tuple((node if near else hit.place).tolist()))
 
     def _dig(self, place: QPointF) -> None:
         hit = self._pick(place)

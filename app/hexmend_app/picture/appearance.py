@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import pairwise
 from typing import Any
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.option import Option, option
+from hexmend_app.picture.camera_pose import Vector
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.layer_switch import LAYERS, ON_BY_DEFAULT, OWN_KEYS
@@ -130,6 +133,39 @@ class Structure:
 
 
 @dataclass(frozen=True)
+class Measurement(ConfigTable):
+    """Points between which distances and an angle are measured and drawn.
+
+    Parameters
+    ----------
+    points : tuple of Vector
+        At most three points in the unit of the mesh: two have a distance, three also an angle at the second.
+    """
+
+    points: tuple[Vector, ...] = option((), most=3)
+
+    def with_point(self, point: Vector) -> Measurement:
+        """Return a copy with another point; the one after the third begins a new measurement."""
+        return Measurement((*(self.points if len(self.points) < 3 else ()), point))
+
+    @property
+    def distances(self) -> list[float]:
+        """Distances between consecutive points."""
+        return [math.dist(*ends) for ends in pairwise(self.points)]
+
+    @property
+    def angle(self) -> float | None:
+        """Angle at the second of three points in degrees; None for fewer or coinciding points."""
+        if len(self.points) < 3 or not all(self.distances):
+            return None
+        first, corner, last = self.points
+        arms = [[a - b for a, b in zip(end, corner, strict=True)] for end in (first, last)]
+        u, v = ([c / math.hypot(*arm) for c in arm] for arm in arms)
+        # Exact for small angles too, unlike the arc cosine.
+        return math.degrees(2 * math.atan2(math.dist(u, v), math.hypot(*(a + b for a, b in zip(u, v, strict=True)))))
+
+
+@dataclass(frozen=True)
 class Look(ConfigTable):
     """All settings of the drawing of a mesh: the tables of a scene except the cameras, the panels and their labels.
 
@@ -149,6 +185,8 @@ class Look(ConfigTable):
         Widths of lines.
     page : Page
         Page of pictures; views use its shading alone.
+    measurement : Measurement
+        Points that are measured.
     """
 
     cut: Cut = option(Cut)
@@ -158,6 +196,7 @@ class Look(ConfigTable):
     colours: Colours = option(Colours)
     lines: LineStyle = option(LineStyle)
     page: Page = option(Page)
+    measurement: Measurement = option(Measurement)
 
     def on(self, mesh: Mesh) -> Look:
         """Return the look with the coordinates of the cut in a mesh.

@@ -9,7 +9,7 @@ from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.option import option
-from hexmend_app.picture.appearance import Look, Structure, Traces
+from hexmend_app.picture.appearance import Look, Measurement, Structure, Traces
 from hexmend_app.picture.camera import MAX_PANELS, Camera, PicturePanel
 from hexmend_app.picture.camera_pose import CameraPose
 from hexmend_app.picture.colours import Colours
@@ -53,6 +53,8 @@ class Scene(ConfigTable):
         Arrows and reference state of movements.
     colours : Colours
         Colours of the hexes.
+    measurement : Measurement
+        Points that are measured.
     lines : LineStyle
         Widths of lines.
     bar : ColourBarStyle
@@ -72,6 +74,7 @@ class Scene(ConfigTable):
     structure: Structure = option(Structure)
     movement: Traces = option(Traces)
     colours: Colours = option(Colours)
+    measurement: Measurement = option(Measurement)
     lines: LineStyle = option(LineStyle)
     bar: ColourBarStyle = option(ColourBarStyle)
     axes: AxesStyle = option(AxesStyle)

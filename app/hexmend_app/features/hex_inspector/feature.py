@@ -128,12 +128,12 @@ class FeatureHexInspector(Feature):
                 menu="Hex",
                 part=3,
                 keys="Esc",
-                help=tr("End the isolation, then clear the selection."),
+                help=tr("End measuring, then the isolation, then clear the selection."),
                 handle=self._back,
                 enabled=lambda: (
                     not self.host.messages.takes_escape
                     and not self.session.opener.busy
-                    and (self._selection.hex is not None or self._view.look.show.isolate is not None)
+                    and (self._selection.hex is not None or self._view.look.show.isolate is not None or self._measures)
                 ),
             ),
         )
@@ -250,9 +250,15 @@ class FeatureHexInspector(Feature):
         isolation = self._view.look.show.isolate
         self.session.commands.free_only(isolation.hexes, isolation.rings)
 
+    @property
+    def _measures(self) -> bool:
+        return self._view.measuring or bool(self._view.look.measurement.points)
+
     def _back(self) -> None:
-        """End the isolation, or clear the selection if nothing is isolated."""
-        if self._view.look.show.isolate is not None:
+        """End measuring, else the isolation; clear the selection if nothing is isolated."""
+        if self._measures:
+            self._view.end_measuring()
+        elif self._view.look.show.isolate is not None:
             self._view.end_isolation()
         else:
             self._selection.choose(None)

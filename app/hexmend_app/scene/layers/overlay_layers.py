@@ -15,6 +15,7 @@ from hexmend_app.scene.layers.optional.structure import StructureLayers
 from hexmend_app.scene.layers.optional_layer import OptionalLayer
 from hexmend_app.scene.layers.selection import SelectionLayer
 from hexmend_app.scene.layers.silhouette import Silhouette
+from hexmend_app.scene.measuring.measurement_layer import MeasurementLayer
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 
@@ -25,7 +26,7 @@ def raise_error(error: Exception) -> None:
 
 
 class OverlayLayers:
-    """Draws ghosts, the outline, the structure, arrows, the selection and the optional layers.
+    """Draws ghosts, the outline, the structure, arrows, the selection, a measurement and the optional layers.
 
     A layer that raises is reported and hidden until another mesh is drawn; the other layers are not affected.
 
@@ -46,6 +47,7 @@ class OverlayLayers:
     arrows : ArrowLayer
     selection : SelectionLayer
         Marks of the selected hex and node.
+    measurement : MeasurementLayer
     optional : dict of OptionalLayer
         Layers that are switched on and off, by their names in `LAYERS`.
     """
@@ -63,12 +65,14 @@ class OverlayLayers:
         self.structure = StructureLayers(pane, pixel_ratio)
         self.arrows = ArrowLayer(pane, pixel_ratio)
         self.selection = SelectionLayer(pane, pixel_ratio)
+        self.measurement = MeasurementLayer(pane, pixel_ratio)
 
     @property
     def renderers(self) -> tuple[vtkRenderer, ...]:
         """Renderers in front of the renderer of the hexes, from back to front."""
         optional = [renderer for layer in self.optional.values() for renderer in layer.renderers]
-        return self.structure.layer, self.arrows.layer, *self.selection.layers, *optional
+        own = self.structure.layer, self.arrows.layer, *self.selection.layers
+        return *own, *optional, *self.measurement.layers
 
     @property
     def places(self) -> np.ndarray:
@@ -137,6 +141,7 @@ class OverlayLayers:
         self._attempt("arrows", self.arrows.draw, frame, keep, mesh_layer)
         if self.outline is not None:
             self._attempt("outline", self.outline.show, look, points, keep)
+        self._attempt("measurement", self.measurement.draw, look.measurement)
         self._attempt("structure", self.structure.rebuild, look, points, frame.figures, mesh_layer.faces, keep)
 
     def move(self, frame: Frame, keep: np.ndarray | None, mesh_layer: MeshLayer) -> None:
@@ -153,7 +158,8 @@ class OverlayLayers:
         if self.outline is not None:
             self.outline.close()
             self.outline = None
-        for layer in (self.ghosts, *self.optional.values(), self.structure, self.arrows, self.selection):
+        own = self.ghosts, self.structure, self.arrows, self.selection, self.measurement
+        for layer in (*own, *self.optional.values()):
             layer.hide()
 
     def _attempt(self, name: str, draw: Callable[..., object], *values: object) -> None:

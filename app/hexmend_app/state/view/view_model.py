@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.quality import METRICS
-from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.appearance import Look, Measurement
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Box, Plane, Sphere
 from hexmend_app.picture.page import Page
@@ -78,6 +78,8 @@ class ViewModel(QObject):
         Rings of neighbours shown around isolated hexes.
     counted : str or None
         Metric of the histogram; None if it is that of the colours.
+    measuring : bool
+        True while clicks in the view pick points to measure.
     """
 
     changed = Signal()
@@ -92,8 +94,10 @@ class ViewModel(QObject):
         self.snap = True
         self.rings = 1
         self.counted: str | None = None
+        self.measuring = False
         self._dug: list[int] = []  # in the order of digging
         document.mesh_replaced.connect(self.show_all)
+        document.mesh_replaced.connect(self.end_measuring)
 
     def change(self, **tables: object) -> None:
         """Change tables of the look, and emit `changed` if it differs.
@@ -126,7 +130,7 @@ class ViewModel(QObject):
         """Restore the view of a session file."""
         self.look, self._dug = data.look, list(data.dug)
         self.handles, self.plane_at, self.snap, self.rings = data.handles, data.plane_at, data.snap, data.rings
-        self.counted = data.counted
+        self.counted, self.measuring = data.counted, False
         self.changed.emit()
 
     def show_as(self, look: Look) -> None:
@@ -177,6 +181,27 @@ class ViewModel(QObject):
         """Move the box of the cut to where it is dragged; corners as (x, y, z)."""
         if self.look.cut.box is not None:
             self.set_cut(dataclasses.replace(self.look.cut, box=Box(low, high), hexes=""))
+
+    def start_measuring(self) -> None:
+        """Let clicks in the view pick points to measure."""
+        if not self.measuring:
+            self.measuring = True
+            self.changed.emit()
+
+    def measure(self, point: tuple[float, float, float]) -> None:
+        """Add a point to the measurement; the one after the third begins a new one."""
+        self.change(measurement=self.look.measurement.with_point(point))
+
+    def clear_measurement(self) -> None:
+        """Remove the measured points."""
+        self.change(measurement=Measurement())
+
+    def end_measuring(self) -> None:
+        """Remove the measured points; clicks select hexes again."""
+        measuring, self.measuring = self.measuring, False
+        self.clear_measurement()
+        if measuring:
+            self.changed.emit()
 
     def set_handles(self, shown: bool) -> None:
         """Show or hide the handles of the cut."""

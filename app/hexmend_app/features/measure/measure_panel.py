@@ -1,0 +1,107 @@
+"""Panel with the distances and the angle between points picked in the view."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from hexmend_app.picture.appearance import Measurement
+from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.translation import tr
+
+_PROMPTS = (
+    "Click two points of the mesh in the view. Close to a node, its position is taken.",
+    "Click the second point in the view.",
+)
+
+
+class MeasurePanel(QWidget):
+    """Panel that switches measuring on, and shows the measurement as text.
+
+    Attributes
+    ----------
+    text : QLabel
+        The measurement, which can be selected.
+
+    Signals
+    -------
+    toggled(bool)
+        The user switched measuring on or off.
+    clear_requested
+        Remove the measured points.
+    """
+
+    toggled = Signal(bool)
+    clear_requested = Signal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._measurement = Measurement()
+        self._switch = QPushButton(icon("ruler"), tr("Measure"))
+        self._switch.setCheckable(True)
+        set_help(self._switch, tr("Measure"), tr("Clicks in the view measure instead of selecting hexes; Esc ends."))
+        self._copy, self._clear = QPushButton(icon("content-copy"), tr("Copy")), QPushButton(tr("Clear"))
+        set_help(self._copy, tr("Copy measurement"), tr("Copy the points, distances and angle to the clipboard."))
+        set_help(self._clear, tr("Clear measurement"), tr("Remove the measured points."))
+        self.text = QLabel()
+        self.text.setFont(tabular(self.text.font()))
+        self.text.setTextFormat(Qt.TextFormat.PlainText)
+        self.text.setTextInteractionFlags(
+            Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
+        )
+        self.text.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
+        buttons = QHBoxLayout()
+        buttons.setSpacing(8)
+        for button in (self._switch, self._copy, self._clear):
+            buttons.addWidget(button)
+        buttons.addStretch()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(8)
+        layout.addLayout(buttons)
+        layout.addWidget(self.text, 1)
+        self._switch.clicked.connect(self.toggled)
+        self._clear.clicked.connect(self.clear_requested)
+        self._copy.clicked.connect(self.copy)
+        self.set_measurement(False, self._measurement)
+
+    def set_measurement(self, measuring: bool, measurement: Measurement) -> None:
+        """Show whether clicks measure, and a measurement; emits no signal."""
+        self._measurement = measurement
+        count = len(measurement.points)
+        self._switch.setChecked(measuring)
+        self._clear.setEnabled(count > 0)
+        self._copy.setEnabled(count > 1)
+        if count > 1:
+            self.text.setText(measurement_text(measurement))
+        else:
+            self.text.setText(tr(_PROMPTS[count]) if measuring else "")
+
+    def copy(self) -> None:
+        """Copy the measurement to the clipboard."""
+        QGuiApplication.clipboard().setText(measurement_text(self._measurement))
+
+
+def measurement_text(measurement: Measurement) -> str:
+    """Return the points, distances and angle of a measurement as lines of text.
+
+    >>> print(measurement_text(Measurement(((0, 0, 0), (3, 0, 4)))))
+    Point 1: (0, 0, 0)
+    Point 2: (3, 0, 4)
+    Distance 1–2: 5    Δx 3, Δy 0, Δz 4
+    >>> print(measurement_text(Measurement(((1, 0, 0), (0, 0, 0), (0, 2, 0)))).splitlines()[-1])
+    Angle at 2: 90°
+    """
+    points = measurement.points
+    lines = [f"Point {k}: ({', '.join(map(_number, point))})" for k, point in enumerate(points, 1)]
+    for k, (start, end, length) in enumerate(zip(points[:-1], points[1:], measurement.distances, strict=True), 1):
+        steps = ", ".join(f"Δ{axis} {_number(b - a)}" for axis, a, b in zip("xyz", start, end, strict=True))
+        lines.append(f"Distance {k}–{k + 1}: {_number(length)}    {steps}")
+    if measurement.angle is not None:
+        lines.append(f"Angle at 2: {measurement.angle:.5g}°")
+    return "\n".join(lines)
+
+
+def _number(value: float) -> str:
+    return f"{value:.6g}"
