@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -13,6 +12,7 @@ import numpy as np
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.codec.config_table import ConfigTable
+from hexmend_app.codec.number_ranges import mask_of, parse_ranges, ranges_text
 from hexmend_app.codec.option import option
 from hexmend_app.picture.cut_shapes import Box, Depth, Plane, Slab, Sphere
 
@@ -179,17 +179,11 @@ class Cut(ConfigTable):
         """Return a copy that lists the hexes that a mask, (m,) bool, marks as remaining; None lists no hexes."""
         if left is None:
             return replace(self, hexes="") if self.hexes else self
-        ends = np.flatnonzero(np.diff(left, prepend=False, append=False)).reshape(-1, 2)
-        ranges = ((int(first), int(end) - 1) for first, end in ends)
-        text = ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in ranges)
-        return replace(self, hexes=text)
+        return replace(self, hexes=ranges_text(left))
 
     def listed(self, hexes: int) -> np.ndarray:
         """Return True for the listed hexes of a mesh with a number of hexes, (m,) bool."""
-        mask = np.zeros(hexes, dtype=bool)
-        for first, last in self._ranges:
-            mask[first : last + 1] = True
-        return mask
+        return mask_of(self._ranges, hexes)
 
     @property
     def largest_hex(self) -> int:
@@ -199,17 +193,7 @@ class Cut(ConfigTable):
     @cached_property
     def _ranges(self) -> tuple[tuple[int, int], ...]:
         """First and last number of the listed ranges, ascending."""
-        ranges, previous = [], -1
-        for part in self.hexes.split(","):
-            match = re.fullmatch(r"\s*([0-9]{1,10})(?:-([0-9]{1,10}))?\s*", part)
-            if match is None:
-                raise ValueError(f"{part.strip()[:40]!r} is no range of numbers: expected, for example, 0-120, 130")
-            first, last = int(match[1]), int(match[2] or match[1])
-            if not previous < first <= last:
-                raise ValueError(f"hexes {first} to {last} follow {previous}: expected ascending ranges")
-            ranges.append((first, last))
-            previous = last
-        return tuple(ranges)
+        return parse_ranges(self.hexes)
 
 
 def proposed_cuts(

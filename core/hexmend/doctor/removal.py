@@ -38,6 +38,38 @@ def keep_hexes(mesh: Mesh, kept: np.ndarray, representative: np.ndarray | None =
     )
 
 
+def extract_hexes(mesh: Mesh, kept: np.ndarray) -> Mesh:
+    """Return the mesh of some hexes: their nodes, and cells of lower dimension on these; sets and data are kept.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    kept : (m,) bool
+        True for the hexes of the new mesh.
+
+    Returns
+    -------
+    Mesh
+    """
+    used = np.zeros(mesh.n_nodes, bool)
+    used[mesh.hexes[kept]] = True
+    if mesh.mid_nodes is not None:
+        mids = mesh.mid_nodes[kept]
+        used[mids[mids >= 0]] = True
+    cells = tuple(_on_nodes(c, used) for c in mesh.cells if c.dimension < 3)
+    part = keep_hexes(mesh.rebuilt(cells=tuple(c for c in cells if len(c.nodes))), kept)
+    return renumber_nodes(part, np.where(used, np.cumsum(used) - 1, -1))
+
+
+def _on_nodes(cells: Cells, used: np.ndarray) -> Cells:
+    """Cells of which all nodes are marked in `used`, (n,) bool, with their data and sets."""
+    kept = used[cells.nodes].all(axis=1)
+    data = {name: values[kept] for name, values in cells.data.items()}
+    return Cells(
+        cells.kind, cells.nodes[kept], data, _renumbered_sets(cells.sets, np.where(kept, np.cumsum(kept) - 1, -1))
+    )
+
+
 def renumber_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
     """Return the mesh with its nodes renumbered, merged or removed.
 

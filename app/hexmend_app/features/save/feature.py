@@ -14,6 +14,7 @@ from hexmend.io.storage.file_progress import FileProgress
 from hexmend.run.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
+from hexmend_app.features.save.visible_saver import VisibleSaver, warn_of_omitted
 from hexmend_app.picture import Page, Scene, write_scene
 from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
 from hexmend_app.state.mesh.document import State
@@ -32,6 +33,7 @@ class FeatureSave(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._last: Scene | None = None  # scene of the last picture
+        self.visible = VisibleSaver(host)
         saver = self.session.saver
         saver.began.connect(self._on_began)
         saver.progressed.connect(self._on_progressed)
@@ -54,6 +56,15 @@ class FeatureSave(Feature):
                 enabled=lambda: self.session.run.phase is not Phase.RUNNING,
             ),
             Action(
+                id="save_visible",
+                text=tr("Save &visible hexes as…"),
+                menu="File",
+                part=1,
+                help=tr("Save the hexes that the view shows as a mesh: after cut, filters, isolation and hiding."),
+                handle=lambda: self.visible.ask(self.canvas.viewport),
+                enabled=self._can_save_visible,
+            ),
+            Action(
                 id="screenshot",
                 text=tr("Save &picture…"),
                 menu="File",
@@ -67,6 +78,10 @@ class FeatureSave(Feature):
                 in_view=True,
             ),
         )
+
+    def close(self) -> None:
+        """Wait for no file any more."""
+        self.visible.close()
 
     def may_leave(self) -> bool:
         """Wait for a save in progress and ask about unsaved changes; return True if leaving is allowed."""
@@ -95,6 +110,10 @@ class FeatureSave(Feature):
         path = ask_target(self.host.dialog_parent, self.host.stem, source.suffix if source is not None else ".vtu")
         if path and (rewrite := self._ask_rewrite(Path(path))) is not None:
             self.session.commands.save_in_background(path, rewrite)
+
+    def _can_save_visible(self) -> bool:
+        drawn = self.canvas is not None and self.canvas.viewport.frame is not None
+        return drawn and self.session.run.phase is not Phase.RUNNING and not self.visible.going_on
 
     def _ask_rewrite(self, path: Path) -> bool | None:
         """Ask whether a file is written anew, if its coordinates could be replaced instead; None if cancelled."""
@@ -128,15 +147,7 @@ class FeatureSave(Feature):
         if saving.written is not None:
             for note in saving.written.notes:
                 self.host.messages.show_warning(tr("Saved with a note"), note)
-        if saving.omitted:
-            self.host.messages.show_warning(
-                tr("Some data was not saved"),
-                tr(
-                    "A {suffix} file cannot store {count}. Save as .vtu to store more.",
-                    suffix=saving.path.suffix,
-                    count=", ".join(saving.omitted),
-                ),
-            )
+        warn_of_omitted(self.host, saving.path, saving.omitted)
 
     def _saved_words(self, saving: SaveTask) -> str:
         """Tell whether the file is written anew, or keeps all but its coordinates."""

@@ -42,6 +42,13 @@ def ask_target(parent: QWidget, stem: str, suffix: str = ".vtu") -> str:
     return _ask_to_save(parent, tr("Save mesh as"), f"{stem}-smoothed{suffix}", kinds, _mesh_kind(suffix))
 
 
+def ask_visible(parent: QWidget, stem: str, suffix: str = ".vtu") -> str:
+    """Ask for the file to save the visible hexes to, as `ask_target`."""
+    suffix = suffix.lower() if suffix.lower() in writable_suffixes() else ".vtu"
+    kinds = ";;".join(map(_mesh_kind, writable_suffixes()))
+    return _ask_to_save(parent, tr("Save visible hexes as"), f"{stem}-visible{suffix}", kinds, _mesh_kind(suffix))
+
+
 def ask_session(parent: QWidget, stem: str) -> str:
     """Ask for the file to save the session to; "" if cancelled."""
     return _ask_to_save(

@@ -18,6 +18,7 @@ from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.save.feature import FeatureSave
 from hexmend_app.picture import LineStyle, Page, write_scene
 from hexmend_app.picture.appearance import Structure
+from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase
 from tests.app.hosting import PlainHost
@@ -156,3 +157,42 @@ def test_hidden_edges_are_not_in_the_picture(window):
     window.session.view.change(lines={"edges": 0.0})
     window.refresh()
     assert window.canvas.scene(Page()).lines == LineStyle(0.0)
+
+
+@pytest.mark.parametrize("style", [CutStyle.CRINKLE, CutStyle.SMOOTH])
+def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypatch, style):
+    mesh = window.session.document.now.mesh
+    window.session.commands.tag("some", [3, 5, 8])
+    centres = mesh.points[mesh.hexes].mean(axis=1)
+    middle = centres.mean(axis=0)
+    window.session.view.set_cut(Cut.at((1, 0, 0), tuple(middle.tolist()), style))
+    window.session.view.dig(int(centres[:, 0].argmin()))
+    window.refresh()
+    out, said = tmp_path / "out.vtu", []
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: said.append(given[2]) or (str(out), ""))
+    with qtbot.waitSignal(window.session.user_event, timeout=PATIENCE):
+        window.action("save_visible").trigger()
+    assert said[0].endswith("-visible.vtu")
+    corners = mesh.points[mesh.hexes][:, :, 0]
+    shown = centres[:, 0] <= middle[0] if style is CutStyle.CRINKLE else corners.min(axis=1) < middle[0]
+    shown[centres[:, 0].argmin()] = False
+    part = io.read(out)
+    np.testing.assert_allclose(part.points[part.hexes], mesh.points[mesh.hexes[shown]])
+    assert set(part.hex_sets["some"]) == set((np.cumsum(shown) - 1)[[h for h in (3, 5, 8) if shown[h]]])
+    assert window.session.modified  # the tag: the mesh itself is not saved
+
+
+def test_nothing_is_saved_if_no_hex_is_visible(window, tmp_path):
+    window.session.view.set_cut(Cut.at((1, 0, 0), (-1e6, 0, 0)))
+    window.refresh()
+    window.features["save"].visible.save(tmp_path / "out.vtu", window.canvas.viewport)
+    assert not window.features["save"].visible.going_on
+    assert window.messages.messages()[-1][:2] == ("error", "No hex is visible")
+    assert not (tmp_path / "out.vtu").exists()
+
+
+def test_visible_hexes_that_cannot_be_written_are_reported(window, qtbot, tmp_path):
+    saver = window.features["save"].visible
+    saver.save(tmp_path / "missing" / "out.vtu", window.canvas.viewport)
+    qtbot.waitUntil(lambda: not saver.going_on, timeout=PATIENCE)
+    assert window.messages.messages()[-1][:2] == ("error", "The visible hexes were not saved")

@@ -65,7 +65,7 @@ TOLD = {
     "runs": ("step", "iteration_first", "iteration_on", "iteration_back", "iteration_newest", "stop",
              "iteration_play", "iteration_branch", "reset", "run", "recipe_run", "next_node", "ten_nodes",
              "finish_sweep"),
-    "files": ("save", "screenshot", "save_session", "recipe_save", "figure_set", "film", "open_demo", "open", "repair",
+    "files": ("save", "save_visible", "screenshot", "save_session", "recipe_save", "figure_set", "film", "open_demo", "open", "repair",
               "pad"),
 }  # fmt: skip
 
@@ -155,6 +155,7 @@ def rest(window, qtbot):
                 or session.timeline.playing
                 or session.run.phase in (Phase.PREPARING, Phase.RUNNING, Phase.STOPPING)
                 or features["film"].going_on
+                or features["save"].visible.going_on
                 or features["figures"].going_on
             )
         ),

@@ -144,6 +144,16 @@ def test_the_worst_hexes_a_recipe_and_a_scene(window, script, tmp_path):
         assert before == after
 
 
+def test_the_visible_hexes(window, qtbot, script, tmp_path):
+    window.session.view.dig(3)
+    window.refresh()
+    with qtbot.waitSignal(window.session.user_event, timeout=PATIENCE):
+        window.features["save"].visible.save(tmp_path / "visible.vtu", window.canvas.viewport)
+    ((mesh, mesh_again),) = again(script, tmp_path, tmp_path / "visible.vtu")
+    assert mesh == mesh_again
+    assert io.read(tmp_path / "visible.vtu").n_hexes == window.session.document.now.mesh.n_hexes - 1
+
+
 def test_a_comparison_table_and_an_adopted_result(window, qtbot, script, tmp_path):
     compared(window, qtbot, "laplacian", "getme")
     window.session.commands.adopt_positions("GETMe", window.session.comparison.of("getme").state)

@@ -1,0 +1,92 @@
+"""Saving of the hexes that the view shows, in the background."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from PySide6.QtCore import QObject
+
+from hexmend.errors import HexmendError
+from hexmend.io import unsupported_data
+from hexmend_app.codec.number_ranges import ranges_text
+from hexmend_app.feature import Host
+from hexmend_app.features.save.visible_hexes import write_hexes
+from hexmend_app.scene.views.viewport import Viewport
+from hexmend_app.state.session.user_events import FileExported
+from hexmend_app.state.tasks.task import Task, drop
+from hexmend_app.translation import tr
+from hexmend_app.widgets.dialogs.questions import ask_visible
+from hexmend_app.widgets.wording import counted
+
+
+class VisibleSaver(QObject):
+    """Saves the hexes left by the cut, filters, isolation and hiding as a mesh.
+
+    Parameters
+    ----------
+    host : Host
+    """
+
+    def __init__(self, host: Host):
+        super().__init__()
+        self._host = host
+        self._task: Task | None = None
+
+    @property
+    def going_on(self) -> bool:
+        """True while a file is being written."""
+        return self._task is not None
+
+    def close(self) -> None:
+        """Wait for no file any more; one that is incomplete does not replace an earlier one."""
+        drop(self._task)
+        self._task = None
+
+    def ask(self, viewport: Viewport) -> None:
+        """Ask for a path and save the hexes that a view shows."""
+        source = self._host.session.document.path
+        path = ask_visible(self._host.dialog_parent, self._host.stem, source.suffix if source is not None else ".vtu")
+        if path:
+            self.save(Path(path), viewport)
+
+    def save(self, path: Path, viewport: Viewport) -> None:
+        """Save the hexes that a view shows; those that a smooth cut shows in part are included whole."""
+        state, shown = self._host.session.document.now, viewport.remaining_after_cut()
+        if shown is None:
+            shown = np.ones(state.mesh.n_hexes, bool)
+        if not shown.any():
+            self._host.messages.show_error(tr("No hex is visible"), tr("Show the hexes that are to be saved first."))
+            return
+        event = FileExported("visible hexes", write_hexes, (path, state, ranges_text(shown)))
+        self._host.busy.show_work("save_visible", tr("Saving {name}…", name=path.name))
+        self._task = Task(f"saving {path.name}", lambda _: event.perform())
+        self._task.ended.connect(lambda: self._on_ended(event, int(shown.sum())))
+        self._task.start()
+
+    def _on_ended(self, event: FileExported, count: int) -> None:
+        task, self._task = self._task, None
+        self._host.busy.done("save_visible")
+        path, state, _ = event.values
+        if isinstance(task.error, HexmendError):
+            self._host.messages.show_error(tr("The visible hexes were not saved"), str(task.error))
+            return
+        if task.error is not None:
+            raise task.error
+        self._host.session.user_event.emit(event)
+        self._host.messages.show_info(tr("{count} saved to {path}", count=counted(count, "hex"), path=path))
+        warn_of_omitted(self._host, path, unsupported_data(path, state.mesh))
+
+
+def warn_of_omitted(host: Host, path: Path, omitted: Sequence[str]) -> None:
+    """Name the data that a file does not store, if there are any."""
+    if omitted:
+        host.messages.show_warning(
+            tr("Some data was not saved"),
+            tr(
+                "A {suffix} file cannot store {count}. Save as .vtu to store more.",
+                suffix=path.suffix,
+                count=", ".join(omitted),
+            ),
+        )
