@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import replace
+from math import isfinite
 from typing import Any
 
 from hexmend_app.cli.numbers import direction, invalid_value, numbers
@@ -123,9 +124,11 @@ def parse_sphere(text: str) -> Sphere:
 
 def parse_depth(text: str) -> Depth:
     """Parse the value of `--clip-depth`: two depths in layers, or with an e after them in mean edge lengths."""
-    low, _, high = text.removesuffix("e").partition(":")
     unit = DepthUnit.EDGES if text.endswith("e") else DepthUnit.LAYERS
-    (least,), (greatest,) = numbers(low, 1, "--clip-depth"), numbers(high or low, 1, "--clip-depth")
-    if not 0 <= least <= greatest:
+    try:
+        ends = [float(end) for end in text.removesuffix("e").split(":")]
+    except ValueError:
+        ends = []
+    if len(ends) not in (1, 2) or not all(map(isfinite, ends)) or not 0 <= ends[0] <= ends[-1]:
         raise invalid_value("--clip-depth", text, "two depths, the lower first, as in 1:2 or 0.5:3e")
-    return Depth(least, greatest, unit)
+    return Depth(ends[0], ends[-1], unit)
