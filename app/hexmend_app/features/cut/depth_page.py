@@ -14,6 +14,7 @@ from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
 
 _ENDS = ("low", "high")
+_MIN_WIDTH = 60  # of each number in the narrowest panel
 _LAYERS = "Layer 1 contains the hexes with a face on the boundary, layer 2 the hexes that share a face with layer 1."
 _EDGES = "Distance of the centre of a hex from the boundary, in mean edge lengths of the mesh."
 
@@ -42,6 +43,8 @@ class DepthPage(QWidget):
         self._low, self._high = (NumberBox(Parameter(name, float, 1.0, 0.0, None, None, "", "")) for name in _ENDS)
         set_help(self._low, tr("Least depth"), tr("Depth from which on hexes are shown."))
         set_help(self._high, tr("Greatest depth"), tr("Depth up to which hexes are shown."))
+        for box in (self._low, self._high):
+            box.setMinimumWidth(_MIN_WIDTH)
         grid = form_grid(self, tr("Thickness"))
         label = QLabel(tr("Depth in"))
         label.setBuddy(self._unit)

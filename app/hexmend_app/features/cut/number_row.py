@@ -13,6 +13,7 @@ from hexmend_app.widgets.inputs.number_box import NumberBox
 
 #: Significant digits of numbers that were dragged.
 _DIGITS = 4
+_MIN_WIDTH = 48  # of three boxes in the narrowest panel
 
 
 class NumberRow(QWidget):
@@ -45,7 +46,9 @@ class NumberRow(QWidget):
         row.setSpacing(4)
         for at, (name, box) in enumerate(zip(names, self._boxes, strict=True)):
             set_help(box, name, help)
-            box.setMinimumWidth(56)
+            box.setMinimumWidth(_MIN_WIDTH)
+            if len(names) > 1:  # there is no room for the arrows
+                box.setButtonSymbols(NumberBox.ButtonSymbols.NoButtons)
             box.changed.connect(lambda at=at: self._on_changed(at))
             row.addWidget(box, 1)
         self.setFocusProxy(self._boxes[0])

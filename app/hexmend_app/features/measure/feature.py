@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.measure.measure_panel import MeasurePanel
 from hexmend_app.translation import tr
 
@@ -59,6 +59,7 @@ class FeatureMeasure(Feature):
                 title=tr("Measure"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
+                group=PanelGroup.FIND,
                 order=4,
                 help=tr("Distances and an angle between points picked in the view."),
                 scrolls=True,
