@@ -131,13 +131,13 @@ class CutPanel(QWidget):
         self._plane_row.add_requested.connect(self._on_add)
         self._plane_row.remove_requested.connect(self._on_remove)
         self._plane_page.changed.connect(self._on_plane)
-        self._box_page.changed.connect(lambda low, high: self._change(box=Box(low, high)))
+        self._box_page.changed.connect(lambda low, high: self._change(CutKind.BOX, box=Box(low, high)))
         self._thickness.changed.connect(self._on_thickness)
-        self._sphere_page.changed.connect(lambda sphere: self._change(sphere=sphere))
+        self._sphere_page.changed.connect(lambda sphere: self._change(CutKind.SPHERE, sphere=sphere))
         self._sphere_page.centre_requested.connect(self.centre_requested)
-        self._depth_page.changed.connect(lambda depth: self._change(depth=depth))
+        self._depth_page.changed.connect(lambda depth: self._change(CutKind.DEPTH, depth=depth))
         for choice in (self._hide_planes, self._hide_inside):
-            choice.chosen.connect(lambda key: self._change(notch=key == "all"))
+            choice.chosen.connect(lambda key: self._change(self._chosen, notch=key == "all"))
         self._cut_mode.chosen.connect(lambda key: self._set_style(CutStyle(key)))
 
     # Called by the feature
@@ -236,18 +236,19 @@ class CutPanel(QWidget):
 
     def _set_planes(self, planes: tuple[Plane, ...], at: int) -> None:
         self._selected = at
-        self._change(planes=planes)
+        self._change(CutKind.PLANES, planes=planes)
         self.plane_chosen.emit(at)
 
     def _on_plane(self, plane: Plane) -> None:
         if self._chosen is CutKind.SLAB:
-            self._change(slab=self.proposal().slab.moved_to(plane))
+            self._change(CutKind.SLAB, slab=self.proposal().slab.moved_to(plane))
         else:
             planes = self._planes.planes
-            self._change(planes=(*planes[: self._selected], plane, *planes[self._selected + 1 :]))
+            self._change(CutKind.PLANES, planes=(*planes[: self._selected], plane, *planes[self._selected + 1 :]))
 
     def _on_thickness(self, thickness: tuple[float]) -> None:
-        self._change(slab=dataclasses.replace(self.proposal().slab, thickness=thickness[0]))
+        slab = self._cuts[CutKind.SLAB].slab
+        self._change(CutKind.SLAB, slab=dataclasses.replace(slab, thickness=thickness[0]))
 
     def _set_style(self, style: CutStyle) -> None:
         """Set the style of all cuts that can have it."""
@@ -255,9 +256,9 @@ class CutPanel(QWidget):
             self._cuts[kind] = dataclasses.replace(self._cuts[kind], style=style)
         self._emit()
 
-    def _change(self, **keys: object) -> None:
-        """Change the chosen cut."""
-        self._cuts[self._chosen] = dataclasses.replace(self.proposal(), **keys)
+    def _change(self, kind: CutKind, **keys: object) -> None:
+        """Change the cut of a kind."""
+        self._cuts[kind] = dataclasses.replace(self._cuts[kind], **keys)
         self._emit()
 
     def _emit(self) -> None:

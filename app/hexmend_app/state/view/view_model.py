@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.quality import METRICS
+from hexmend_app.codec.codec import since
 from hexmend_app.picture.appearance import Look, Measurement
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Box, Plane, Sphere
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ViewData:
-    """Data of the view in a session file: appearance, dug hexes in order, and settings of cuts and isolation."""
+    """Data of the view in a session file: appearance, dug hexes in order, settings of cuts, isolation, measuring."""
 
     look: Look
     dug: tuple[int, ...]
@@ -32,6 +33,7 @@ class ViewData:
     snap: bool
     rings: int
     counted: str | None
+    measuring: bool = field(default=False, metadata=since(9))
 
     def __post_init__(self) -> None:
         cut = self.look.cut
@@ -124,13 +126,14 @@ class ViewModel(QObject):
 
     def to_data(self) -> ViewData:
         """Return the data for a session file."""
-        return ViewData(self.look, tuple(self._dug), self.handles, self.plane_at, self.snap, self.rings, self.counted)
+        cut = self.handles, self.plane_at, self.snap
+        return ViewData(self.look, tuple(self._dug), *cut, self.rings, self.counted, self.measuring)
 
     def restore(self, data: ViewData) -> None:
         """Restore the view of a session file."""
         self.look, self._dug = data.look, list(data.dug)
         self.handles, self.plane_at, self.snap, self.rings = data.handles, data.plane_at, data.snap, data.rings
-        self.counted, self.measuring = data.counted, False
+        self.counted, self.measuring = data.counted, data.measuring
         self.changed.emit()
 
     def show_as(self, look: Look) -> None:

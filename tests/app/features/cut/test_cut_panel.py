@@ -281,6 +281,18 @@ def test_a_slab_is_turned_moved_and_made_thicker(panel, emitted):
     assert emitted[-1] == before
 
 
+def test_pages_that_are_hidden_change_their_own_cut(panel, emitted):
+    choose_kind(panel, "planes")
+    planes = emitted[-1]
+    named(panel, QRangeSlider, "X extent of the box").setValue((0, 1000))
+    named(panel, NumberBox, "Radius").stepBy(1)
+    named(panel, NumberBox, "Thickness").stepBy(1)
+    named(panel, NumberBox, "Greatest depth").stepBy(1)
+    assert set(emitted) == {planes}
+    QTest.mouseClick(kind(panel).button("box"), _LEFT)
+    assert (emitted[-1].box.low[0], emitted[-1].box.high[0]) == (-1, 3)
+
+
 def test_a_sphere_is_typed_and_has_whole_hexes(panel, emitted):
     choose_kind(panel, "planes")
     QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
