@@ -35,7 +35,7 @@ def sections(
     keep : (m,) bool, optional
         True for shown hexes; None for all.
     cut : Cut
-        A cut with planes or a box.
+        A cut by planes, a box or a slab.
     colours : (m, 3) uint8
     """
     planes = cut.sides
