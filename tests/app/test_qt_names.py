@@ -13,7 +13,7 @@ import pytest
 from PySide6.QtCore import QObject, Signal
 
 import hexmend_app
-from hexmend_app.shell.palette.type_to_find import TypeToFind
+from hexmend_app.shell.letter_keys import LetterKeys
 
 #: Modules that start the program when they are imported.
 _PROGRAMS = {"hexmend_app.__main__"}
@@ -77,4 +77,4 @@ def test_hidden_methods_are_found():
 def test_the_window_keeps_the_methods_of_qt(window, name):
     assert callable(getattr(window, name))
     assert window.window() is window
-    assert window.findChild(TypeToFind) is not None
+    assert window.findChild(LetterKeys) is not None

@@ -69,6 +69,7 @@ class RenderWidget(QOpenGLWidget):
         self._gl_context: QOpenGLContext | None = None
         self._painting = False
         self._wheel_angle = 0  # since the last whole step
+        self._pressed: list[Qt.MouseButton] = []  # buttons that VTK takes for pressed
         window = self.render_window = vtkGenericOpenGLRenderWindow()
         window.SetReadyForRendering(False)
         window.SetFrameBlitModeToNoBlit()
@@ -208,18 +209,33 @@ class RenderWidget(QOpenGLWidget):
         """Start to move the camera or to drag a handle."""
         self._pass_position(event, int(event.type() == QEvent.Type.MouseButtonDblClick))
         if event.button() in _BUTTONS:
+            self._pressed.append(event.button())
             self.iren.InvokeEvent(f"{_BUTTONS[event.button()]}PressEvent")
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """End the drag."""
         self._pass_position(event)
-        if event.button() in _BUTTONS:
-            self.iren.InvokeEvent(f"{_BUTTONS[event.button()]}ReleaseEvent")
+        self._release(event.button())
+
+    def _release(self, button: Qt.MouseButton) -> None:
+        """Tell VTK that a button was released."""
+        if button in self._pressed:
+            self._pressed.remove(button)
+            self.iren.InvokeEvent(f"{_BUTTONS[button]}ReleaseEvent")
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """Continue the drag."""
+        """Continue the drag; end it if another window received the release of the button."""
+        for button in [button for button in self._pressed if not button & event.buttons()]:
+            self._release(button)
         self._pass_position(event)
         self.iren.MouseMoveEvent()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """Let VTK forget the handle below the pointer, unless it is dragged."""
+        super().leaveEvent(event)
+        if not self._pressed:
+            self.iren.SetEventInformation(-1, -1, 0, 0, "\0", 0, None)
+            self.iren.MouseMoveEvent()
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Zoom by whole steps."""

@@ -7,27 +7,38 @@ from collections.abc import Callable
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLineEdit, QWidget
 
+from hexmend_app.shell.floating import is_floating
+
 
 class FocusAfterReturn(QObject):
-    """Event filter that gives the focus to the view after Return in a field of the window.
+    """Event filter that gives the focus to the view after Return in a field of the window or of a floating panel.
 
     Parameters
     ----------
     window : QWidget
-        Receives keys that its fields do not keep for themselves.
+        Receives keys that its fields do not keep for themselves, as do its floating panels.
     view : callable
         Returns the widget that gets the focus, or None.
     """
 
     def __init__(self, window: QWidget, view: Callable[[], QWidget | None]):
         super().__init__(window)
+        self._window = window
         self._view = view
         window.installEventFilter(self)
+        QApplication.instance().focusChanged.connect(self._on_focus)
+
+    def _on_focus(self, before: QWidget | None, now: QWidget | None) -> None:
+        """Watch a floating panel that receives the focus: its keys do not reach the window."""
+        if now is not None and is_floating(self._window, now.window()):
+            now.window().installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Move the focus on a Return that the field has acted on and passed on."""
         if event.type() == QEvent.Type.KeyPress and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             view = self._view()
             if view is not None and isinstance(QApplication.focusWidget(), (QLineEdit, QAbstractSpinBox)):
+                if watched is not self._window:
+                    self._window.activateWindow()
                 view.setFocus(Qt.FocusReason.OtherFocusReason)
         return super().eventFilter(watched, event)

@@ -22,7 +22,7 @@ from hexmend_app.shell.features import (
 )
 from hexmend_app.shell.focus_after_return import FocusAfterReturn
 from hexmend_app.shell.geometry import lay_out_status_bar, restore_geometry, save_geometry
-from hexmend_app.shell.palette.type_to_find import TypeToFind
+from hexmend_app.shell.letter_keys import LetterKeys
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.shell.panels.hex_counts import HexCounts
 from hexmend_app.shell.refresh_timer import RefreshTimer
@@ -78,7 +78,7 @@ class Window(QMainWindow):
         self.docks = Docks(self)
         Overlay(self.messages, self.docks.centre, (0.5, 0.0), width=560)
         reserve_opengl(self)
-        TypeToFind(self)
+        LetterKeys(self)
         FocusAfterReturn(self, lambda: None if self.canvas is None else self.canvas.interactor)
         self._counts = HexCounts()
         lay_out_status_bar(self.statusBar(), self.docks.bars, self.busy, self._counts, self.docks.row)

@@ -64,6 +64,7 @@ class WorstList(QWidget):
         self._mesh: Mesh | None = None
         self._figures: ElementQuality | None = None
         self._selected: int | None = None
+        self._visited: int | None = None  # the hex from which next and previous go on
         self._stale = False
         self._metric = ComboBox()
         for metric in metrics_offered():
@@ -74,6 +75,7 @@ class WorstList(QWidget):
             tr("Worst by"),
             tr("Metric that sorts the list; hexes of equal value are sorted by scaled Jacobian."),
         )
+        self._metric.currentIndexChanged.connect(self._begin_again)
         self._metric.currentIndexChanged.connect(self._refresh)
         self._metric.currentIndexChanged.connect(lambda: self.metric_chosen.emit(self.chosen_metric))
         self._isolate = QCheckBox(tr("Isolate"))
@@ -139,6 +141,8 @@ class WorstList(QWidget):
 
     def set_figures(self, mesh: Mesh, figures: ElementQuality) -> None:
         """Show the worst hexes of a mesh; while the list is hidden, it is filled later, when needed."""
+        if self._mesh is None or mesh.points is not self._mesh.points:  # pins and tags do not change the order
+            self._begin_again()
         self._mesh, self._figures = mesh, figures
         self._stale = not self.isVisible()
         if not self._stale:
@@ -166,11 +170,11 @@ class WorstList(QWidget):
         return self._model.hexes
 
     def next(self) -> None:
-        """Select the next hex of the list, or the first if the selected hex is not listed."""
+        """Select the next hex of the list, or the worst if the selected hex was not selected in the list."""
         self._step(1)
 
     def previous(self) -> None:
-        """Select the previous hex of the list, or the last if the selected hex is not listed."""
+        """Select the previous hex of the list, or the last if the selected hex was not selected in the list."""
         self._step(-1)
 
     @property
@@ -191,9 +195,17 @@ class WorstList(QWidget):
         hexes = self.hexes
         if not len(hexes):
             return
-        row = self._selected_row()
+        row = self._selected_row() if self._selected == self._visited else None
         row = (0 if by > 0 else -1) if row is None else (row + by) % len(hexes)
-        self.chosen.emit(int(hexes[row]))
+        self._visit(row)
+
+    def _visit(self, row: int) -> None:
+        self._visited = int(self._model.hexes[row])
+        self.chosen.emit(self._visited)
+
+    def _begin_again(self) -> None:
+        """Let the next step begin with the worst hex."""
+        self._visited = None
 
     def _refresh(self) -> None:
         mesh, figures = self._mesh, self._figures
@@ -234,4 +246,4 @@ class WorstList(QWidget):
             self._on_row(selected.indexes()[0])
 
     def _on_row(self, index: QModelIndex) -> None:
-        self.chosen.emit(int(self._model.hexes[index.row()]))
+        self._visit(index.row())

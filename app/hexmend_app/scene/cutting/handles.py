@@ -8,7 +8,7 @@ from hexmend_app.scene.views.pane import Pane
 
 
 class Handles:
-    """Switches a widget on and off, and reports when it is dragged.
+    """Switches a widget on and off, and reports when it is dragged. Its drag ends where the pointer leaves the view.
 
     Attributes
     ----------
@@ -28,7 +28,7 @@ class Handles:
         widget.SetInteractor(pane.window.GetInteractor())
         widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
         widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
-        widget.AddObserver("InteractionEvent", self._announce)
+        widget.AddObserver("InteractionEvent", self._on_dragged)
 
     def close(self) -> None:
         """Detach the widget from the interactor."""
@@ -38,7 +38,7 @@ class Handles:
     def _switch(self, on: bool) -> None:
         if not on and self._dragging:
             # VTK does not end an interrupted drag; switched on again, the widget would continue it without a button.
-            self.widget.GetInteractor().InvokeEvent("LeftButtonReleaseEvent")
+            self._let_go()
             self._dragging = False
         if bool(self.widget.GetEnabled()) != on:
             if on:  # otherwise VTK moves the widget into the view that the mouse was over last
@@ -47,6 +47,17 @@ class Handles:
 
     def _drag(self, on: bool) -> None:
         self._dragging = on
+
+    def _on_dragged(self, *_: object) -> None:
+        self._announce()
+        interactor = self.widget.GetInteractor()
+        (x, y), (width, height) = interactor.GetEventPosition(), interactor.GetSize()
+        if self._dragging and not (0 <= x < width and 0 <= y < height):
+            self._let_go()
+
+    def _let_go(self) -> None:
+        """End the drag; VTK ends it only at a release of the button."""
+        self.widget.GetInteractor().InvokeEvent("LeftButtonReleaseEvent")
 
     def _announce(self, *_: object) -> None:
         """Report the dragged position."""

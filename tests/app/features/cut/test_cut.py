@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
 from hexmend_app.picture import Cut, Plane
-from tests.app.driving import drag, key, named, pixels, press, seen_at, tick
+from tests.app.driving import LEFT, drag, key, move, named, pixels, press, seen_at, tick
 
 
 def moving(window):
@@ -180,3 +180,41 @@ def test_the_slab_is_dragged_by_its_middle(window):
     turned = Plane((0.0, 0.05, 1.0), point=(1, 2, 3))
     window.canvas.plane_dragged.emit(turned)
     assert window.session.view.look.cut.slab == slab.moved_to(Plane((0, 0, 1), point=(1, 2, 3)))
+
+
+def test_a_dragged_plane_is_released_where_the_pointer_leaves_the_view(window, qtbot):
+    key(window, Qt.Key.Key_C)
+    choose(window, "Z")
+    window.canvas.draw_still()
+    view, (x, y, z) = window.canvas.interactor, window.session.view.look.cut.planes[0].point
+    place = seen_at(window, (x + 3, y - 3, z))
+    move(view, place)
+    QTest.mousePress(view, LEFT, pos=place)
+    move(view, place + QPoint(0, -20), LEFT)
+    move(view, QPoint(place.x(), -5), LEFT)
+    left = window.session.view.look.cut
+    assert left.planes[0].point[2] > z
+    camera = window.canvas.viewport.camera.GetPosition()
+    for _ in range(3):
+        move(view, place + QPoint(0, 40), LEFT)
+        move(view, place, LEFT)
+    assert window.session.view.look.cut == left
+    assert window.canvas.viewport.camera.GetPosition() == camera
+    QTest.mouseRelease(view, LEFT, pos=place)
+
+
+@pytest.mark.slow
+def test_a_dragged_plane_is_released_when_another_window_receives_the_release(window, qtbot):
+    key(window, Qt.Key.Key_C)
+    choose(window, "Z")
+    window.canvas.draw_still()
+    view, (x, y, z) = window.canvas.interactor, window.session.view.look.cut.planes[0].point
+    place = seen_at(window, (x + 3, y - 3, z))
+    move(view, place)
+    QTest.mousePress(view, LEFT, pos=place)
+    move(view, place + QPoint(0, -20), LEFT)
+    before = window.session.view.look.cut
+    assert before.planes[0].point[2] > z
+    move(view, place + QPoint(0, 40))  # no button is pressed
+    move(view, place)
+    assert window.session.view.look.cut == before

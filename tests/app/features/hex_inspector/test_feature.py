@@ -300,3 +300,19 @@ def test_the_selected_hex_is_isolated_by_key(window):
     assert window.session.view.look.show.isolate.hexes == (window.session.selection.hex,)
     key(window, Qt.Key.Key_Escape)
     assert window.session.view.look.show.isolate is None
+
+
+def test_next_worst_begins_with_the_worst_hex(window):
+    worst_list = window.features["hex_inspector"].worst_list
+    worst = list(worst_list.hexes[:3])
+    window.session.selection.choose(int(worst[2]))  # as by a click in the view
+    for expected in worst:
+        key(window, Qt.Key.Key_N)
+        assert window.session.selection.hex == expected
+    window.session.commands.tag("bad", [int(worst[0])])  # tags do not change the order: the walk goes on
+    key(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
+    assert window.session.selection.hex == worst[1]
+    mesh = window.session.document.now.mesh
+    window.session.document.commit("Scale", State.of(mesh.with_points(mesh.points * 2.0)))
+    key(window, Qt.Key.Key_N)
+    assert window.session.selection.hex == worst_list.hexes[0]
