@@ -39,14 +39,24 @@ class Source:
     size : int
         In bytes.
     sha256 : str
-    seconds : float
-        Time of reading.
+    seconds : float or None
+        Time of reading; None if it was not measured.
     """
 
     path: str
     size: int
     sha256: str
-    seconds: float
+    seconds: float | None = None
+
+    @classmethod
+    def of(cls, path: str, seconds: float | None = None) -> Source:
+        """Describe a file; raise `FileError` if it cannot be read."""
+        try:
+            with open(path, "rb") as file:
+                digest = hashlib.file_digest(file, "sha256").hexdigest()
+            return cls(path, Path(path).stat().st_size, digest, seconds)
+        except OSError as error:
+            raise FileError(path, f"cannot be read: {error.strerror or error}", "Name another file.") from None
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,8 +113,8 @@ class Case:
         The original mesh first.
     failed : tuple of Row
         Rows of methods without a result.
-    stop : StoppingCriteria
-        Limits of each method's run.
+    stop : StoppingCriteria or None
+        Limits of each method's run; None if runs differ in them.
     interrupted : bool
         True if the user ended the runs early.
     """
@@ -113,7 +123,7 @@ class Case:
     source: Source | None
     versions: tuple[Version, ...]
     failed: tuple[Row, ...] = ()
-    stop: StoppingCriteria = StoppingCriteria()  # noqa: RUF009 it is immutable
+    stop: StoppingCriteria | None = StoppingCriteria()  # noqa: RUF009 it is immutable
     interrupted: bool = False
 
     @property
@@ -137,13 +147,7 @@ def source_of(path: str) -> tuple[Mesh, Source]:
     """
     start = perf_counter()
     mesh = read(path)
-    seconds = perf_counter() - start
-    try:
-        with open(path, "rb") as file:
-            digest = hashlib.file_digest(file, "sha256").hexdigest()
-        return mesh, Source(path, Path(path).stat().st_size, digest, seconds)
-    except OSError as error:
-        raise FileError(path, f"cannot be read: {error.strerror or error}", "Name another file.") from None
+    return mesh, Source.of(path, perf_counter() - start)
 
 
 def run_methods(

@@ -195,7 +195,7 @@ def _convergence(case: Case, folder: Path, style: Style) -> Figure | None:
 def _table(case: Case, folder: Path, style: Style) -> Figure:
     record = {
         "mesh": case.name,
-        "stop": case.stop.values(),
+        "stop": None if case.stop is None else case.stop.values(),
         "interrupted": case.interrupted,
         "initial": case.initial.record(case.norm),
         "rows": [version.record(case.norm) | {"name": version.name} for version in case.versions[1:]]

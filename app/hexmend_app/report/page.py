@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from html import escape
@@ -21,7 +21,7 @@ from hexmend.study.table_row import Row
 from hexmend.terminal_text import count_phrase, printable
 from hexmend_app.report import html_elements as html
 from hexmend_app.report.case import Case, Version, command_line
-from hexmend_app.report.figure_set import Style, table_of, write_figures, write_opposite_view
+from hexmend_app.report.figure_set import Figure, Style, table_of, write_figures, write_opposite_view
 from hexmend_app.report.viewer import ViewerState, script, viewer
 from hexmend_app.report.worst_hexes import Locked, worst_table
 from hexmend_app.resources import resource
@@ -62,7 +62,19 @@ class Chapter:
 def chapter(
     case: Case, style: Style, repeat: Sequence[Sequence[str]], *, interactive: bool, place: str = "mesh-1"
 ) -> Chapter:
-    """Return the chapter on a mesh.
+    """Return the chapter on a mesh; see `draw_chapter` for the parameters."""
+    steps = draw_chapter(case, style, repeat, interactive=interactive, place=place)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
+
+
+def draw_chapter(
+    case: Case, style: Style, repeat: Sequence[Sequence[str]], *, interactive: bool, place: str = "mesh-1"
+) -> Generator[Figure, None, Chapter]:
+    """Draw the figures of the chapter on a mesh one by one, and return the chapter.
 
     Parameters
     ----------
@@ -70,23 +82,29 @@ def chapter(
     style : Style
         Style of the figures.
     repeat : sequence of sequence of str
-        Commands that reproduce the results, as words.
+        Commands that reproduce the results, as words; none for results of the window.
     interactive : bool
         True for a mesh that can be rotated, which needs a browser.
     place : str
         Id of the chapter's heading.
+
+    Yields
+    ------
+    Figure
     """
+    view = yield from _figures(case, style, interactive, place)
     locked = [Locked.of(one.mesh, one.figures) for one in case.versions]
     sections = {
-        "The mesh": _figures(case, style, interactive, place),
+        "The mesh": view,
         "Quality": [html.tables(table_of(case)), *map(_failed, case.failed)],
         "Checks of solvers": _checks(case),
         "The worst hexes": _worst(case, locked),
         "Locked hexes and suggestions": _locked(case, locked),
         "Runs": _runs(case),
         "Source": [_origin(case)],
-        "Commands to reproduce this": [html.commands(map(command_line, repeat))],
     }
+    if repeat:
+        sections["Commands to reproduce this"] = [html.commands(map(command_line, repeat))]
     if not interactive:  # on paper the table is on the first page
         sections = {"Quality": sections.pop("Quality"), **sections}
     first, last = case.initial.summary, case.versions[-1].summary
@@ -106,7 +124,7 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, interactive: 
     title : str
     chapters : sequence of Chapter
     command : str
-        The command that writes the page.
+        The command that writes the page; "" for a report of the window.
     interactive : bool
         True for a page with scripts, which need a browser.
     """
@@ -132,7 +150,10 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, interactive: 
         for (place, heading), (_, text) in zip(_places(chapter), chapter.sections, strict=True):
             parts += [html.heading(3, heading, id=place), text]
         parts += ["</section>"]
-    parts += [f"</main><footer><p>Command of this report:</p>{html.commands([command])}</footer>"]
+    written = (
+        f"<p>Command of this report:</p>{html.commands([command])}" if command else "<p>Exported in the viewer.</p>"
+    )
+    parts += [f"</main><footer>{written}</footer>"]
     parts += [f"<script>{script()}</script>"] if interactive else []
     document = "\n".join([*parts, "</body></html>"])
     return document.encode("utf-8", "replace").decode("utf-8")  # file names can have undecodable bytes
@@ -192,12 +213,15 @@ def _solver_verdict(report: Report) -> str:
     return report.verdict if report.verdict == "passed" else f"{report.verdict} ({count_phrase(count, 'check')})"
 
 
-def _figures(case: Case, style: Style, interactive: bool, place: str) -> list[str]:
-    """Return the interactive view of the mesh, and the pictures."""
+def _figures(case: Case, style: Style, interactive: bool, place: str) -> Generator[Figure, None, list[str]]:
+    """Draw the pictures one by one, and return the interactive view of the mesh and the pictures as HTML."""
     with TemporaryDirectory(prefix="hexmend-report-") as folder:
         figures = [write_opposite_view(case, Path(folder), style)]
+        yield figures[0]
         for suffix, options in {"png": style, "svg": replace(style, width=_PLOT, formats=("svg",))}.items():
-            figures += write_figures(case, Path(folder), options, _PICTURES[suffix])
+            for figure in write_figures(case, Path(folder), options, _PICTURES[suffix]):
+                figures.append(figure)
+                yield figure
         pictures = {
             figure.part: html.picture(figure.paths[0], figure.caption, f"{place}-{figure.part}-") for figure in figures
         }
@@ -237,8 +261,11 @@ def _runs(case: Case) -> list[str]:
     if not rows:
         return [html.paragraph("No method was run.")]
     head = ["method", "preparation, s", "run, s", "iterations", "outcome", "parameters"]
-    limits = ", ".join(f"{name} {_value(value)}" for name, value in case.stop.values().items())
-    return [html.table(Table("", head, rows, [f"Limits of each run: {limits}."]), words=2)]
+    notes = []
+    if case.stop is not None:
+        limits = ", ".join(f"{name} {_value(value)}" for name, value in case.stop.values().items())
+        notes.append(f"Limits of each run: {limits}.")
+    return [html.table(Table("", head, rows, notes), words=2)]
 
 
 def _run(version: Version) -> list[str]:
@@ -271,13 +298,17 @@ def _origin(case: Case) -> str:
     if case.source is not None:
         pairs |= {
             "file": printable(case.source.path),
-            "size": f"{format_count(case.source.size)} bytes, read in {format_significant(case.source.seconds, 3)} s",
+            "size": f"{format_count(case.source.size)} bytes{_reading(case.source.seconds)}",
             "SHA-256": case.source.sha256,
         }
     if case.initial.mesh.notes:
         pairs["on reading"] = " ".join(case.initial.mesh.notes)
     pairs["Hexmend"] = __version__
     return html.facts(pairs | {name: str(value) for name, value in machine().items()})
+
+
+def _reading(seconds: float | None) -> str:
+    return "" if seconds is None else f", read in {format_significant(seconds, 3)} s"
 
 
 def _change(first: float, last: float, text: Callable[[Any], str]) -> str:

@@ -59,6 +59,15 @@ def figure(value: float | None, decimals: int = 4) -> str:
     return text.replace("-", "−")
 
 
+def with_minus(text: str) -> str:
+    """Return a text with minus signs in place of the hyphens before numbers.
+
+    >>> with_minus("0.16 → -0.8854, of local-sd 1e-07 and part-2")
+    '0.16 → −0.8854, of local-sd 1e−07 and part-2'
+    """
+    return re.sub(r"(?<!\w)-(?=[\d.∞])|(?<=\de)-(?=\d)", "−", text)
+
+
 def short_folder(path: Path, most: int = 40) -> str:
     """Return the folder of a file, with ~ for the home folder; of a long path, the end.
 

@@ -123,6 +123,17 @@ def continue_run(now: Situation) -> Suggestion | None:
     return Suggestion("Continue", text, gain, now.smoother, stop)
 
 
+def resume(now: Situation) -> Suggestion | None:
+    """Suggest to continue a run that the user stopped, unless its last iterations were worse than the kept one."""
+    result = now.result
+    if result.outcome is not Outcome.STOPPED or not result.iterations or result.kept != result.iterations:
+        return None
+    if continue_run(now) is not None:
+        return None
+    text = "Run it again: it had not converged when you stopped it, and continues from here."
+    return Suggestion("Continue", text, "figures" if now.balances else now.aim, now.smoother, now.stop)
+
+
 def restart_longer(now: Situation) -> Suggestion | None:
     """Suggest larger limits for Mend if it ended during a phase whose iterations are not kept."""
     limited = now.result.outcome in (Outcome.MAX_ITERATIONS, Outcome.MAX_SECONDS)
@@ -130,8 +141,8 @@ def restart_longer(now: Situation) -> Suggestion | None:
         return None
     stop, more = larger_limits(now)
     text = (
-        f"Undo the run and start the same{more}: it ended before the worst corners had improved. In between the mesh "
-        "is worse for a while, and continuing from here would pass through that again."
+        f"Undo the run and repeat it{more}: it ended before the worst corners had improved. The mesh is worse for a "
+        "while in between, and a run from here would pass through that again."
     )
     return Suggestion("Undo, then the same with larger limits", text, "inverted", now.smoother, stop, undo=True)
 
@@ -218,6 +229,7 @@ RULES: tuple[Rule, ...] = (
     regularise,
     undo_inversion,
     continue_run,
+    resume,
     restart_longer,
     suggest_newton,
     tighten_tolerance,

@@ -24,6 +24,22 @@ _ENDED = {
 }
 
 
+#: Outcome of a run without an iteration that was better than its start.
+KEPT_START = "kept the start"
+
+
+class _Ended(Quantity):
+    """Reason why a run ended, and whether its result is the mesh it started from."""
+
+    def of(self, record: Mapping[str, Any]) -> str:
+        """Format the outcome in a record.
+
+        >>> _Ended("outcome", "ended", "", ended).of({"outcome": "converged", "iterations": 8, "kept": 0})
+        'kept the start'
+        """
+        return KEPT_START if record.get("iterations") and record.get("kept") == 0 else super().of(record)
+
+
 def ended(outcome: str) -> str:
     """Return the reason why a run ended in a word or two.
 
@@ -61,7 +77,7 @@ LINES: tuple[Quantity, ...] = (
         format_microseconds,
         -1,
     ),
-    Quantity("outcome", "ended", "Why the run ended.", ended),
+    _Ended("outcome", "ended", "Why the run ended, or that nothing was better than the initial mesh.", ended),
 )
 
 #: Columns of figures in the widest table of the thesis; wider tables are transposed.
@@ -204,6 +220,9 @@ def _explained(records: Sequence[Mapping[str, Any]]) -> list[str]:
         "no-descent": "No descent: no step lowers the objective along the search direction.",
         "stopped": "Stopped: ended by the user before it converged.",
     }
+    if any(record.get("iterations") and record.get("kept") == 0 for record in records):
+        sentences |= {KEPT_START: "Kept the start: no iteration was better than the initial mesh."}
+        ended.add(KEPT_START)
     failed = [f"{record['method']}: {record['message']}" for record in records if record.get("outcome") == "failed"]
     return [sentence for key, sentence in sentences.items() if key in ended] + failed
 

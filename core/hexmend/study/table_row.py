@@ -52,7 +52,7 @@ class Row:
     worse : tuple of str
         Figures that became worse, see `Result`.
     kept : int
-        Number of the iteration that is the result.
+        Number of the iteration that is the result; 0 if that is the mesh as given.
     surface : SurfaceChange or None
         See `Result`.
     """
@@ -188,7 +188,7 @@ def run_one(
 
     @uninterrupted  # a signal after the last iteration must not lose the result
     def finish() -> None:
-        rows.append(_row(name, run.result()))
+        rows.append(_row(name, run.result(), mesh))
 
     try:
         finish()
@@ -197,10 +197,11 @@ def run_one(
     return rows[0], completed
 
 
-def _row(name: str, result: Result) -> Row:
+def _row(name: str, result: Result, mesh: Mesh) -> Row:
+    kept = 0 if np.array_equal(result.mesh.points, mesh.points) else result.kept
     stages = result.stages if result.method == Recipe.name else ()
     values = {one.name: getattr(result, one.name) for one in fields(Row)}
-    return Row(**values | {"method": name, "outcome": result.outcome.key, "stages": stages})
+    return Row(**values | {"method": name, "outcome": result.outcome.key, "stages": stages, "kept": kept})
 
 
 def distribution(mesh: Mesh) -> list[int]:

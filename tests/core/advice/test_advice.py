@@ -6,7 +6,7 @@ import pytest
 from hexmend.advice import advise
 from hexmend.advice.situation import Situation
 from hexmend.gallery import make
-from hexmend.iteration import StoppingCriteria
+from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.quality import measure, objective
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
@@ -208,7 +208,7 @@ def test_a_run_that_was_stopped_says_so_and_what_is_inverted():
     advice = advise(run.result())
     assert advice.reason.startswith("Stopped by you after 1 iteration.")
     assert advice.state.startswith(f"{advice.unlocked.size} of 500 hexes are inverted. 369 were at the start.")
-    assert [one.title for one in advice.suggestions] == ["Mend"]
+    assert [one.title for one in advice.suggestions] == ["Mend", "Continue"]
 
 
 @pytest.mark.parametrize("method", ["mend", "laplacian", "local-sd"])
@@ -262,3 +262,22 @@ def test_a_locked_hex_that_sliding_has_not_freed_is_not_told_to_slide():
     left = advise(result).state
     assert "sliding has not freed these" in left
     assert "Correct the boundary" in left
+
+
+@pytest.mark.parametrize("method", ["mend", "laplacian", "getme", "getme-sequential", "local-sd", "global-mnr"])
+@pytest.mark.parametrize("iterations", [1, 6])
+def test_after_a_stop_the_advice_is_to_continue(method, iterations):
+    run = iterate(make("bridge-sharp", size=864), METHODS[method](), StoppingCriteria())
+    for number, _ in enumerate(run, 1):
+        if number == iterations:
+            run.close()
+            break
+    result = run.result()
+    assert result.outcome is Outcome.STOPPED
+    titles = [suggestion.title for suggestion in advise(result).suggestions]
+    if result.kept == result.iterations:
+        assert titles[0] == "Continue"
+        (further,) = [one for one in advise(result).suggestions if one.title == "Continue"]
+        assert smooth(result.mesh, further.smoother, further.stop).after.inverted <= result.after.inverted
+    else:  # it went worse: to continue would only repeat that
+        assert "Continue" not in titles

@@ -10,11 +10,12 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.quality import REGRESSION_KEYS
-from hexmend.quantity import Quantity
-from hexmend.report.comparison import LINES, label
+from hexmend.quantity import Quantity, format_column
+from hexmend.report.comparison import KEPT_START, LINES, label
 from hexmend.smoothers import METHODS
 from hexmend_app.theme.style import BETTER, MUTED, WORSE, tabular
 from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import with_minus
 
 METHOD, VIEW, _FIRST = 0, 1, 2
 
@@ -65,12 +66,23 @@ def title_of(name: str) -> str:
     return METHODS[name].title if name in METHODS else name
 
 
+def column_texts(entries: Sequence[ComparisonRow], quantity: Quantity) -> dict[str, str]:
+    """Return the texts of a column by the names of the rows, with one number of decimals; "" without a result."""
+    with_result = [entry for entry in entries if entry.record]
+    texts = map(with_minus, format_column(quantity, [entry.record for entry in with_result]))
+    named = {entry.name: text for entry, text in zip(with_result, texts, strict=True)}
+    kept = tr("kept the start: nothing was better")
+    return {entry.name: kept if named.get(entry.name) == KEPT_START else named.get(entry.name, "") for entry in entries}
+
+
 def best(entries: Sequence[ComparisonRow], quantity: Quantity) -> set[str]:
     """Return the names of the methods with the best value; none if all values are equal or neither is better.
 
-    >>> rows = [ComparisonRow(name, "", {"q_min": value}) for name, value in (("a", 0.1), ("b", 0.3))]
-    >>> best(rows, next(one for one in LINES if one.key == "q_min"))
-    {'b'}
+    Values that look equal in the table are equal.
+
+    >>> rows = [ComparisonRow(name, "", {"q_min": value}) for name, value in (("a", 0.1), ("b", 0.3), ("c", 0.30001))]
+    >>> sorted(best(rows, next(one for one in LINES if one.key == "q_min")))
+    ['b', 'c']
     """
     sign = quantity.better
     values = {
@@ -78,10 +90,13 @@ def best(entries: Sequence[ComparisonRow], quantity: Quantity) -> set[str]:
         for entry in entries
         if entry.name != INITIAL and entry.record.get(quantity.key) is not None
     }
-    if not sign or len(set(values.values())) < 2:
+    if not sign or not values:
         return set()
-    highest = max(values.values())
-    return {name for name, value in values.items() if value == highest}
+    texts = column_texts(entries, quantity)
+    if len({texts[name] for name in values}) < 2:
+        return set()
+    highest = max(values, key=values.get)
+    return {name for name in values if texts[name] == texts[highest]}
 
 
 class ComparisonModel(QAbstractTableModel):
@@ -105,6 +120,7 @@ class ComparisonModel(QAbstractTableModel):
         self.full = self.busy = False
         self._order = (METHOD, Qt.SortOrder.AscendingOrder)
         self._best: list[set[str]] = [set() for _ in LINES]
+        self._texts: list[dict[str, str]] = [{} for _ in LINES]
 
     def fill(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:
         """Show rows; see `ComparePanel.set_entries` for the parameters."""
@@ -114,6 +130,7 @@ class ComparisonModel(QAbstractTableModel):
             self.beginResetModel()
         self.entries, self.full, self.busy = entries, full, busy
         self._best = [best(entries, quantity) for quantity in LINES]
+        self._texts = [column_texts(entries, quantity) for quantity in LINES]
         if same:  # the view keeps its selection and scroll position
             self.dataChanged.emit(self.index(0, 0), self.index(len(entries) - 1, self.columnCount() - 1))
         else:
@@ -172,7 +189,7 @@ class ComparisonModel(QAbstractTableModel):
         if role == _Role.DisplayRole:
             if column == METHOD:
                 return title_of(entry.name)
-            return quantity.of(entry.record) if quantity and entry.record else ""
+            return self._texts[column - _FIRST][entry.name] if quantity else ""
         if role == _Role.CheckStateRole:
             return self._check(entry, column)
         if role == _Role.TextAlignmentRole:
@@ -182,7 +199,7 @@ class ComparisonModel(QAbstractTableModel):
                 return tr("Close a view first: at most four can be open.")
             return f"<qt>{entry.help}</qt>"
         if quantity is not None:
-            return self._emphasis(entry, quantity, entry.name in self._best[column - _FIRST], role)
+            return self._emphasis(entry, quantity, column - _FIRST, role)
         return None
 
     def _check(self, entry: ComparisonRow, column: int) -> Qt.CheckState | None:
@@ -190,14 +207,16 @@ class ComparisonModel(QAbstractTableModel):
             return _CHECKS[entry.name in self.ticks]
         return _CHECKS[entry.shown] if column == VIEW and entry.has_mesh else None
 
-    def _emphasis(self, entry: ComparisonRow, quantity: Quantity, is_best: bool, role: int) -> Any:
+    def _emphasis(self, entry: ComparisonRow, quantity: Quantity, at: int, role: int) -> Any:
+        is_best, texts = entry.name in self._best[at], self._texts[at]
         if role == _Role.FontRole and is_best:
             font = tabular(QFont())
             font.setBold(True)
             return font
         regressed = quantity.key in {REGRESSION_KEYS.get(name, name) for name in entry.record.get("worse", ())}
+        regressed = regressed and texts[entry.name] != texts.get(INITIAL)
         if role == _Role.AccessibleTextRole and (is_best or regressed):
-            return ", ".join([quantity.of(entry.record), *["best"] * is_best, *[tr("worse than initial")] * regressed])
+            return ", ".join([texts[entry.name], *[tr("best")] * is_best, *[tr("worse than initial")] * regressed])
         if role == _Role.ForegroundRole:
             bad = regressed or (quantity.key == "inverted" and entry.record.get("inverted"))
             colour = WORSE if bad else BETTER if is_best else None

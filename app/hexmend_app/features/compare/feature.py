@@ -127,7 +127,7 @@ class FeatureCompare(Feature):
         if result is None:
             return ComparisonRow(name, f"<b>{method.title}</b><br>{method.help}", {})
         row, state = result.row, result.state
-        values = {one.key: getattr(row, one.key, None) for one in LINES}
+        values = {one.key: getattr(row, one.key, None) for one in LINES} | {"kept": row.kept}
         record = values | (_mesh_values(state, norm) if state is not None else {}) | {"worse": row.worse}
         shown = state is not None and self._views.shows(state)
         return ComparisonRow(name, f"<b>{method.title}</b><br>{row.message}", record, state is not None, shown)

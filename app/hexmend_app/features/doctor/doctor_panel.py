@@ -45,6 +45,9 @@ class DoctorPanel(QWidget):
         self._all = QPushButton(icon("bandage"), tr("Repair all"))
         set_help(self._all, tr("Repair all"), tr("Repair all problems that can be repaired. Can be undone."))
         self._all.clicked.connect(lambda: self.repair_requested.emit([]))
+        self._notes = note()
+        self._notes.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._notes.hide()
         self._rows = QGridLayout()
         self._rows.setColumnStretch(0, 1)
         self._rows.setVerticalSpacing(8)
@@ -58,6 +61,7 @@ class DoctorPanel(QWidget):
         column.addLayout(head)
         column.addLayout(self._rows)
         column.addStretch()
+        column.insertWidget(1, self._notes)
         outside = QVBoxLayout(self)
         outside.setContentsMargins(0, 0, 0, 0)
         outside.addWidget(scrolled(inside))
@@ -77,6 +81,11 @@ class DoctorPanel(QWidget):
         for row, finding in enumerate(findings or ()):
             self._add(row, finding)
         self._all.setVisible(len(self._repair_buttons) > 1)
+
+    def show_notes(self, notes: Sequence[str]) -> None:
+        """Show what was changed when the file was read."""
+        self._notes.setText(tr("Changed on reading: {changes}", changes=" ".join(notes)))
+        self._notes.setVisible(bool(notes))
 
     def set_busy(self, busy: bool) -> None:
         """Disable the repair buttons while the mesh cannot be edited."""

@@ -76,6 +76,7 @@ class FeatureDoctor(Feature):
         if not session.document.is_open or not self.panel.isVisible() or session.run.busy:
             return
         mesh = session.document.now.mesh
+        self.panel.show_notes(session.document.start.mesh.notes)
         session.mesh_checker.ask(mesh)
         findings, error = session.mesh_checker.of(mesh), session.mesh_checker.error
         if self._seen.changed("findings", findings, error, mesh):

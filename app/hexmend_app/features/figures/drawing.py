@@ -87,7 +87,7 @@ def draw(
 ) -> Iterator[Figure]:
     """Write and yield figure by figure, then write captions and commands; see `write_set` for the parameters."""
     folder, figures = Path(folder), []
-    case = Case(mesh, None, tuple(map(_version, versions)))
+    case = Case(mesh, None, tuple(map(version_of, versions)))
     for figure in write_figures(case, folder, Style(scene, formats=_FORMATS)):
         figures.append(figure)
         yield figure
@@ -97,7 +97,8 @@ def draw(
     write_captions(folder, title, [(figure, command_line([*arguments, figure.part])) for figure in figures])
 
 
-def _version(named: NamedVersion) -> Version:
+def version_of(named: NamedVersion) -> Version:
+    """Return the version of a mesh with its measurements, and those of its run."""
     name, source, *iteration = named
     if isinstance(source, Mesh):
         return Version.of(name, source)
@@ -113,4 +114,6 @@ def _row(record: RunRecord, number: int, mesh: Mesh) -> Row:
     seconds = float(record.rows[number]["seconds"])
     outcome = "" if number == record.result else "stopped"
     summary = summarise(mesh, measure(mesh.points, mesh.hexes))
-    return Row(record.title, {}, outcome, record.message, mesh, summary, number, seconds)
+    work = record.work
+    parameters = {} if work is None or isinstance(work, Recipe) else work.values()
+    return Row(record.title, parameters, outcome, record.message, mesh, summary, number, seconds)

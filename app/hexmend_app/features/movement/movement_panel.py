@@ -16,12 +16,12 @@ from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import counted, figure, short_number
 
 _SINCE = [
-    (Since.OPENED.value, "Opening", "Compare with the mesh as it was opened."),
-    (Since.RUN.value, "Run", "Compare with the mesh at the start of the run."),
-    (Since.ITERATION.value, "Iteration", "Compare each iteration with the previous stored iteration."),
+    (Since.OPENED.value, "File opened", "Compare with the mesh as it was opened."),
+    (Since.RUN.value, "Run started", "Compare with the mesh at the start of the run."),
+    (Since.ITERATION.value, "Last iteration", "Compare each iteration with the previous stored iteration."),
 ]
 _COLOURS = [
-    ("", "Quality", "Colour by the metric selected in the Look panel."),
+    ("", "Quality", "Colour by the metric selected in the Colour panel."),
     (
         "moved-most",
         DISPLACEMENT_QUANTITIES["moved-most"].label,

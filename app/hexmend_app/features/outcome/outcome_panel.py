@@ -23,7 +23,7 @@ from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, icon, not
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.scrolled import scrolled
-from hexmend_app.widgets.wording import counted
+from hexmend_app.widgets.wording import counted, with_minus
 
 _HINT = "No run has ended yet. After a run, this panel shows why it stopped, the remaining bad hexes and suggestions."
 #: Maximum number of hexes that are listed by number; the others are counted.
@@ -119,9 +119,9 @@ class OutcomePanel(QWidget):
         """Explain the end of a run."""
         self._title.setText(title)
         self._reason.setText(advice.reason)
-        self._state.setText(advice.state)
+        self._state.setText(with_minus(advice.state))
         tint(self._state, INVERTED_TEXT if advice.locked.size or advice.unlocked.size else TEXT)
-        self._regressions.setText(advice.regressions)
+        self._regressions.setText(with_minus(advice.regressions))
         self._regressions.setVisible(bool(advice.regressions))
         tint(self._regressions, WORSE)
         self._locked.show_hexes(advice.locked)

@@ -112,6 +112,11 @@ def ask_figures(parent: QWidget, stem: str) -> str:
     return next((str(path) for name in names if not (path := Path(parent_folder) / name).exists()), "")
 
 
+def ask_report(parent: QWidget, stem: str) -> str:
+    """Ask for the file to save a report to; "" if cancelled."""
+    return _ask_to_save(parent, tr("Export report"), f"{stem}-report.html", tr("Web page (*.html);;PDF (*.pdf)"))
+
+
 def remember_folder(path: Path) -> None:
     """Store the folder of a file as the folder in which the next dialog starts."""
     FOLDER.set(path.resolve().parent)

@@ -159,8 +159,10 @@ class ParameterForm(QWidget):
         name, help = tr(name_in_words(declaration.name)), tr(declaration.help)
         editor = editor_for(declaration)
         default = declaration.default
-        shown = short_number(default) if isinstance(default, float) else str(default)
+        shown = _default_text(default)
         expected = tr("{range}; default {default}.", range=declaration.range.capitalize(), default=shown)
+        if isinstance(default, bool):
+            expected = tr("On by default.") if default else tr("Off by default.")
         tip = f"{escape(help)}<br><i>{escape(expected)}</i>"
         set_help(editor, name, tip)
         editor.setAccessibleDescription(help)
@@ -254,3 +256,9 @@ def _longest_word_width(label: QLabel, text: str) -> int:
     bold.setBold(True)
     metrics = QFontMetrics(bold)
     return max(metrics.horizontalAdvance(word) for word in text.split()) + 2
+
+
+def _default_text(default: object) -> str:
+    if isinstance(default, bool):
+        return tr("on") if default else tr("off")
+    return short_number(default) if isinstance(default, float) else str(default)

@@ -17,7 +17,8 @@ from hexmend.gallery import make
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
-from hexmend_app.features.compare.comparison_table import VIEW
+from hexmend_app.features.compare.comparison_table import VIEW, ComparisonModel, ComparisonRow
+from hexmend_app.state.mesh.document import State
 from hexmend_app.theme.style import WORSE
 from tests.app.driving import LEFT, choose, key, named, open_and_wait, press
 from tests.app.features.compare.table import (
@@ -33,6 +34,7 @@ from tests.app.features.compare.table import (
     table_of,
     tick,
 )
+from tests.core.grids import grid
 from tests.patience import PATIENCE
 
 
@@ -210,3 +212,42 @@ def test_the_table_is_saved_in_four_formats_and_others_are_refused(compared, tmp
     assert kind == "error"
     assert not (tmp_path / "table.doc").exists()
     assert text
+
+
+def test_a_result_equal_to_the_start_says_so(comparing, qtbot):
+    window = comparing
+    window.session.document.commit("Grid", State.of(grid(3)))  # a grid of cubes cannot be improved
+    choose_methods(window, "laplacian", "local-sd")
+    press(button(window, "Run comparison"))
+    qtbot.waitUntil(lambda: not window.session.comparison.busy, timeout=PATIENCE)
+    table, kept = model(window), []
+    for name in ("laplacian", "local-sd"):
+        result = window.session.comparison.of(name)
+        if result.row.iterations:
+            kept.append(table.index(row(window, name), COLUMN["outcome"]).data())
+    assert kept
+    assert set(kept) == {"kept the start: nothing was better"}
+
+
+def test_a_column_has_one_number_of_decimals_and_equal_texts_are_marked_alike():
+    rows = [
+        ComparisonRow(name, "", {"seconds": seconds, "q_min": q, "scaled_jacobian_min": -0.5, "iterations": 9})
+        for name, seconds, q in (("laplacian", 0.0123, 0.30001), ("getme", 19.522, 0.3), ("local-sd", 1.0, 0.1))
+    ]
+    table = ComparisonModel([])
+    table.fill(rows, full=False, busy=False)
+    texts = {
+        one.name: [table.index(at, COLUMN[key]).data() for key in ("seconds", "q_min", "scaled_jacobian_min")]
+        for at, one in enumerate(table.entries)
+    }
+    assert texts == {
+        "laplacian": ["0.012", "0.3000", "−0.5000"],
+        "getme": ["19.522", "0.3000", "−0.5000"],
+        "local-sd": ["1.000", "0.1000", "−0.5000"],
+    }
+    bold = {
+        one.name
+        for at, one in enumerate(table.entries)
+        if table.index(at, COLUMN["q_min"]).data(Qt.ItemDataRole.FontRole) is not None
+    }
+    assert bold == {"laplacian", "getme"}

@@ -97,3 +97,13 @@ def test_a_finding_is_shown_while_a_run_is_paused_too(window, panel, qtbot):
     press(buttons(panel, "Show")[0])
     assert set(range(27, 54)) == set(session.view.look.show.isolate.hexes)
     end_run(session)
+
+
+def test_changes_on_reading_are_remembered(window, panel):
+    mesh = unmerged().replace(notes=("8 hexes were renumbered.",))
+    window.session.document.replace(State.of(mesh), None)
+    window.refresh()
+    assert "Changed on reading: 8 hexes were renumbered." in texts(panel)
+    window.session.document.replace(State.of(unmerged()), None)
+    window.refresh()
+    assert "Changed on reading" not in texts(panel)

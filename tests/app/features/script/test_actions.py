@@ -65,7 +65,8 @@ TOLD = {
     "runs": ("step", "iteration_first", "iteration_on", "iteration_back", "iteration_newest", "stop",
              "iteration_play", "iteration_branch", "reset", "run", "recipe_run", "next_node", "ten_nodes",
              "finish_sweep"),
-    "files": ("save", "save_visible", "screenshot", "save_session", "recipe_save", "figure_set", "film", "open_demo", "open", "repair",
+    "files": ("save", "save_visible", "screenshot", "save_session", "recipe_save", "figure_set", "report", "film",
+               "open_demo", "open", "repair",
               "pad"),
 }  # fmt: skip
 

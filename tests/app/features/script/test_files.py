@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -259,6 +260,18 @@ def test_a_figure_set(window, qtbot, script, tmp_path):
         assert_same_pictures(both, tmp_path)
     for before, after in others:
         assert before == after
+
+
+def test_a_report(window, qtbot, script, tmp_path):
+    run(window, qtbot)
+    compared(window, qtbot, "laplacian")
+    feature, path = window.features["figures"], tmp_path / "report.html"
+    feature.write_report(path)
+    qtbot.waitUntil(lambda: not feature.going_on, timeout=PATIENCE)
+    ((before, after),) = again(script, tmp_path, path)
+    assert before.count(b"<figure") == after.count(b"<figure") > 4
+    qualities = re.compile(rb"[^<>]+: [0-9,]+ inverted, q min [0-9.]+")
+    assert qualities.findall(before) == qualities.findall(after) != []
 
 
 def test_runs_and_snapshots_are_read_from_the_session(window, qtbot, script, tmp_path):

@@ -1,0 +1,77 @@
+"""Reports on the meshes of the window, for the window and for scripts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from hexmend.io.storage.atomic import check_writable
+from hexmend.io.storage.suffixes import suffix_for
+from hexmend.report.charts import check_matplotlib
+from hexmend_app.features.figures.drawing import NamedVersion, version_of
+from hexmend_app.picture import Scene
+from hexmend_app.report.case import Case, Source
+from hexmend_app.report.figure_set import Figure, Style
+from hexmend_app.report.page import draw_chapter, page, write_page
+from hexmend_app.report.pdf import check_pdf, write_pdf
+from hexmend_app.scene.render.graphics import prepare_off_screen
+
+#: Suffixes of reports.
+_SUFFIXES = (".html", ".pdf")
+
+#: Pixels per inch of the pictures.
+_DPI = 220.0
+
+#: Names of the figures in the order in which they are drawn.
+FIGURES = ("opposite side", "surface", "cut", "distributions", "convergence")
+
+
+def write_report(
+    path: str | Path, title: str, mesh: str, scene: Scene, versions: Sequence[NamedVersion], file: str = ""
+) -> None:
+    """Write a report on one page, HTML or PDF by the suffix.
+
+    Parameters
+    ----------
+    path : path-like
+    title : str
+    mesh : str
+        Name of the mesh.
+    scene : Scene
+        Camera, cut and colours of the pictures.
+    versions : sequence
+        Meshes, that as opened first; see `hexmend_app.features.figures.drawing.write_set`.
+    file : str
+        File of the mesh; "" for none.
+
+    Raises
+    ------
+    HexmendError
+        If drawing off screen is impossible, a library is missing, or a file cannot be read or written.
+    """
+    prepare_off_screen()
+    prepare_report(Path(path))
+    for _ in draw_report(path, title, mesh, scene, versions, file):
+        pass
+
+
+def prepare_report(path: Path) -> None:
+    """Check that a report can be written; raise the same errors as `write_report`."""
+    if suffix_for(path, "a report", _SUFFIXES) == ".pdf":
+        check_pdf()
+    check_writable(path)
+    check_matplotlib()
+
+
+def draw_report(
+    path: str | Path, title: str, mesh: str, scene: Scene, versions: Sequence[NamedVersion], file: str = ""
+) -> Iterator[Figure]:
+    """Yield figure by figure, then write the report; see `write_report` for the parameters."""
+    path = Path(path)
+    interactive = suffix_for(path, "a report", _SUFFIXES) == ".html"
+    source = Source.of(file) if file else None
+    case = Case(mesh, source, tuple(map(version_of, versions)), stop=None)
+    style = Style(replace(scene, page=replace(scene.page, dpi=_DPI)))
+    chapter = yield from draw_chapter(case, style, [], interactive=interactive)
+    (write_page if interactive else write_pdf)(path, page(title, [chapter], "", interactive=interactive))
