@@ -18,7 +18,7 @@ from hexmend_app.canvas.camera_view import CameraView
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.pointer import Pointer
 from hexmend_app.canvas.shading_task import ShadingTask
-from hexmend_app.canvas.view_captions import HEIGHT
+from hexmend_app.canvas.view_captions import caption_height
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.camera.fitting import pixels
@@ -188,7 +188,7 @@ class Canvas(CameraView):
         wipe : Wipe, optional
             None shows all views side by side.
         """
-        self.panes.reserve_captions(round(HEIGHT * self.devicePixelRatioF()))
+        self.panes.reserve_captions(round(caption_height(self) * self.devicePixelRatioF()))
         self.panes.show(others, wipe)
         self._select_in_other_views()
         self._place_handles()

@@ -22,6 +22,11 @@ _CROSS = 11
 HEIGHT = 24
 
 
+def caption_height(widget: QWidget) -> int:
+    """Return the height of a caption in the font of a widget, in pixels."""
+    return max(HEIGHT, widget.fontMetrics().height() + 4)
+
+
 @dataclass(frozen=True, eq=False)
 class Caption:
     """Contents of the caption of a view.
@@ -91,7 +96,7 @@ class CaptionRow(QWidget):
     def place_at(self, share: float) -> None:
         """Place the row at a fraction of the height of the parent from its top, with full width."""
         over = self.parentWidget().size()
-        self.setGeometry(0, round(share * over.height()), over.width(), HEIGHT)
+        self.setGeometry(0, round(share * over.height()), over.width(), caption_height(self))
 
     def _part(self, caption: Caption, number: int) -> _Entry:
         part = _Entry(caption)
@@ -140,7 +145,7 @@ class WipeRow(QWidget):
         (left, right), (left_figures, right_figures) = self._sides, self._figures
         for part, stretch in ((left, 0), (left_figures, 1), (right_figures, 1), (right, 0)):
             row.addWidget(part, stretch)
-        self.setFixedHeight(HEIGHT + 4)
+        self.setFixedHeight(caption_height(self) + 4)
         right_figures.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.hide()
 
@@ -172,7 +177,7 @@ class _Entry(QWidget):
         row.addWidget(name)
         self._figures = _figures()
         row.addWidget(self._figures, 1)
-        self.setFixedHeight(HEIGHT)
+        self.setFixedHeight(caption_height(self))
 
     def set_figures(self, caption: Caption) -> None:
         """Update the figures."""

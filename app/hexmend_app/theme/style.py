@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QPalette
-from PySide6.QtWidgets import QApplication, QLabel, QSizePolicy, QToolTip, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QSizePolicy, QToolTip, QWidget
 
 from hexmend_app.theme.icons import icon
 from hexmend_app.theme.palette import (
@@ -152,6 +152,12 @@ def set_help(widget: QWidget, name: str, help: str) -> None:
         widget.setToolTip(tip)
     if widget.whatsThis() != tip:
         widget.setWhatsThis(tip)
+
+
+def narrow(button: QAbstractButton) -> None:
+    """Give a button with a short text the width of that text; the style makes buttons at least 80 pixels wide."""
+    button.ensurePolished()
+    button.setFixedWidth(max(44, button.fontMetrics().horizontalAdvance(button.text()) + 20))
 
 
 def note(text: str = "", colour: Role = MUTED, parent: QWidget | None = None) -> QLabel:

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QSpin
 
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.geometry.skin import WHOLE
-from hexmend_app.theme.style import icon, note, set_help, tabular
+from hexmend_app.theme.style import icon, narrow, note, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.slider_box import SliderBox
@@ -72,7 +72,7 @@ class InsidePanel(QWidget):
         set_help(self._rings, tr("Rings around isolated hexes"), tr(_RINGS))
         self.isolated = QLabel()
         self._all = QPushButton(tr("All"))
-        self._all.setFixedWidth(44)  # the style's minimum of 80 pixels is too wide
+        narrow(self._all)
         set_help(self._all, tr("Show all"), tr("End the isolation and show all hexes."))
         self.dug = QLabel()
         self._undo = QPushButton(icon("undo"), "")

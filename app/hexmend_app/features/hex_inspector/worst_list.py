@@ -92,7 +92,6 @@ class WorstList(QWidget):
         self._model = WorstModel(self)
         self._table = self._make_table()
         self._text = note()
-        self._text.setWordWrap(False)
         self._lay_out()
         self._refresh()
 

@@ -95,7 +95,7 @@ class SnapshotEntry(QWidget):
         self.cross.setIconSize(QSize(11, 11))
         self.cross.setFixedSize(16, 16)
         self.cross.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setFixedHeight(_HEIGHT)
+        self.setFixedHeight(max(_HEIGHT, self.fontMetrics().height()))
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 4, 0)
         layout.setSpacing(4)

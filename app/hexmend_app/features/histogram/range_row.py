@@ -10,7 +10,7 @@ from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.end_box import EndBox
 from hexmend_app.picture.visibility import Show
-from hexmend_app.theme.style import INVERTED, set_help
+from hexmend_app.theme.style import INVERTED, narrow, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.metric_texts import in_sentence
 
@@ -40,7 +40,7 @@ class RangeRow(QWidget):
         self._ends: dict[EndBox, float] = {}
         self.low, self.high, self.all = EndBox(), EndBox(), QPushButton(tr("All"))
         set_help(self.all, tr("Show all"), tr("Show the hexes of all values (or double-click the plot)."))
-        self.all.setFixedWidth(44)  # the style's 80 pixels are too wide for the row
+        narrow(self.all)
         self.all.clicked.connect(self.cleared)
         self.inverted = QToolButton()
         self.inverted.setCheckable(True)

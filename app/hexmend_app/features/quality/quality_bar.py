@@ -54,7 +54,7 @@ class QualityBar(QFrame):
         return " ".join(document.toPlainText().split())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Omit the figures at the start where the bar is too narrow for them."""
+        """Omit the figures at the start where the bar is too narrow for them, then the last figures."""
         super().resizeEvent(event)
         self._fit()
 
@@ -83,11 +83,17 @@ class QualityBar(QFrame):
         self._fit()
 
     def _fit(self) -> None:
-        if self._summaries is not None:
-            self._set_text(with_start=self.width() >= self.sizeHint().width())
+        if self._summaries is None:
+            return
+        margins = self._layout.contentsMargins()
+        room, shown = self.width() - margins.left() - margins.right(), len(FIGURES)
+        self._set_text(with_start=self.width() >= self.sizeHint().width())
+        while shown > 1 and self._label.sizeHint().width() > room:
+            shown -= 1
+            self._set_text(shown, with_start=False)
 
-    def _set_text(self, *, with_start: bool) -> None:
-        self._label.setText(_GAP.join(_html(*entry, with_start) for entry in self._figures()))
+    def _set_text(self, shown: int = len(FIGURES), *, with_start: bool) -> None:
+        self._label.setText(_GAP.join(_html(*entry, with_start) for entry in self._figures()[:shown]))
 
     def _figures(self) -> list[tuple[Quantity, Any, Any]]:
         """Return the quantities with their values at the start and now."""

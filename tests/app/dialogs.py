@@ -1,0 +1,37 @@
+"""Dialogs of a window, by name: functions that make them without waiting for an answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtWidgets import QDialog
+
+from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
+from hexmend_app.features.pad.pad_dialog import PadDialog
+from hexmend_app.shell.keys_page import KeysPage
+from hexmend_app.shell.palette.command_palette import CommandPalette
+from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries
+from hexmend_app.shell.window import Window
+from hexmend_app.widgets.dialogs.waiting import WaitingDialog
+
+
+def _pad(window: Window) -> QDialog:
+    now = window.session.document.now
+    return PadDialog(now.mesh, now.summary.locked_inverted, now.summary.inverted, window)
+
+
+def _palette(window: Window) -> QDialog:
+    actions = {id: action for id, action in window.window_actions.items() if id != "commands"}
+    return CommandPalette([*command_entries(actions), *choice_entries(window.session)], window)
+
+
+DIALOGS: dict[str, Callable[[Window], QDialog]] = {
+    "picture": lambda window: window.features["save"].picture_dialog(),
+    "histogram": lambda window: window.features["histogram"].dialog(),
+    "cameras": lambda window: window.features["camera"].cameras_dialog(),
+    "film": lambda window: FilmDialog(FilmChoice(), (800, 600), 40, window),
+    "pad": _pad,
+    "keys": lambda window: KeysPage(window.menus.declared(), window),
+    "palette": _palette,
+    "waiting": lambda window: WaitingDialog("The file is being saved.", lambda: False, "Close anyway", window),
+}
