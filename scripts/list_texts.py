@@ -1,5 +1,7 @@
 """Print every text of the window that goes through `tr`, by folder, so that all of them can be read in one go.
 
+Texts that stand in tables of a module which passes their entries to `tr` are printed too.
+
 python scripts/list_texts.py [FOLDER...]
 """
 
@@ -14,7 +16,7 @@ APP = Path(__file__).resolve().parents[1] / "app" / "hexmend_app"
 
 
 def texts_of(path: Path) -> Iterator[str]:
-    """Return the texts that a module passes to `tr`, in order: literals, and those of constants of the module."""
+    """Return the texts that a module passes to `tr`, in order: literals, those of constants, then those of tables."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     constants = {
         target.id: statement.value
@@ -23,6 +25,7 @@ def texts_of(path: Path) -> Iterator[str]:
         for target in statement.targets
         if isinstance(target, ast.Name)
     }
+    from_tables = False
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "tr":
             text = node.args[0]
@@ -30,6 +33,19 @@ def texts_of(path: Path) -> Iterator[str]:
                 text = constants.get(text.id, text)
             if isinstance(text, ast.Constant):
                 yield text.value
+            else:
+                from_tables = True
+    if from_tables:
+        for value in constants.values():
+            yield from (part.value for part in ast.walk(value) if _is_text(part))
+
+
+def _is_text(node: ast.AST) -> bool:
+    """Return True for a literal that reads like a text: a capital first, or several words; not a path or a key."""
+    if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+        return False
+    text = node.value.lstrip("&")
+    return len(text) > 1 and (text[0].isupper() or " " in text)
 
 
 def main(folders: list[str]) -> None:

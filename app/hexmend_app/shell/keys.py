@@ -27,7 +27,7 @@ def tables(actions: Iterable[Action]) -> list[tuple[str, list[tuple[str, str, st
     for menu in (*MENUS, ""):
         rows = [(name_of(action), action.keys, action.help) for action in actions if action.menu == menu]
         if rows:
-            title = " › ".join(map(tr, menu.split("/"))) if menu else tr("Without a menu")
+            title = " › ".join(map(tr, menu.split("/"))) if menu else tr("Not in a menu")
             found.append((title, rows))
     return found
 

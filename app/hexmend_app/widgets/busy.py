@@ -26,7 +26,7 @@ class Busy(QWidget):
         self._bar.setRange(0, 0)
         self._bar.setFixedSize(140, 10)  # as high as text, so that the layout does not jump
         self._bar.setTextVisible(False)
-        self._bar.setAccessibleName(tr("Share of the task that is done"))
+        self._bar.setAccessibleName(tr("Progress of the task"))
         self._cancel = QPushButton()
         self._cancel.setFixedHeight(self._text.fontMetrics().height() + 4)
         self._cancel.clicked.connect(lambda: self._end())

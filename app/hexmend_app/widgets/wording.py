@@ -9,15 +9,19 @@ from pathlib import Path
 from PySide6.QtCore import QLocale
 
 _GREEK = {"alpha": "α", "beta": "β", "delta": "δ", "eta": "η", "lambda": "λ", "rho": "ρ", "sigma": "σ", "tau": "τ"}
+#: Labels of parameters whose names say too little.
+_LABELS = {"guard": "Keep the best result"}
 _SUBSCRIPT = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
 def name_in_words(name: str) -> str:
     """Return a declared name as a label.
 
-    >>> name_in_words("first_step"), name_in_words("c1"), name_in_words("delta"), name_in_words("p")
-    ('First step', 'c₁', 'Delta (δ)', 'p')
+    >>> name_in_words("first_step"), name_in_words("c1"), name_in_words("delta"), name_in_words("guard")
+    ('First step', 'c₁', 'Delta (δ)', 'Keep the best result')
     """
+    if name in _LABELS:
+        return _LABELS[name]
     if re.fullmatch(r"[a-z]\d*", name):
         return name.translate(_SUBSCRIPT)
     words = name.replace("_", " ").replace("-", " ").strip()

@@ -140,7 +140,7 @@ def _state(now: Situation) -> str:
 
 
 #: Advice to lay a layer of hexes, as a part of a sentence.
-_PAD = ", or keep it and lay a layer of hexes under it (Pad, hexmend pad)"
+_PAD = ", or keep it and insert a layer of hexes under it (Pad, hexmend pad)"
 
 
 def _locked(now: Situation) -> str:
@@ -150,7 +150,7 @@ def _locked(now: Situation) -> str:
     if many == now.result.after.inverted:
         which = "It is" if many == 1 else "All of them are"
     if now.fixing_sets or now.outside_nodes.size:  # suggestions say how to release these
-        return f"{which} locked: fixed nodes alone hold {them} in inversion."
+        return f"{which} locked: fixed nodes alone keep {them} inverted."
     if now.result.surface is not None:
         rest = f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
         remedy = "" if now.cut_short else f" Correct the boundary where the mesh was made{_PAD}."
@@ -165,5 +165,5 @@ def _locked(now: Situation) -> str:
             f" Correct the boundary where the mesh was made{_PAD}, or try mend with boundary = slide: it also moves"
         )
         remedy += " nodes off the surface within the tolerance."
-    text = f"{which} locked: fixed nodes alone hold {them} in inversion{rest}"
+    text = f"{which} locked: fixed nodes alone keep {them} inverted{rest}"
     return text if now.pinned_nodes.size else text + remedy

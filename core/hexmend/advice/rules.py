@@ -175,7 +175,7 @@ def optimum(now: Situation) -> Suggestion | None:
     heuristic = not now.smoother.optimises and not isinstance(now.smoother, SequentialGETMe)
     if not (heuristic or now.result.outcome is Outcome.SUFFICIENT) or not _sound_below(now, PERFECT):
         return None
-    text = "Run Mend: it raises q min, q mean and the least scaled Jacobian as far as they go together; none falls."
+    text = "Run Mend: it raises q min, q mean and the least scaled Jacobian together; none of them falls."
     return Suggestion("Mend", text, "figures", Mend(**now.objective))
 
 

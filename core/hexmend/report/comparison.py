@@ -235,4 +235,4 @@ def _counts(record: Mapping[str, Any]) -> str:
 def _locked(count: int) -> str:
     """Tell how many inverted hexes are locked."""
     which = count_phrase(count, "of the inverted hexes is", "of the inverted hexes are")
-    return f"{which} locked: fixed nodes alone hold {'it' if count == 1 else 'them'} in inversion."
+    return f"{which} locked: fixed nodes alone keep {'it' if count == 1 else 'them'} inverted."

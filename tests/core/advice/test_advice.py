@@ -167,7 +167,7 @@ def test_locked_hexes_are_named_and_nothing_vain_is_suggested():
     advice = advise(smooth(mesh, "mend"))
     assert advice.locked.tolist() == [mesh.topology.node_corners.items[0] // 8]
     assert advice.unlocked.size == 0
-    assert "1 of 315 hexes is inverted. It is locked: fixed nodes alone hold it in inversion" in advice.state
+    assert "1 of 315 hexes is inverted. It is locked: fixed nodes alone keep it inverted" in advice.state
     assert "sliding alone does not free it. Correct the boundary" in advice.state
     assert "try mend with boundary = slide" in advice.state
     assert "Let it slide" not in advice.state

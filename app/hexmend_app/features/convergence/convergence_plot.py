@@ -98,7 +98,7 @@ class ConvergencePlot(QWidget):
         self.title.setWordWrap(False)
         set_help(self.title, tr(chart.title), f"{tr(chart.help)} {tr(_HELP)}")
         self._blank = note()
-        self._blank.setAccessibleName(tr("Reason why the chart of {title} is empty", title=tr(chart.title)))
+        self._blank.setAccessibleName(tr("Why the chart of {title} is empty", title=tr(chart.title)))
         self._blank.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._blank.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         QVBoxLayout(self.plot).addWidget(self._blank)

@@ -128,7 +128,7 @@ def axis_title(curves: Sequence[Curve], by_time: bool) -> str:
     """Return the title of the axis: seconds of the times of a case are not those of a method."""
     times = [curve.record.holds_times for curve in curves if curve.shown]
     if times and all(times):
-        return tr("time of the case in seconds") if by_time else tr("number of the time")
+        return tr("time of the case, s") if by_time else tr("time step number")
     return tr("seconds in the method") if by_time else "iteration"
 
 

@@ -83,7 +83,7 @@ class FilmDialog(QDialog):
         self._frames.setRange(2, 1000)
         self._frames.setSuffix(tr(" frames"))
         self._frames.setValue(choice.frames)
-        set_help(self._frames, tr("Frames"), tr("Largest number of frames. Longer runs are thinned out evenly."))
+        set_help(self._frames, tr("Frames"), tr("Maximum number of frames. Longer runs are thinned out evenly."))
         self._histogram = QCheckBox(tr("Histogram next to the mesh"))
         self._histogram.setChecked(choice.histogram)
         set_help(self._histogram, tr("Histogram"), tr("Show the distribution of values next to the mesh."))

@@ -124,11 +124,11 @@ class FeatureHexInspector(Feature):
             ),
             Action(
                 id="back",
-                text=tr("&End isolation or clear selection"),
+                text=tr("&Show all or clear selection"),
                 menu="Hex",
                 part=3,
                 keys="Esc",
-                help=tr("End measuring, then the isolation, then clear the selection."),
+                help=tr("End measuring or show all hexes; if neither applies, clear the selection."),
                 handle=self._back,
                 enabled=lambda: (
                     not self.host.messages.takes_escape

@@ -19,7 +19,7 @@ from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.metric_texts import described, metrics_offered
 
 _CUMULATIVE = "Show the share of hexes with a value up to x, inverted hexes first."
-_KEEP = "Keep the present distribution to compare it with later ones, for example of other methods."
+_KEEP = "Keep the current distribution to compare it with later ones, for example of other methods."
 _SAVE = "Save the histogram as SVG, PDF or PNG, or its counts as CSV."
 _FULL = "Remove a distribution first: at most six can be kept."
 _BINS = "Number of bins."

@@ -43,9 +43,9 @@ def _verdict(state: State) -> str:
     if summary.inverted:
         locked = summary.locked_inverted
         if locked == summary.inverted:
-            return tr("Solvers refuse it; fixed nodes lock all inverted hexes: let the boundary slide or unpin nodes.")
+            return tr("Solvers reject it; fixed nodes lock all inverted hexes: let the boundary slide or unpin nodes.")
         locked_part = tr(", {count} of them locked by fixed nodes", count=figure(locked)) if locked else ""
-        return tr("Solvers refuse inverted hexes{locked}: run Mend to untangle them.", locked=locked_part)
+        return tr("Solvers reject inverted hexes{locked}: run Mend to untangle them.", locked=locked_part)
     if summary.scaled_jacobian_min < _SOUND:
         return tr("No hex is inverted, but some are bad: run Mend to improve them.")
     return tr("No hex is inverted.")

@@ -18,7 +18,7 @@ from hexmend_app.translation import tr
 #: Rings of hexes around the inverted ones whose nodes are unpinned where the part of the mesh was too small.
 _RINGS = 2
 
-_RUNNING = "A run is in progress. When it ends, the reason and suggestions are shown here."
+_RUNNING = "A run is in progress. When it ends, this panel shows why, and what to try next."
 
 
 class FeatureOutcome(Feature):

@@ -25,7 +25,7 @@ from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.wording import counted, with_minus
 
-_HINT = "No run has ended yet. After a run, this panel shows why it stopped, the remaining bad hexes and suggestions."
+_HINT = "No run has finished yet. After a run, this panel shows why it stopped, the bad hexes left, and suggestions."
 #: Maximum number of hexes that are listed by number; the others are counted.
 _MAX_LISTED = 24
 
@@ -65,7 +65,7 @@ class OutcomePanel(QWidget):
         self._surface = self._text()
         self._limiting = _HexList(tr("Limiting"), tr("that limit the minimum scaled Jacobian"))
         self._locked_below = _HexList(
-            tr("Locked lower"),
+            tr("Fixed corner"),
             tr("whose worst corner has only fixed nodes"),
             tr("the hexes limited by fixed corners"),
         )

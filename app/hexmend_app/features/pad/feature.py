@@ -1,4 +1,4 @@
-"""Feature that lays a layer of hexes under the boundary."""
+"""Feature that inserts a layer of hexes under the boundary."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class FeaturePad(Feature):
                 menu="Edit",
                 part=1,
                 icon="layers-plus",
-                help=tr("Lay a layer of hexes under the boundary, so that locked hexes can be mended. Can be undone."),
+                help=tr("Insert a layer of hexes under the boundary to free locked hexes. Can be undone."),
                 handle=self.ask,
                 enabled=lambda: self.session.editable,
             ),

@@ -86,9 +86,9 @@ class QualityBar(QFrame):
         if self._summaries is None:
             return
         margins = self._layout.contentsMargins()
-        room, shown = self.width() - margins.left() - margins.right(), len(FIGURES)
+        space, shown = self.width() - margins.left() - margins.right(), len(FIGURES)
         self._set_text(with_start=self.width() >= self.sizeHint().width())
-        while shown > 1 and self._label.sizeHint().width() > room:
+        while shown > 1 and self._label.sizeHint().width() > space:
             shown -= 1
             self._set_text(shown, with_start=False)
 

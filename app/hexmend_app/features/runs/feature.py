@@ -36,7 +36,7 @@ class FeatureRuns(Feature):
                 place=PanelPlace.DRAWER,
                 group=PanelGroup.SMOOTH,
                 order=15,
-                help=tr("Results of all runs, with the mesh at the start, and which of them dominate."),
+                help=tr("Results of all runs and of the mesh at the start, and which of them dominate."),
             ),
         )
 

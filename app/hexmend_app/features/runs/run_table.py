@@ -59,8 +59,8 @@ class RunRow:
     def help(self) -> str:
         """Sentence about the dominance of the row."""
         if self.dominated_by:
-            return tr("As good in all figures, and better in one: {names}.", names=", ".join(self.dominated_by))
-        return tr("No other result is as good in all figures.")
+            return tr("No worse in any figure, and better in one: {names}.", names=", ".join(self.dominated_by))
+        return tr("Every other result is worse in some figure.")
 
 
 class RunTable(QAbstractTableModel):
@@ -134,7 +134,7 @@ class RunTable(QAbstractTableModel):
             return QBrush(QColor(str(MUTED)))
         if role == _Role.ToolTipRole:
             help = quantity.help if quantity else (
-                tr("Click a run to show its result. Grey runs are dominated: another is as good in all figures."),
+                tr("Click a run to show its result. Grey runs are dominated: another is no worse in any figure."),
                 tr("Rules of motion, and values of the method and limits that differ from the defaults."),
             )[section]  # fmt: skip
             return f"<qt>{help}</qt>"

@@ -92,12 +92,18 @@ class FeatureSave(Feature):
         if not session.modified and not session.run.busy:
             return True
         of_mesh = session.document.modified or session.run.busy
-        answer = ask_unsaved(self.host.dialog_parent, session.document.name, of_mesh)
+        answer = ask_unsaved(self.host.dialog_parent, session.document.name, of_mesh, self._in_session)
         if answer is Answer.SAVE:
             session.run.stop()
             stopping = tr("The run stops after this iteration.")
             return self.host.wait_until(stopping, lambda: not session.run.busy) and self._ask_before_leaving()
         return answer is Answer.DISCARD
+
+    @property
+    def _in_session(self) -> bool:
+        """True if the mesh was opened from a session file."""
+        source = self.session.document.path
+        return source is not None and source.suffix.lower() == SUFFIX
 
     def _wait_for_saving(self) -> bool:
         saver = self.session.saver
@@ -127,8 +133,7 @@ class FeatureSave(Feature):
 
     def _ask_before_leaving(self) -> bool:
         """Ask for a path and save the mesh, or the session if a session is open; return True if it was saved."""
-        source = self.session.document.path
-        ask = ask_session if source is not None and source.suffix.lower() == SUFFIX else ask_target
+        ask = ask_session if self._in_session else ask_target
         path = ask(self.host.dialog_parent, self.host.stem)
         return bool(path) and self.save_and_wait(path)
 

@@ -12,9 +12,9 @@ from hexmend_app.translation import tr
 
 #: Texts and explanations of the paces.
 _PACES = {
-    Pace.FASTEST: ("&As fast as possible", "Show the newest iteration; short runs are over before the eye moves."),
-    Pace.EASED: ("&Eased", "Let iterations merge into one another; short runs are shown for two to three seconds."),
-    Pace.EVERY: ("E&very one", "Wait with the next iteration until the last one is shown: slower, none is skipped."),
+    Pace.FASTEST: ("&As fast as possible", "Show the latest iteration; short runs end too quickly to be seen."),
+    Pace.EASED: ("&Eased", "Blend successive iterations; a short run is shown over two to three seconds."),
+    Pace.EVERY: ("E&very iteration", "Show every iteration; the run waits until each is drawn."),
 }
 
 

@@ -77,7 +77,7 @@ class TagPanel(QWidget):
         self._name.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseSensitive)
         self._name.setCurrentText("tagged")
         set_help(self._name, tr("Tag as"), tr("Name of the tag to add."))
-        self._hex = self._button(tr("Hex"), tr("Tag or untag the selected hex (T)."))
+        self._hex = self._button(tr("Hex"), tr("Tag the selected hex, or remove the tag (T)."))
         self._shown = self._button(tr("Shown"), tr("Tag all hexes shown in the view, except hidden ones."))
         self._listed = self._button(tr("Worst"), tr("Tag all hexes in the list of the worst."))
         self._isolate = self._button(tr("Isolate"), tr("Show only the hexes with this tag and their neighbours."))

@@ -86,4 +86,4 @@ class FeatureTargetSurface(Feature):
         if smoother.slides or "boundary" not in {one.name for one in declared(smoother)}:
             return
         stage = Stage(replace(smoother, boundary="slide"), stage.stop)
-        self.session.run_setup.choose(stage, tr("Boundary set to slide, as there is a surface to slide on."))
+        self.session.run_setup.choose(stage, tr("The boundary is now set to slide."))

@@ -157,14 +157,14 @@ class FeatureTimeline(Feature):
         if not self._seen.changed("times", reader.last_time, reader.errors):
             return
         if reader.last_time:
-            text = tr("Reading the times of the case, {time}…", time=reader.last_time)
-            busy.show_work("times", text, tr("Stop"), tr("Keep the times read so far."), reader.cancel)
+            text = tr("Reading time steps of the case, {time}…", time=reader.last_time)
+            busy.show_work("times", text, tr("Stop"), tr("Keep the time steps read so far."), reader.cancel)
         else:
             busy.done("times")
         if errors := reader.errors:
             first = " ".join(f"{error.problem}. {error.remedy}".strip() for error in errors[:_NAMED])
             more = tr(" And {count} more.", count=len(errors) - _NAMED) if len(errors) > _NAMED else ""
-            title = tr("{count} of the case left out", count=counted(len(errors), "time"))
+            title = tr("{count} of the case skipped", count=counted(len(errors), "time"))
             self.host.messages.show_warning(title, f"{first}{more}")
 
     def _show_settings(self) -> None:

@@ -74,7 +74,7 @@ def choice_entries(session: Session) -> Iterator[PaletteEntry]:
     if session.editable:
         for method in METHODS.values():
             stage = Stage(run_setup.smoother_of(method.name), stop)
-            choose = partial(run_setup.choose, stage, tr("{title} chosen. Press Run to start it.", title=method.title))
+            choose = partial(run_setup.choose, stage, tr("{title} selected: press Run.", title=method.title))
             yield PaletteEntry(name=method.title, run=choose, help=method.help, kind=tr("Method"))
     if session.document.is_open:
         for metric in colour_quantities().values():

@@ -156,8 +156,19 @@ def ask_camera_name(parent: QWidget, names: Collection[str]) -> str:
     return name if name not in names or _ask_yes(parent, problem, tr("Replace it?")) else ""
 
 
-def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True) -> Answer:
-    """Ask about an unsaved mesh or, without `of_mesh`, about cameras not saved in a session."""
+def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True, in_session: bool = False) -> Answer:
+    """Ask about an unsaved mesh or, without `of_mesh`, about cameras not saved in a session.
+
+    Parameters
+    ----------
+    parent : QWidget
+    name : str
+        Name of the mesh.
+    of_mesh : bool
+        The mesh has changed.
+    in_session : bool
+        A session is open: it is saved with all that has changed.
+    """
     buttons = QMessageBox.StandardButton
     box = QMessageBox(parent)
     box.setTextFormat(Qt.TextFormat.PlainText)
@@ -166,7 +177,9 @@ def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True) -> Answer:
         tr("{name} has unsaved changes.", name=name) if of_mesh else tr("{name} has unsaved cameras.", name=name)
     )
     box.setInformativeText(
-        tr("Save the mesh before closing it?") if of_mesh else tr("Save the session before closing it?")
+        tr("Save the mesh before closing it?")
+        if of_mesh and not in_session
+        else tr("Save the session before closing it?")
     )
     box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
     box.setDefaultButton(buttons.Save)
@@ -187,16 +200,16 @@ def ask_rewrite(parent: QWidget, path: Path, original: Path, lost: Sequence[str]
     box.setTextFormat(Qt.TextFormat.PlainText)
     box.setIcon(QMessageBox.Icon.Question)
     box.setWindowTitle(tr("Save mesh as"))
-    box.setText(tr("Replace the coordinates only, or write {name} anew?", name=path.name))
+    box.setText(tr("Replace only the coordinates, or rewrite {name}?", name=path.name))
     parts = [
-        tr("Replacing keeps all else that {original} holds, byte for byte where possible.", original=original.name),
-        tr("A new file holds the mesh with its sets and data; comments, properties and the like are lost."),
+        tr("Replacing keeps everything else in {original}, byte for byte where possible.", original=original.name),
+        tr("A rewritten file has the mesh with its sets and data; comments and solver properties are lost."),
     ]
     if lost:
-        parts.append(tr("Lost too: {count}.", count=", ".join(lost)))
+        parts.append(tr("Also lost: {count}.", count=", ".join(lost)))
     box.setInformativeText(" ".join(parts))
     replace = box.addButton(tr("Replace coordinates"), QMessageBox.ButtonRole.AcceptRole)
-    anew = box.addButton(tr("Write anew"), QMessageBox.ButtonRole.DestructiveRole)
+    anew = box.addButton(tr("Rewrite file"), QMessageBox.ButtonRole.DestructiveRole)
     cancel = box.addButton(QMessageBox.StandardButton.Cancel)
     box.setDefaultButton(replace)
     box.exec()

@@ -17,7 +17,7 @@ def omission_message(by_fixed: int, others: int) -> str:
     by_fixed, others : int
         Numbers of hexes with corners that fixed nodes lock, and with other ones.
     """
-    fixed = f"{count_phrase(by_fixed, 'hex has', 'hexes have')} corners that fixed nodes lock in inversion"
+    fixed = f"{count_phrase(by_fixed, 'hex has', 'hexes have')} corners that fixed nodes keep inverted"
     resisting = count_phrase(others, "hex has corners that stay inverted", "hexes have corners that stay inverted")
     clauses = [fixed] * bool(by_fixed) + [resisting] * bool(others)
     return f"Left out of the energy: {'; '.join(clauses)}."
@@ -38,7 +38,7 @@ def freed_message(locked: np.ndarray, inverted: np.ndarray) -> str:
         return ""
     left = np.count_nonzero(locked & inverted)
     rest = "none is left" if not left else count_phrase(left, "is left", "are left")
-    had = f"{count_phrase(count, 'hex had', 'hexes had')} corners that fixed nodes lock in inversion"
+    had = f"{count_phrase(count, 'hex had', 'hexes had')} corners that fixed nodes keep inverted"
     return f"{had}: sliding freed {count - left:,}, {rest}."
 
 

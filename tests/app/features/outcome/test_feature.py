@@ -57,7 +57,7 @@ def locked(window, qtbot, tmp_path):
 def test_a_hint_is_shown_before_the_first_run(window, qtbot):
     window.show_panel("outcome")
     qtbot.waitUntil(window.features["outcome"].panel.isVisible)
-    assert "No run has ended yet" in texts(window)
+    assert "No run has finished yet" in texts(window)
 
 
 def test_the_key_shows_why_the_run_stopped(window, qtbot):
@@ -241,4 +241,4 @@ def test_the_explanation_is_cleared_for_another_mesh(window, qtbot, mesh_file):
     open_and_wait(qtbot, window, mesh_file)
     window.show_panel("outcome")
     qtbot.waitUntil(window.features["outcome"].panel.isVisible)
-    assert "No run has ended yet" in texts(window)
+    assert "No run has finished yet" in texts(window)

@@ -66,7 +66,7 @@ def deck(qtbot, tmp_path):
     host.session.close()
 
 
-@pytest.mark.parametrize(("button", "kept"), [("Replace coordinates", True), ("Write anew", False), ("Cancel", None)])
+@pytest.mark.parametrize(("button", "kept"), [("Replace coordinates", True), ("Rewrite file", False), ("Cancel", None)])
 def test_saving_in_the_format_of_the_file_asks_whether_to_write_it_anew(deck, qtbot, monkeypatch, button, kept):
     feature, path = deck
     out, said, proposed = path.with_name("out.inp"), [], []

@@ -27,7 +27,7 @@ def message_after(mesh, points):
 def test_what_sliding_has_freed_and_what_is_left_is_said():
     mesh, sound, (one, _) = with_two_locked_corners()
     assert np.count_nonzero(locked_corners(mesh, measure(mesh.points, mesh.hexes))) == 2
-    had = "2 hexes had corners that fixed nodes lock in inversion: sliding freed "
+    had = "2 hexes had corners that fixed nodes keep inverted: sliding freed "
     assert message_after(mesh, sound) == had + "2, none is left."
     assert message_after(mesh, mesh.points) == had + "0, 2 are left."
     half = mesh.points.copy()
@@ -37,6 +37,6 @@ def test_what_sliding_has_freed_and_what_is_left_is_said():
 
 
 def test_what_resists_is_told_apart_from_what_is_locked():
-    assert omission_message(1, 0).endswith("1 hex has corners that fixed nodes lock in inversion.")
+    assert omission_message(1, 0).endswith("1 hex has corners that fixed nodes keep inverted.")
     assert omission_message(0, 2) == "Left out of the energy: 2 hexes have corners that stay inverted."
-    assert omission_message(1, 2).endswith("in inversion; 2 hexes have corners that stay inverted.")
+    assert omission_message(1, 2).endswith("keep inverted; 2 hexes have corners that stay inverted.")

@@ -110,7 +110,7 @@ def test_what_fixed_nodes_lock_is_left_out_and_said_and_spoils_nothing_else(scra
     assert summarise(locked).locked_inverted == 1
     result = smooth(locked, "mend")
     assert result.after.inverted == result.after.locked_inverted == 1
-    assert "Left out of the energy: 1 hex has corners that fixed nodes lock in inversion." in result.message
+    assert "Left out of the energy: 1 hex has corners that fixed nodes keep inverted." in result.message
     q = measure(result.mesh.points, mesh.hexes).q
     assert np.sort(q)[10] > rest.q_min  # all but the hexes around it are as good as without
 
