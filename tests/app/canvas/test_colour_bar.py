@@ -104,7 +104,7 @@ def test_each_special_colour_has_a_swatch_below_the_gradient(shown, ramp):
     rgb = pixels(bar)
     for colour in ((0x12, 0xAB, 0x34), (0xAB, 0x12, 0x34), (0x34, 0x12, 0xAB)):
         assert (rgb == colour).all(axis=2).sum() > 80
-    assert bar.accessibleDescription() == ("newly inverted (3); still inverted; mended (12); q(H) from -0.25 to 0.25")
+    assert bar.accessibleDescription() == ("newly inverted (3); still inverted; mended (12); q(H) from −0.25 to 0.25")
     bar.set_special(kinds[2:])
     assert bar.accessibleDescription().startswith("mended (12); q(H)")
     assert [one.isVisible() for one in bar.swatches] == [True, False, False]

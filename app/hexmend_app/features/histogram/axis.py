@@ -151,7 +151,7 @@ class Axis:
 
     def _tick_text(self, value: float) -> str:
         scale = 10.0**self.exponent
-        return range_label(value / scale, self.low / scale, self.high / scale)
+        return range_label(value / scale, self.low / scale, self.high / scale).replace("-", "−")
 
     def text(self, value: float) -> str:
         """Write a value to a hundredth of the axis.

@@ -6,9 +6,10 @@ from PySide6.QtCore import QRectF, QSize
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QWidget
 
-from hexmend_app.theme.palette import RIM, Role
-from hexmend_app.theme.style import note, set_help, tabular
+from hexmend_app.theme.palette import MUTED, RIM, Role
+from hexmend_app.theme.style import set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
+from hexmend_app.widgets.eliding_label import ElidingLabel
 
 _COLUMNS = 2
 
@@ -117,7 +118,8 @@ def _entry(colour: str | Role | None, line: bool, text: str) -> QWidget:
 
 
 def _text(text: str) -> QWidget:
-    label = note(text)
-    label.setFont(tabular(label.font()))
-    label.setWordWrap(False)
+    label = ElidingLabel(text)
+    label.setFont(tabular(smaller(label.font())))
+    label.setToolTip(text)
+    tint(label, MUTED)
     return label

@@ -208,11 +208,11 @@ def _robust_ends(values: np.ndarray) -> tuple[float, float]:
 def end_label(value: float, low: float, high: float, beyond: tuple[bool, bool]) -> str:
     """Format a value between `low` and `high`; an end beyond which there are values with ≤ or ≥.
 
-    >>> end_label(0.0, 0, 1, (True, False)), end_label(1.0, 0, 1, (True, False)), end_label(0.5, 0, 1, (True, True))
-    ('≤ 0', '1', '0.5')
+    >>> end_label(0.0, 0, 1, (True, False)), end_label(1.0, 0, 1, (True, False)), end_label(-0.5, -1, 1, (True, True))
+    ('≤ 0', '1', '−0.5')
     """
     sign = "≤ " if value == low and beyond[0] else "≥ " if value == high and beyond[1] else ""
-    return sign + range_label(value, low, high)
+    return sign + range_label(value, low, high).replace("-", "−")
 
 
 def range_label(value: float, low: float, high: float) -> str:

@@ -44,7 +44,7 @@ class ComparisonBases:
     def _find(self, since: Since, shown: history.RecordedIteration | None) -> tuple[State, str]:
         """Return the earlier state and its name; `shown` is the iteration that the document shows."""
         if since is Since.OPENED or shown is None:
-            return self._document.start, "opening"
+            return self._document.start, "the file was opened"
         record = shown.record
         if since is Since.ITERATION and shown.number:
             numbers = self._history.recorded_numbers(record)

@@ -57,7 +57,7 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
     viewport, timeline = window.canvas.viewport, window.session.timeline
     press(panel.colours, "q-change")
     assert window.session.view.look.colours.range is Range.FITTED
-    assert viewport.colouring.title == "change of q(H) since opening"
+    assert viewport.colouring.title == "change of q(H) since the file was opened"
     np.testing.assert_array_equal(
         viewport.colours.values, window.session.document.now.figures.q - window.session.document.start.figures.q
     )
@@ -138,7 +138,7 @@ def test_the_displacement_is_shown_in_figures(window, record, panel):
     start, now = window.session.document.start, window.session.document.now
     change = now.figures.q - start.figures.q
     free = window.session.document.now.summary.free_nodes
-    assert text_of(panel, "Nodes") == f"{free:,} of {free:,} free nodes moved since opening"
+    assert text_of(panel, "Nodes") == f"{free:,} of {free:,} free nodes moved since the file was opened"
     assert text_of(panel, "Hexes") == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
     newly = np.count_nonzero(now.figures.inverted & ~start.figures.inverted)
     repaired = np.count_nonzero(start.figures.inverted & ~now.figures.inverted)

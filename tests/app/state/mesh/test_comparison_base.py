@@ -42,7 +42,7 @@ def test_the_reference_depends_on_the_iteration_that_is_shown(session, qtbot):
     second = run(qtbot, session)
     timeline.go(second, 5)
     assert before(session, Since.OPENED).points is opened
-    assert before(session, Since.OPENED).name == "opening"
+    assert before(session, Since.OPENED).name == "the file was opened"
     assert before(session, Since.RUN).points is second.points(0)
     assert before(session, Since.RUN).name == f"{second.name} began"
     np.testing.assert_array_equal(before(session, Since.ITERATION).points, second.points(4))
