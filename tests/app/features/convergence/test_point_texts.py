@@ -39,7 +39,7 @@ def test_reasons_are_unreported_quantities_and_deselected_runs():
 
 def test_the_reason_is_shown_in_the_chart_until_there_is_a_curve(shown):
     plot = shown(ConvergencePlot(OBJECTIVE), 400, 120)
-    label = next(one for one in plot.findChildren(QLabel) if one.accessibleName().startswith("Reason why"))
+    label = next(one for one in plot.findChildren(QLabel) if one.accessibleName().startswith("Why the chart"))
     plot.draw([of(40)], False, True)
     assert "40 inverted hexes" in label.text()
     assert label.isVisible()
