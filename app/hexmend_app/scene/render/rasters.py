@@ -142,19 +142,11 @@ class _Views:
         if key not in self._cameras:
             sharing = [other for other in self._layout.panels if other.camera == panel.camera]
             numbers = {other.mesh for other in sharing} | {other.wipe.mesh for other in sharing if other.wipe}
-            places = np.concatenate([self._places(number) for number in sorted(numbers & comparable)])
+            places = np.concatenate([self.all[number].places for number in sorted(numbers & comparable)])
             width, height = self._layout.panel
             camera = self._cameras[key] = vtkCamera()
             aim(camera, self._layout.scene.camera_of(panel), places, width / height)
         return self._cameras[key]
-
-    def _places(self, number: int) -> np.ndarray:
-        """Return the points that the picture includes, (k, 3); with an outline, those of hexes that a cut hides too."""
-        view, look = self.all[number], self.all[number].frame.look
-        mesh = view.frame.mesh
-        if not look.cut.active or not look.show.outline or look.show.isolate is not None:
-            return view.places
-        return np.concatenate([view.places, mesh.points[mesh.topology.used]])
 
     def _comparable(self, number: int) -> set[int]:
         """Return the numbers of the meshes with the same hexes as a mesh."""

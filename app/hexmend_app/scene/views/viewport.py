@@ -236,12 +236,15 @@ class Viewport:
     def places(self) -> np.ndarray:
         """Points that a fitted camera includes, (k, 3): of everything shown, or of the mesh if nothing is shown.
 
-        A cut that is drawn coarsely is drawn as it is first.
+        While a cut is outlined, they include the outline of the part that it removes, unless hexes are isolated. A cut
+        that is drawn coarsely is drawn as it is first.
         """
         self._finish_cut()
         places = np.concatenate([self.mesh_layer.places, self.overlay_layers.places])
-        mesh = self.frame.mesh
-        return places if len(places) else mesh.points[mesh.topology.used]
+        mesh, look = self.frame.mesh, self.frame.look
+        outlined = look.cut.active and look.show.outline and look.show.isolate is None
+        whole = mesh.points[mesh.topology.used] if outlined or not len(places) else np.empty((0, 3))
+        return np.concatenate([places, whole])
 
     def view(self, direction: str | tuple[float, float, float]) -> None:
         """Show the mesh from a direction: a name of `DIRECTIONS`, or a vector, with z up if possible."""

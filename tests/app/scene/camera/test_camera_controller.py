@@ -57,6 +57,15 @@ def test_fit_fills_the_picture_with_the_shown_hexes(panes, look, parallel):
     np.testing.assert_allclose(ends[:, tight], [-0.96, 0.96], atol=1e-3)
 
 
+@pytest.mark.parametrize("style", CutStyle)
+@pytest.mark.parametrize("outline", [True, False])
+def test_fit_includes_the_outline_of_the_part_that_a_cut_removes(panes, style, outline):
+    cut = Cut.at((1, 0, 0), (1.5, 3, 3), style)
+    panes.draw(Frame(MESH, FIGURES, look=Look(cut=cut, show=Show(outline=outline))))
+    panes.camera_controller.fit()
+    assert (np.abs(seen(panes, MESH.points)).max() <= 0.961) == outline
+
+
 def test_the_first_view_of_a_mesh_is_fitted(panes):
     small = grid(2)
     panes.draw(Frame(small, measure(small.points, small.hexes)))
