@@ -24,8 +24,8 @@ FORMAT = 1
 #: Tables that a scene shares with a look.
 _OF_LOOK = tuple(field.name for field in fields(Look))
 
-#: Maximum number of hexes that a scene hides or isolates individually, and maximum length of the text that lists the
-#: hexes which a cut leaves; the cut of a look with a longer text is evaluated when the picture is drawn.
+#: Maximum number of hexes that a scene hides, marks or isolates individually, and maximum length of the text that lists
+#: the hexes which a cut leaves; the cut of a look with a longer text is evaluated when the picture is drawn.
 _MAX_HEXES, _MAX_TEXT = 300_000, 2_000_000
 
 
@@ -85,7 +85,7 @@ class Scene(ConfigTable):
         if self.format > FORMAT:
             raise ParameterError(f"format = {self.format} is newer than this version of Hexmend, which reads {FORMAT}")
         isolated = () if self.show.isolate is None else self.show.isolate.hexes
-        for name, hexes in (("hidden", self.show.hidden), ("isolate", isolated)):
+        for name, hexes in (("hidden", self.show.hidden), ("marked", self.show.marked), ("isolate", isolated)):
             if len(hexes) > _MAX_HEXES:
                 raise ParameterError(f"[show] {name} lists {len(hexes):,} hexes: expected {_MAX_HEXES:,} at most")
         for number, panel in enumerate(self.panels, 1):

@@ -52,6 +52,8 @@ class Show(ConfigTable):
         Fraction by which each hex is shrunk.
     outline : bool
         Draw sharp edges, and the outline of the whole mesh while part of it is hidden.
+    marked : frozenset of int
+        Hexes whose edges are marked, by number from 0; in saved pictures, the selected hex.
     """
 
     quality: tuple[float, float] | None = option(open_ended=True)
@@ -62,6 +64,7 @@ class Show(ConfigTable):
     hidden: frozenset[int] = option(frozenset(), low=0, high=_MAX_NUMBER)
     shrink: float = option(0.0, low=0, high=0.95)
     outline: bool = option(True)
+    marked: frozenset[int] = option(frozenset(), low=0, high=_MAX_NUMBER)
 
     def check(self) -> None:
         """Raise `ParameterError` for an unknown metric or an invalid range."""
@@ -88,7 +91,7 @@ class Show(ConfigTable):
     def largest_hex(self) -> int:
         """Largest listed number; -1 if no hexes are listed."""
         isolated = () if self.isolate is None else self.isolate.hexes
-        return max(max(self.hidden, default=-1), max(isolated, default=-1))
+        return max(max(hexes, default=-1) for hexes in (self.hidden, self.marked, isolated))
 
     def check_numbers(self, hexes: int) -> None:
         """Raise `ParameterError` if a listed hex does not exist in a mesh with a number of hexes."""

@@ -46,7 +46,7 @@ FULL = Scene(
     cameras={"a b": Camera("+x", up="y"), "side": Camera((1.0, 2.0, 3.0))},
     panels=(PicturePanel("side", 2, 'quoted " \\ $x$ ×', WipeLayout(1, 0.25)), PicturePanel()),
     cut=Cut((Plane((1, 1, 0), 0.3), Plane((0, 0, 1), point=(0.1, 0.2, 0.3))), style=CutStyle.SMOOTH, notch=True),
-    show=Show((float("-inf"), 0.5), "scaled-jacobian", True, 2, Isolate((3, 4), 2), (1, 7), 0.1, False),
+    show=Show((float("-inf"), 0.5), "scaled-jacobian", True, 2, Isolate((3, 4), 2), (1, 7), 0.1, False, (2, 9)),
     structure=Structure(frozenset({"sharp"})),
     movement=Traces(factor=3.0),
     colours=Colours("edge-ratio", "plasma", (1.0, 4.5), True),

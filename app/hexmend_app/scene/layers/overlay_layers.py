@@ -13,7 +13,7 @@ from hexmend_app.scene.layers.ghosts import Ghosts
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.layers.optional.structure import StructureLayers
 from hexmend_app.scene.layers.optional_layer import OptionalLayer
-from hexmend_app.scene.layers.selection import SelectionLayer
+from hexmend_app.scene.layers.selection.selection_layer import SelectionLayer
 from hexmend_app.scene.layers.silhouette import Silhouette
 from hexmend_app.scene.measuring.measurement_layer import MeasurementLayer
 from hexmend_app.scene.views.frame import Frame

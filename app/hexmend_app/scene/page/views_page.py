@@ -30,9 +30,10 @@ def scene_of(
         Additional cameras of the scene, by name.
     """
     pose = pose_of(panes.first.camera, panes.camera_controller.up)
-    frame = panes.first.frame
+    frame, selected = panes.first.frame, panes.first.overlay_layers.selection.hexes
     tables = {
         "cut": frame.look.cut.with_hexes(panes.first.filters.cut_left(frame)),
+        "show": frame.look.show.with_keys(marked=frozenset(selected.tolist())),
         "page": replace(page or Page(), shading=frame.look.page.shading),
         "panels": _panels(panes, names),
         "cameras": dict(cameras or {}),

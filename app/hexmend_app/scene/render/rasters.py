@@ -125,7 +125,9 @@ class _Views:
         if same_hexes(first.mesh, other.mesh):
             return Frame(other.mesh, other.figures).matching(first)
         scene = self._layout.scene
-        scene = replace(scene, cut=replace(scene.cut, hexes=""))  # hex numbers apply to the first mesh only
+        # Hex numbers apply to the first mesh only.
+        show = scene.show.with_keys(marked=frozenset())
+        scene = replace(scene, cut=replace(scene.cut, hexes=""), show=show)
         return Frame(other.mesh, other.figures, look=scene.look(other.mesh))
 
     def _share_colour_range(self, look: Look) -> None:

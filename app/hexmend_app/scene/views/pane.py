@@ -30,6 +30,7 @@ class Pane:
     def __init__(self, window: vtkRenderWindow, camera: vtkCamera | None = None):
         self.window = window
         self.renderer = vtkRenderer()
+        self.renderer.UseOITOff()  # translucent actors are drawn in their order: see `HexEdges`
         self.renderer.SetActiveCamera(vtkCamera() if camera is None else camera)
         light = vtkLight()
         light.SetLightTypeToCameraLight()

@@ -122,6 +122,9 @@ class Viewport:
         if new_mesh:
             self._set_mesh()
         self.overlay_layers.update(frame, moved and not new_mesh, pinned, classed)
+        marked = frame.look.show.marked
+        if marked != (frozenset() if new_mesh else last.look.show.marked):
+            self.overlay_layers.selection.mark(np.array(sorted(marked), dtype=np.int64))
         if not (recoloured or pinned or classed) and self._is_moving_cut(last):
             self._draw_coarse_cut()
             return

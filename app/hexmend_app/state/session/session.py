@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
@@ -48,9 +49,10 @@ class Session(SessionParts):
                 signal.connect(self._on_change)
 
     def _show_as_picture(self, restored: RestoredPicture) -> None:
-        """Show the mesh as in a picture: appearance, other states next to it, camera, and the recipe that was run."""
-        metadata = restored.metadata
-        self.view.show_as(restored.look)
+        """Show the mesh as in a picture: appearance, other states next to it, selected hex, camera and recipe."""
+        metadata, show = restored.metadata, restored.look.show
+        self.view.show_as(replace(restored.look, show=show.with_keys(marked=frozenset())))
+        self.selection.choose(min(show.marked, default=None))
         for other in restored.others:
             if other.state is not None:
                 self.side_views.show(other.name, other.state)

@@ -1,4 +1,4 @@
-"""Highlight of a hex: its edges in front of everything else, and a value at each corner."""
+"""Highlight of hexes: their edges, a value at each corner of a hex, and a node with an arrow."""
 
 from __future__ import annotations
 
@@ -6,25 +6,23 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkBillboardTextActor3D, vtkPolyDataMapper, vtkRenderer
 
-from hexmend.mesh.hexahedron import EDGES
 from hexmend_app.scene.camera.fitting import pixels
+from hexmend_app.scene.layers.selection.hex_edges import HexEdges
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import rgb
 
-_LINE, _HALO, _ARROW = "#ffffff", "#11151c", "#ff8c00"
-_LINES = np.column_stack([np.full(12, 2), EDGES]).ravel()
+_NODE, _ARROW = "#ffffff", "#ff8c00"
 
 #: Minimum radius of a hex in pixels at which values are shown at its corners.
 _MIN_RADIUS = 45
 
 
 class Highlight:
-    """Draws the edges of a hex, light with a dark rim, in front of everything else.
+    """Draws the edges of hexes in the mesh, and values, node and arrow in front of everything else.
 
     Attributes
     ----------
-    box : pyvista.PolyData
-        Edges of the hex.
+    edges : HexEdges
 
     Parameters
     ----------
@@ -36,10 +34,10 @@ class Highlight:
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         self._pixel_ratio = pixel_ratio
         self._layer = pane.overlay()
-        self.box = pv.PolyData(np.zeros((8, 3)), lines=_LINES)
-        self._actors = [self._lines(colour, width) for colour, width in ((_HALO, 5), (_LINE, 2))]
+        self.edges = HexEdges(pane.renderer, pixel_ratio)
+        self._corners = np.zeros((1, 8, 3))
         self._texts = [self._text() for _ in range(8)]
-        self._point = self._add(pv.PolyData(np.zeros((1, 3))), _LINE)
+        self._point = self._add(pv.PolyData(np.zeros((1, 3))), _NODE)
         self._point.GetProperty().SetPointSize(12 * pixel_ratio)
         self._point.GetProperty().RenderPointsAsSpheresOn()
         self._arrow = self._add(pv.PolyData(), _ARROW)
@@ -51,11 +49,6 @@ class Highlight:
     def layer(self) -> vtkRenderer:
         """Renderer in front of everything else."""
         return self._layer
-
-    def _lines(self, colour: str, width: int) -> vtkActor:
-        actor = self._add(self.box, colour)
-        actor.GetProperty().SetLineWidth(self._pixel_ratio * width)
-        return actor
 
     def _add(self, poly: pv.PolyData, colour: str) -> vtkActor:
         mapper = vtkPolyDataMapper()
@@ -82,18 +75,19 @@ class Highlight:
         return actor
 
     def show(self, corners: np.ndarray, values: np.ndarray | None = None) -> None:
-        """Highlight the hex with these corners.
+        """Highlight hexes with these corners.
 
         Parameters
         ----------
-        corners : (8, 3) float64
+        corners : (k, 8, 3) float64
         values : (8,) float64, optional
-            Values shown at the corners.
+            Values shown at the corners of the first hex.
         """
-        self.box.points = corners
+        self._corners = corners
+        self.edges.show(corners)
         self._with_values = values is not None
         self._layer.DrawOn()
-        outside = corners + 0.15 * (corners - corners.mean(axis=0))
+        outside = corners[0] + 0.15 * (corners[0] - corners[0].mean(axis=0))
         for k, text in enumerate(self._texts):
             if values is not None:
                 text.SetInput(f"{values[k]:.2f}")
@@ -118,10 +112,11 @@ class Highlight:
 
     def _radius(self) -> float:
         """Return the radius of the hex in pixels."""
-        corners = self.box.points
+        corners = self._corners[0]
         centre = corners.mean(axis=0)
         return pixels(self._layer, np.sqrt(np.square(corners - centre).sum(axis=1).max()), centre)
 
     def hide(self) -> None:
         """Hide the highlight."""
+        self.edges.hide()
         self._layer.DrawOff()

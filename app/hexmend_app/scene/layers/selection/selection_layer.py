@@ -8,18 +8,20 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import NodeDetails, corner_qualities
-from hexmend_app.scene.layers.highlight import Highlight
-from hexmend_app.scene.layers.node_step import NodeStepMarks
+from hexmend_app.scene.layers.selection.highlight import Highlight
+from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
 from hexmend_app.scene.views.pane import Pane
+
+_NONE = np.empty(0, dtype=np.int64)
 
 
 class SelectionLayer:
-    """Marks a hex and one of its nodes, or the step of a node; the marks move with the nodes.
+    """Marks hexes and a node of a hex, or the step of a node; the marks move with the nodes.
 
     Attributes
     ----------
-    hex : int or None
-        The marked hex.
+    hexes : (k,) int
+        The marked hexes.
     highlight : Highlight
 
     Parameters
@@ -32,9 +34,14 @@ class SelectionLayer:
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         self.highlight = Highlight(pane, pixel_ratio)
         self._node_step = NodeStepMarks(pane, pixel_ratio)
-        self.hex: int | None = None
+        self.hexes = _NONE
         self._with_corners = False
         self._mesh: Mesh | None = None
+
+    @property
+    def hex(self) -> int | None:
+        """The marked hex; None if there is none, or several."""
+        return int(self.hexes[0]) if len(self.hexes) == 1 else None
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
@@ -57,7 +64,7 @@ class SelectionLayer:
 
     def hide(self) -> None:
         """Clear all marks; none are drawn until `set_mesh` is called."""
-        self._mesh, self.hex = None, None
+        self._mesh, self.hexes = None, _NONE
         self._node_step.hide()
         self.highlight.hide()
         self.highlight.show_node(None)
@@ -65,17 +72,24 @@ class SelectionLayer:
     def move(self, mesh: Mesh) -> None:
         """Move the marks with the nodes of the same mesh."""
         self._mesh = mesh
-        self._show_hex()
+        self._show_hexes()
         self._node_step.move(mesh.points)
 
     def select(self, h: int | None, corners: bool, node: NodeDetails | None) -> None:
         """Mark a hex, optionally with the quality of its corners, and one of its nodes; None clears the marks."""
         if self._mesh is None:
             return
-        self.hex, self._with_corners = h, corners
-        self._show_hex()
+        self.hexes, self._with_corners = _NONE if h is None else np.array([h]), corners
+        self._show_hexes()
         if h is not None:
             self._mark_node(node)
+
+    def mark(self, hexes: np.ndarray) -> None:
+        """Mark hexes, (k,) int, without their nodes."""
+        if self._mesh is not None:
+            self.hexes, self._with_corners = np.asarray(hexes, dtype=np.int64), False
+            self.highlight.show_node(None)
+            self._show_hexes()
 
     def show_node_step(self, step: NodeStep | None) -> None:
         """Draw the step of a node instead of the marks of the selected hex; None removes it."""
@@ -83,7 +97,7 @@ class SelectionLayer:
             self._node_step.hide()
         else:
             self._node_step.show(step, self._mesh.hexes[step.hexes], self._mesh.points)
-        self._show_hex()
+        self._show_hexes()
 
     def _mark_node(self, node: NodeDetails | None) -> None:
         """Mark a node and, if it is free, the direction of steepest descent of the energy of its patch."""
@@ -96,10 +110,10 @@ class SelectionLayer:
         moves = node.kind == "free" and steepness > 0
         self.highlight.show_node(node.point, node.downhill * (length / steepness) if moves else None)
 
-    def _show_hex(self) -> None:
-        if self.hex is None or self.node_step is not None:
+    def _show_hexes(self) -> None:
+        if not len(self.hexes) or self.node_step is not None:
             self.highlight.hide()
             return
-        nodes, points = self._mesh.hexes[self.hex], self._mesh.points
-        values = corner_qualities(points, nodes[None])[0] if self._with_corners else None
+        nodes, points = self._mesh.hexes[self.hexes], self._mesh.points
+        values = corner_qualities(points, nodes)[0] if self._with_corners else None
         self.highlight.show(points[nodes], values)

@@ -1,0 +1,123 @@
+"""Edges of marked hexes: visible ones as rimmed lines, hidden ones thin and dashed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
+
+from hexmend.mesh.hexahedron import EDGES
+from hexmend_app.scene.camera.fitting import pixels
+from hexmend_app.scene.layers.flat_actor import flat_actor
+from hexmend_app.theme.palette import rgb
+
+_LINE, _RIM = "#ffffff", "#11151c"
+
+# Line widths in pixels, and depth offsets in VTK's units. The dashes are in front of everything, so that they are drawn
+# where the mesh hides them; the other lines are only just in front of the faces that they bound.
+_DASHES = ((_RIM, 3.0, -1e6), (_LINE, 1.5, -1e6))
+_FRONT = ((_RIM, 5.0, -40.0), (_LINE, 2.0, -40.0))
+
+#: Length of a dash with its gap in pixels, its share that is drawn, and the largest number of dashes of an edge.
+_PERIOD, _DRAWN, _MAX_DASHES = 9.0, 0.55, 400
+
+
+class HexEdges:
+    """Draws the edges of hexes in the renderer of the mesh.
+
+    All lines are drawn in the pass of translucent actors, after the mesh. They do not write depths, so that they cover
+    each other in the order in which they are drawn: dashes first, then visible edges over them. Opaque lines of two
+    widths at the same place would instead compete for each pixel.
+
+    Attributes
+    ----------
+    lines : pyvista.PolyData
+        All edges; each hex has eight points of its own.
+    dashes : pyvista.PolyData
+        Dashes of all edges, fitted to the size of the edges in the picture.
+
+    Parameters
+    ----------
+    renderer : vtkRenderer
+    pixel_ratio : float
+        Width of a thin line, in pixels.
+    """
+
+    def __init__(self, renderer: vtkRenderer, pixel_ratio: float = 1.0):
+        self._renderer, self._pixel_ratio = renderer, pixel_ratio
+        self.lines, self.dashes = pv.PolyData(), pv.PolyData()
+        self._counts = np.empty(0, dtype=np.int64)  # of dashes, by edge
+        self._dash_actors = [self._actor(*style) for style in _DASHES]
+        self._front_actors = [self._actor(*style) for style in _FRONT]
+        renderer.AddObserver("StartEvent", self._fit_dashes)
+
+    def _actor(self, colour: str, width: float, depth: float) -> vtkActor:
+        actor = flat_actor(self._renderer, self._pixel_ratio * width)
+        actor.ForceTranslucentOn()
+        actor.GetProperty().SetColor(rgb(colour))
+        mapper = actor.GetMapper()
+        mapper.SetResolveCoincidentTopologyToPolygonOffset()
+        mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-2.0, depth)
+        return actor
+
+    def show(self, corners: np.ndarray) -> None:
+        """Draw the edges of hexes with these corners, (k, 8, 3) float64."""
+        ends = (EDGES[None] + 8 * np.arange(len(corners))[:, None, None]).reshape(-1, 2)
+        self.lines = _segments(corners.reshape(-1, 3), ends)
+        self._ends = corners[:, EDGES].reshape(-1, 2, 3)
+        self._counts = np.empty(0, dtype=np.int64)
+        for actor in self._front_actors:
+            actor.GetMapper().SetInputData(self.lines)
+        self._set_visible(len(corners) > 0)
+
+    def hide(self) -> None:
+        """Draw no edges."""
+        self._set_visible(False)
+
+    @property
+    def shown(self) -> bool:
+        """True while edges are drawn."""
+        return bool(self._front_actors[0].GetVisibility())
+
+    def _set_visible(self, on: bool) -> None:
+        for actor in (*self._dash_actors, *self._front_actors):
+            actor.SetVisibility(on)
+
+    def _fit_dashes(self, *_: object) -> None:
+        """Divide the edges into dashes of the same length in the picture."""
+        if not self.shown:
+            return
+        start, end = self._ends[:, 0], self._ends[:, 1]
+        centre = self._ends.reshape(-1, 3).mean(axis=0)
+        period = _PERIOD * self._pixel_ratio / max(pixels(self._renderer, 1.0, centre), 1e-300)
+        length = np.sqrt(np.square(end - start).sum(axis=1))
+        counts = np.clip(np.rint(length / period), 1, _MAX_DASHES).astype(np.int64)
+        if np.array_equal(counts, self._counts):
+            return
+        self._counts = counts
+        self.dashes = dashed(start, end, counts)
+        for actor in self._dash_actors:
+            actor.GetMapper().SetInputData(self.dashes)
+
+
+def dashed(start: np.ndarray, end: np.ndarray, counts: np.ndarray) -> pv.PolyData:
+    """Build dashes along edges; each edge begins and ends with half a dash, so that its ends are visible.
+
+    Parameters
+    ----------
+    start, end : (e, 3) float64
+    counts : (e,) int64
+        Number of periods of an edge, at least 1.
+    """
+    edge = np.repeat(np.arange(len(counts)), counts + 1)
+    first = np.cumsum(counts + 1) - (counts + 1)
+    middle = (np.arange(len(edge)) - first[edge]) / counts[edge]
+    half = _DRAWN / 2 / counts[edge]
+    shares = np.clip(np.stack([middle - half, middle + half], axis=1), 0.0, 1.0)[..., None]
+    points = start[edge][:, None] * (1 - shares) + end[edge][:, None] * shares
+    return _segments(points.reshape(-1, 3), np.arange(2 * len(edge)).reshape(-1, 2))
+
+
+def _segments(points: np.ndarray, ends: np.ndarray) -> pv.PolyData:
+    """Build lines from points, (k, 3), and point numbers of their ends, (e, 2)."""
+    return pv.PolyData(points, lines=np.column_stack([np.full(len(ends), 2), ends]).ravel())

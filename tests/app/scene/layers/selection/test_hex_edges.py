@@ -1,0 +1,89 @@
+"""Edges of marked hexes: visible ones whole, hidden ones dashed."""
+
+import numpy as np
+import pytest
+
+from hexmend.mesh.hexahedron import EDGES
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.page import LineStyle
+from hexmend_app.picture.visibility import Show
+from hexmend_app.scene.layers.selection.hex_edges import dashed
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.viewport import Viewport
+from tests.app.scene.views.showing import show
+from tests.core.grids import grid
+
+MESH = grid(3)
+CORNER = int((MESH.points[MESH.hexes].mean(axis=1) == 2.5).all(axis=1).nonzero()[0][0])
+INSIDE = int((MESH.points[MESH.hexes].mean(axis=1) == 1.5).all(axis=1).nonzero()[0][0])
+
+
+@pytest.fixture
+def viewport():
+    with Stage((400, 400)) as stage:
+        viewport = Viewport(Pane(stage.window), axes=False)
+        show(viewport, MESH, Look(lines=LineStyle(edges=0.0), show=Show(outline=False)))
+        viewport.view((1.0, 0.8, 0.6))
+        viewport.picture = lambda: stage.picture().astype(int)
+        yield viewport
+
+
+def white_shares(viewport, h):
+    """Return the fraction of each edge of a hex that is light in the picture, (12,), without the ends of edges."""
+    image, renderer = viewport.picture()[::-1], viewport.layers[0]
+    shares = []
+    for a, b in MESH.points[MESH.hexes[h]][EDGES]:
+        white = []
+        for t in np.linspace(0.15, 0.85, 60):
+            renderer.SetWorldPoint(*(a + t * (b - a)), 1.0)
+            renderer.WorldToDisplay()
+            x, y, _ = renderer.GetDisplayPoint()
+            white.append(image[int(y), int(x)].min() > 140)
+        shares.append(np.mean(white))
+    return np.array(shares)
+
+
+def is_hidden(h):
+    """Return True for the edges of a hex that the grid hides from a viewer at positive coordinates, (12,) bool."""
+    ends = MESH.points[MESH.hexes[h]][EDGES]
+    return ~((ends == 3).all(axis=1)).any(axis=1)
+
+
+@pytest.mark.parametrize("fine", [True, False])
+@pytest.mark.parametrize("h", [CORNER, INSIDE])
+def test_visible_edges_are_whole_and_hidden_ones_are_dashed(viewport, h, fine):
+    viewport.overlay_layers.selection.select(h, False, None)
+    (viewport.still if fine else viewport.moving)()
+    shares, hidden = white_shares(viewport, h), is_hidden(h)
+    assert hidden.sum() == (3 if h == CORNER else 12)
+    assert (shares[~hidden] == 1).all()
+    assert ((shares[hidden] > 0.25) & (shares[hidden] < 0.8)).all()
+
+
+def test_marked_hexes_of_a_look_are_drawn_until_the_look_has_none(viewport):
+    bare = viewport.picture()
+    show(viewport, look=Look(lines=LineStyle(edges=0.0), show=Show(outline=False, marked=frozenset({CORNER, INSIDE}))))
+    assert (white_shares(viewport, INSIDE) > 0.25).all()
+    assert (white_shares(viewport, CORNER)[~is_hidden(CORNER)] == 1).all()
+    show(viewport, look=Look(lines=LineStyle(edges=0.0), show=Show(outline=False)))
+    np.testing.assert_array_equal(viewport.picture(), bare)
+
+
+def test_dashes_are_parts_of_their_edges():
+    generator = np.random.default_rng(0)
+    start, end = generator.random((2, 5, 3))
+    counts = np.array([1, 2, 3, 10, 40])
+    dashes = dashed(start, end, counts)
+    pieces = np.asarray(dashes.points, dtype=float).reshape(-1, 2, 3)
+    assert len(pieces) == (counts + 1).sum()
+    drawn = np.linalg.norm(pieces[:, 1] - pieces[:, 0], axis=1)
+    first = 0
+    for a, b, count in zip(start, end, counts, strict=True):
+        own = pieces[first : first + count + 1]
+        first += count + 1
+        np.testing.assert_allclose(own[0, 0], a, atol=1e-6)
+        np.testing.assert_allclose(own[-1, 1], b, atol=1e-6)
+        assert np.linalg.norm(np.cross(own.reshape(-1, 3) - a, b - a), axis=1).max() < 1e-6
+        share = drawn[first - count - 1 : first].sum() / np.linalg.norm(b - a)
+        assert share == pytest.approx(0.55, abs=1e-5)
