@@ -110,7 +110,7 @@ PLANE = Role("#5c7394", "#9fb2cc")
 PLANE_ACTIVE = Role("#0072b2", "#6cb9f0")
 
 # Node steps, in the view, in the plot and in its legend: colours of Okabe and Ito too
-UPHILL = Role("#e69f00", "#f0b53c")
+DESCENT = Role("#e69f00", "#f0b53c")
 SEARCH = Role("#3d9bd8", "#6cb9f0")
 TAKEN = Role("#00b883", "#2ee6ac")
 TRIED = Role("#d55e00", "#ff8a4a")

@@ -12,6 +12,10 @@ import numpy as np
 
 from hexmend.aliases import reads_old_members, reads_old_names
 from hexmend.energy import ObjectiveNorm
+from hexmend.quality.descent import descent
+
+#: Relative change of an energy that counts as rounding: energies of patches are computed with an error of about 2e-15.
+_ROUNDING = 1e-13
 
 
 @reads_old_members
@@ -130,6 +134,17 @@ class NodeStep:
     def eigenvalues(self) -> np.ndarray:
         """Eigenvalues of the Hessian, ascending, (3,); NaN if the energy is infinite."""
         return np.linalg.eigvalsh(self.hessian) if np.isfinite(self.hessian).all() else np.full(3, np.nan)
+
+    @cached_property
+    def descent(self) -> np.ndarray:
+        """Negative gradient, (3,); zero if it is within rounding, see `hexmend.quality.descent.descent`."""
+        return descent(self.gradient, self.hessian, self.before / self.unit if self.unit else self.before)
+
+    @property
+    def curve_is_rounding(self) -> bool:
+        """True if the energy changes along the curve by rounding alone, or there is no curve."""
+        energies = self.curve[:, 1]
+        return not len(energies) or bool(np.ptp(energies) <= _ROUNDING * abs(self.energy))
 
     @property
     def backtracks(self) -> int:

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.kernels.objective import gradient
+from hexmend.kernels import local
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index, as_reals
+from hexmend.quality.descent import descent
 from hexmend.quality.measure import ElementQuality, corner_qualities, locked_hexes, measure
 from hexmend.quality.metric import METRICS
 
@@ -122,7 +123,7 @@ class NodeDetails:
         Sum of eta(H)^2 over these hexes, (3.3); +inf if one of them is inverted.
     downhill : (3,) float64
         Negative gradient of that energy with respect to the position, per mean edge length of these hexes; 0 if the
-        energy is infinite.
+        energy is infinite or the gradient is within rounding, see `hexmend.quality.descent.descent`.
     pinned : bool
         True for a pinned node, also on the boundary.
     """
@@ -172,9 +173,11 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
     x = x / (np.linalg.norm(x[hexes[:, EDGES[:, 0]]] - x[hexes[:, EDGES[:, 1]]], axis=-1).mean() or 1.0)
     energy, downhill = float(np.square(measure(x, hexes).eta).sum()), np.zeros(3)
     if np.isfinite(energy):
-        shares = np.empty((ring.size, 8, 3))
-        gradient(x, hexes, 0.0, (2.0, 1.0), np.zeros(ring.size, np.uint8), shares)
-        downhill = -shares[np.arange(ring.size), places % 8].sum(axis=0)
+        star = (8 * np.arange(ring.size) + places % 8).astype(np.int32)
+        at = local.patch_energy(x, hexes, star, 1.0, 0.0, (2.0, 1.0))
+        xx, xy, xz, yy, yz, zz = at.hessian
+        position = x[hexes.ravel()[star[0]]]
+        downhill = descent(np.array(at.gradient), np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), position)
     kind = "boundary" if mesh.topology.boundary[number] else "free"
     if mesh.fixed[number] and kind == "free":
         between = mesh.interfaces is not None and mesh.interfaces.interface_nodes[number]

@@ -20,7 +20,7 @@ from hexmend.node_step import NodeStep, StepStatus
 from hexmend_app.features.node_step.figures import NodeFigures
 from hexmend_app.features.node_step.step_plot import NodePlot
 from hexmend_app.features.node_step.step_texts import displayed_status, rows
-from hexmend_app.theme.palette import OTHERWISE, SEARCH, TAKEN, TRIED, UPHILL
+from hexmend_app.theme.palette import DESCENT, OTHERWISE, SEARCH, TAKEN, TRIED
 from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
@@ -30,11 +30,17 @@ from hexmend_app.widgets.link_label import LinkLabel
 #: Actions of a sweep.
 SWEEP = ("next_node", "ten_nodes", "finish_sweep")
 _LEGEND = (
-    ("gradient", UPHILL, "Gradient of the energy with respect to the node: uphill. Its length has no meaning."),
+    (
+        "steepest descent",
+        DESCENT,
+        "Downhill: the negative gradient of the energy with respect to the node. Its length has no meaning. There is "
+        "no arrow if the gradient is within rounding.",
+    ),
     ("direction", SEARCH, "Search direction, or the direction to the target position. Its length has no meaning."),
     ("step", TAKEN, "Accepted step, drawn to scale, and its trial in the plot."),
     ("rejected", TRIED, "Rejected trial steps, at the positions that they would give the node."),
 )
+_NO_PLOT = "No plot: along the direction, the energy changes by rounding only."
 
 
 class NodePanel(QWidget):
@@ -66,6 +72,9 @@ class NodePanel(QWidget):
         self._message.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._message.setMargin(16)
         self.plot = NodePlot()
+        self._no_plot = note(tr(_NO_PLOT))
+        self._no_plot.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._no_plot.setMargin(16)
         self.figures = NodeFigures()
         self._nodes = LinkLabel()
         self._nodes.setWordWrap(True)
@@ -117,6 +126,7 @@ class NodePanel(QWidget):
         middle = QHBoxLayout(page)
         middle.setContentsMargins(0, 0, 0, 0)
         middle.addWidget(self.plot, 1)
+        middle.addWidget(self._no_plot, 1)
         middle.addWidget(self.figures, 1)
         self._stack.addWidget(page)
         foot = QHBoxLayout()
@@ -162,6 +172,7 @@ class NodePanel(QWidget):
         tint(self._status, MUTED if moves else WORSE)
         self.plot.show_step(step)
         self.plot.setVisible(self.plot.drawn)
+        self._no_plot.setVisible(len(step.curve) > 0 and not self.plot.drawn)
         self.figures.show_rows(rows(step))
         self._edges["before"].setVisible(done and step.move > 0)
         self._edges["after"].setVisible(not done and step.move > 0)

@@ -85,8 +85,9 @@ class NodePlot(QWidget):
 
     @property
     def drawn(self) -> bool:
-        """True if the step has a curve to plot."""
-        return self._step is not None and len(self._step.curve) > 0 and math.isfinite(self._step.energy)
+        """True if the step has a curve to plot that is more than rounding."""
+        step = self._step
+        return step is not None and math.isfinite(step.energy) and not step.curve_is_rounding
 
     def _show_power(self, largest: float) -> None:
         """Write the power of ten of large and small values in the label of the axis."""

@@ -105,7 +105,10 @@ def _slope(step: NodeStep) -> list[Row]:
     if not np.isfinite(step.gradient).all():
         return []
     norm = figure(float(np.linalg.norm(step.gradient)))
-    meaning = tr("Slope of the energy with respect to this node; its arrow points uphill.")
+    if step.descent.any():
+        meaning = tr("Slope of the energy with respect to this node; the arrow of steepest descent points downhill.")
+    else:
+        norm, meaning = tr("0"), tr("The gradient is within rounding: it has no direction, and no arrow is drawn.")
     return [Row(tr("Gradient |∇f|"), norm, meaning), _eigenvalues(step)]
 
 

@@ -17,7 +17,7 @@ from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks import task
 from hexmend_app.state.tasks.task import running
 from hexmend_app.theme import theme_choice
-from hexmend_app.theme.palette import SEARCH, UPHILL
+from hexmend_app.theme.palette import DESCENT, SEARCH
 from hexmend_app.theme.theme_choice import ThemeChoice
 from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, phase, pixels, press, tick
 from tests.app.features.node_step.step_display import (
@@ -184,14 +184,14 @@ def test_the_patch_is_isolated_and_its_marks_are_visible_with_any_cut_and_in_pic
     assert window.canvas.viewport.shown == step.hexes.size
     qtbot.waitUntil(lambda: not window.canvas.camera_animation.active, timeout=PATIENCE)
 
-    assert min(count_pixels(pixels(window), role) for role in (UPHILL, SEARCH)) > 20
+    assert min(count_pixels(pixels(window), role) for role in (DESCENT, SEARCH)) > 20
     window.session.view.set_cut(Cut.at((1, 0, 0), tuple(step.before - 100.0)))
     window.session.view.set_handles(False)
     window.refresh()
     assert window.canvas.viewport.shown == 0
-    assert count_pixels(pixels(window), UPHILL) > 20
+    assert count_pixels(pixels(window), DESCENT) > 20
     assert window.features["save"].picture(tmp_path / "step.png", (800, 600))
-    assert count_pixels(np.asarray(Image.open(tmp_path / "step.png").convert("RGB")).astype(int), UPHILL) > 20
+    assert count_pixels(np.asarray(Image.open(tmp_path / "step.png").convert("RGB")).astype(int), DESCENT) > 20
     window.messages.clear()  # Esc closes messages first
     qtbot.waitUntil(lambda: window.window_actions["back"].isEnabled(), timeout=PATIENCE)
     key(window, Qt.Key.Key_Escape)
@@ -199,16 +199,16 @@ def test_the_patch_is_isolated_and_its_marks_are_visible_with_any_cut_and_in_pic
     assert not box.isChecked()
     window.session.selection.choose(None)
     qtbot.waitUntil(lambda: shown_step(window) is None, timeout=PATIENCE)
-    assert count_pixels(pixels(window), UPHILL) == 0
+    assert count_pixels(pixels(window), DESCENT) == 0
 
 
 def test_the_marks_and_the_plot_follow_the_theme(node_window, qtbot):
     try:
-        assert count_pixels(pixels(node_window), UPHILL, dark=True) < 20
+        assert count_pixels(pixels(node_window), DESCENT, dark=True) < 20
         assert count_pixels(grab(node_window.features["node_step"].panel.plot), SEARCH, dark=True) < 20
         theme_choice.choose(ThemeChoice.DARK)
         node_window.refresh()
-        assert count_pixels(pixels(node_window), UPHILL, dark=True) > 20
+        assert count_pixels(pixels(node_window), DESCENT, dark=True) > 20
         assert count_pixels(grab(node_window.features["node_step"].panel.plot), SEARCH, dark=True) > 20
     finally:
         theme_choice.choose(ThemeChoice.LIGHT)

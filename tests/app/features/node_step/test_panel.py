@@ -64,6 +64,23 @@ def test_infinite_energy_is_shown_as_text_and_not_plotted(shown):
     assert "infinite" in named(panel, QLabel, "Outcome of the step").text()
 
 
+def test_rounding_is_not_plotted_and_a_sentence_says_so(shown):
+    step = step_of("local-nr")
+    curve = step.curve.copy()
+    curve[:, 1] = step.energy * (1 + 1e-15 * (-1.0) ** np.arange(len(curve)))
+    gradient = 1e-17 * step.gradient
+    panel = shown(NodePanel(), 500, 260)
+    sentences = []
+    for one in (step, dataclasses.replace(step, curve=curve, gradient=gradient)):
+        panel.show_step(one, "Local Newton-Raphson", done=False)
+        sentences.append([label.isVisible() for label in panel.findChildren(QLabel) if "No plot" in label.text()])
+        assert panel.plot.isVisible() == (one is step)
+    assert sentences == [[False], [True]]
+    assert row(one, "Gradient |∇f|").value == "0"
+    assert "no arrow is drawn" in row(one, "Gradient |∇f|").meaning
+    assert "points downhill" in row(step, "Gradient |∇f|").meaning
+
+
 def test_the_energy_may_rise_with_a_method_that_does_not_evaluate_it():
     step = step_of("laplacian")
     up = dataclasses.replace(step, energy_after=step.energy + 1)

@@ -1,4 +1,4 @@
-"""Marks of a node step: patch, gradient, search direction, trial steps and accepted step."""
+"""Marks of a node step: patch, steepest descent, search direction, trial steps and accepted step."""
 
 from __future__ import annotations
 
@@ -9,15 +9,20 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.node_step import NodeStep
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.theme.palette import OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, UPHILL, Role, rgb
+from hexmend_app.theme.palette import DESCENT, OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, Role, rgb
 
 _RIM = "#11151c"
 
-# Sizes in mean edge lengths of the patch: lengths of the gradient and direction arrows, and the distance up to which
-# trial steps are drawn; radii of shafts and tips, length of tips, and width of dark rims; radii of balls.
-_GRADIENT, _DIRECTION, _MAX_DISTANCE = 0.75, 1.0, 2.5
+# Sizes in mean edge lengths of the patch: lengths of the arrows of steepest descent and of the search direction, and
+# the distance up to which trial steps are drawn; radii of shafts and tips, length of tips, and width of dark rims;
+# radii of balls. The two arrows may have the same direction: the shorter one is thicker.
+_DESCENT, _DIRECTION, _MAX_DISTANCE = 0.55, 1.0, 2.5
+_DESCENT_WIDTH = 1.7
 _SHAFT, _TIP, _TIP_LENGTH, _RIM_WIDTH = 0.026, 0.065, 0.2, 0.011
 _BALLS = {"pulls": 0.04, "tried": 0.042, "taken": 0.05, "node": 0.055}
+
+#: Length of a search direction that counts as rounding, in the unit of the step.
+_NO_MOVE = 1e-9
 
 
 class NodeStepMarks:
@@ -36,6 +41,8 @@ class NodeStepMarks:
     ----------
     step : NodeStep or None
         The drawn step.
+    arrows : dict of (vtkActor, vtkActor)
+        Actors of the rim and of the solid of each arrow, by its colour.
     """
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
@@ -48,7 +55,7 @@ class NodeStepMarks:
         self._ghost_edges = self._add(self._behind, OTHERWISE, width=3)
         self._edges = self._add(self._behind, PATCH, width=1, opacity=0.45)
         self._spokes = self._add(self._behind, None, width=3.5), self._add(self._behind, PATCH, width=1.5)
-        self._arrows = {role: self._solid(role) for role in (UPHILL, SEARCH, TAKEN)}
+        self.arrows = {role: self._solid(role) for role in (DESCENT, SEARCH, TAKEN)}
         self._balls = {
             name: self._solid(role)
             for name, role in (("pulls", PATCH), ("tried", TRIED), ("taken", TAKEN), ("node", PATCH))
@@ -115,9 +122,8 @@ class NodeStepMarks:
         for actor in self._spokes:
             _draw(actor, _lines(x, spokes))
         self._draw_ghost(x, node, hexes, spokes)
-        gradient = step.gradient if np.isfinite(step.gradient).all() else np.zeros(3)
-        self._draw_arrow(UPHILL, _scaled(gradient, _GRADIENT * length), length)
-        self._draw_arrow(SEARCH, _scaled(step.direction, _DIRECTION * length), length)
+        self._draw_arrow(DESCENT, _scaled(step.descent, _DESCENT * length), length, _DESCENT_WIDTH)
+        self._draw_arrow(SEARCH, _scaled(_search_direction(step), _DIRECTION * length), length)
         self._draw_arrow(TAKEN, step.after - step.before, 1.4 * length)
         tried = [step.before + trial.alpha * step.direction for trial in step.trials if trial.alpha != step.alpha]
         near = [point for point in tried if np.linalg.norm(point - step.before) < _MAX_DISTANCE * length]
@@ -136,12 +142,12 @@ class NodeStepMarks:
         _draw(self._ghost, pv.PolyData.from_regular_faces(moved, faces[(faces == node).any(axis=1) & moves]))
         _draw(self._ghost_edges, _lines(moved, spokes[: len(spokes) * moves]))
 
-    def _draw_arrow(self, role: Role, vector: np.ndarray, length: float) -> None:
-        """Draw an arrow from the node; `length` is the mean edge length, the unit of all sizes."""
+    def _draw_arrow(self, role: Role, vector: np.ndarray, length: float, width: float = 1.0) -> None:
+        """Draw an arrow from the node; `length` is the mean edge length, the unit of all sizes but the `width`."""
         arrow_length = float(np.linalg.norm(vector))
         tip = min(_TIP_LENGTH * length, 0.6 * arrow_length)
-        thickness = tip / _TIP_LENGTH  # short arrows are thin
-        for actor, rim in zip(self._arrows[role], (_RIM_WIDTH * length, 0.0), strict=True):
+        thickness = width * tip / _TIP_LENGTH  # short arrows are thin
+        for actor, rim in zip(self.arrows[role], (_RIM_WIDTH * length, 0.0), strict=True):
             actor.SetVisibility(arrow_length > 1e-6 * length)
             if actor.GetVisibility():
                 scale = arrow_length + 2 * rim
@@ -167,6 +173,13 @@ class NodeStepMarks:
         self.step = None
         for layer in self.layers:
             layer.DrawOff()
+
+
+def _search_direction(step: NodeStep) -> np.ndarray:
+    """Return the search direction, (3,); zero if it is within rounding."""
+    to_target = step.is_global or len(step.pulls) > 0  # directions that do not follow from the gradient of the node
+    negligible = np.linalg.norm(step.direction) <= _NO_MOVE * step.unit
+    return np.zeros(3) if negligible or not (to_target or step.descent.any()) else step.direction
 
 
 def _draw(actor: vtkActor, poly: pv.PolyData) -> None:
