@@ -15,11 +15,11 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, NodeDetails
 from hexmend_app.canvas.camera_view import CameraView
-from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.pointer import Pointer
 from hexmend_app.canvas.shading_task import ShadingTask
-from hexmend_app.canvas.view_captions import caption_height
+from hexmend_app.canvas.view_captions import Caption, caption_height
 from hexmend_app.canvas.view_frame import ViewFrame
+from hexmend_app.canvas.view_legend import ViewLegend
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.colour.colouring import Colouring
@@ -31,7 +31,6 @@ from hexmend_app.scene.views.picking import Hit
 from hexmend_app.state.view.side_views import Wipe
 from hexmend_app.theme.palette import BLUE, THEME
 from hexmend_app.theme.style import on_theme_change
-from hexmend_app.widgets.overlay import Overlay
 
 if TYPE_CHECKING:
     from hexmend_app.picture import Camera, Page, Scene
@@ -80,13 +79,11 @@ class Canvas(CameraView):
         self.box = BoxWidget(self.panes.pane, self.box_dragged.emit)
         self.sphere = SphereWidget(self.panes.pane, self.sphere_dragged.emit)
         self._handle_widgets = self.plane, self.box, self.sphere
-        self.colour_bar = ColourBar()
-        self._bar_overlay = Overlay(self.colour_bar, self.interactor, (1.0, 0.5), key="colour_bar")
         layout = QVBoxLayout(self)
         layout.setContentsMargins(_RING, _RING, _RING, _RING)
         self.frame = ViewFrame(self.interactor)
-        for part, area in self.frame.clickable.items():
-            self._bar_overlay.keep_off(part, area)
+        self._legend = ViewLegend(self.interactor, self.panes, self.frame)
+        self.colour_bar = self._legend.colour_bar
         layout.addLayout(self.frame, 1)
         self._handles = False, 0
         self._measuring = False
@@ -125,7 +122,7 @@ class Canvas(CameraView):
             for handles in self._handle_widgets:
                 handles.set_bounds(self.viewport.bounds)
         self._place_handles()
-        self._show_colours()
+        self._legend.show_colours()
         self.changed()
         if live:
             self.stay_coarse()
@@ -135,7 +132,7 @@ class Canvas(CameraView):
         self._selected = None, False
         self.panes.clear()
         self._place_handles()
-        self._show_colours()
+        self._legend.show_colours()
         self.changed()
 
     def shows(self, mesh: Mesh) -> bool:
@@ -193,8 +190,13 @@ class Canvas(CameraView):
         self._select_in_other_views()
         self._place_handles()
         self.frame.set_wipe(wipe)
-        self._show_colours()
+        self._legend.show_colours()
         self.changed()
+
+    def show_captions(self, captions: Sequence[Caption], wipe: Wipe | None) -> None:
+        """Show the captions of the views, with the numbers of hexes with special colours."""
+        self.frame.set_captions(captions, wipe)
+        self._legend.show_counts()
 
     def move_wipe(self, wipe: Wipe) -> None:
         """Move the edge of the wipe."""
@@ -210,6 +212,7 @@ class Canvas(CameraView):
             self._request_menu(QPointF(self.interactor.rect().center()))
         if kind == QEvent.Type.Resize:
             self.frame.fit()
+            self._legend.place()
         if kind in (QEvent.Type.FocusIn, QEvent.Type.FocusOut):
             # Show the ring for keyboard focus only.
             self._ring = kind == QEvent.Type.FocusIn and event.reason() in _BY_KEYS
@@ -305,21 +308,6 @@ class Canvas(CameraView):
     def colouring(self) -> Colouring | None:
         """Colouring of the mesh; None if no mesh is drawn."""
         return self.viewport.colouring
-
-    def _show_colours(self) -> None:
-        colouring = self.colouring
-        if colouring is None:
-            self.colour_bar.hide()
-        else:
-            self.colour_bar.setVisible(not self.viewport.frame.look.colours.neutral)
-            self.colour_bar.set_label(colouring.title)
-            self.colour_bar.set_table(colouring.table)
-            self.colour_bar.set_range(colouring.low, colouring.high, colouring.beyond)
-            self.colour_bar.set_names(colouring.names)
-            single = len(self.panes.all) == 1  # the captions of several views show the numbers of inverted hexes
-            self.colour_bar.set_special(
-                [(name, n if single else 0, colour) for name, n, colour in self.viewport.colours.special_counts]
-            )
 
     def draw_still(self) -> None:
         """Draw a fine frame, and start to compute its shading."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
 
 from hexmend_app.theme.palette import Role
 from hexmend_app.theme.style import MUTED, WORSE, icon, set_help, smaller, tabular, tint
@@ -38,17 +38,21 @@ class Caption:
     inverted : int
     colour : Role or None
         Colour of the mesh in the histogram; None if it is not in the histogram.
+    counts : tuple of (str, int)
+        Names and numbers of hexes with special colours; empty for those that are inverted.
     """
 
     name: str
     q_min: float
     inverted: int
     colour: Role | None
+    counts: tuple[tuple[str, int], ...] = ()
 
     @property
     def figures(self) -> str:
-        """Smallest q and number of inverted hexes as text."""
-        return f"q min {figure(self.q_min)} · {f'{self.inverted:,}' if self.inverted else 'none'} inverted"
+        """Numbers of hexes with special colours, and the smallest q as text."""
+        counts = [f"{count:,} {name}" for name, count in self.counts or (("inverted", self.inverted),) if count]
+        return " · ".join([*(counts or ["none inverted"]), f"q min {figure(self.q_min)}"])
 
 
 class CaptionRow(QWidget):
@@ -93,10 +97,9 @@ class CaptionRow(QWidget):
             part.set_figures(caption)
         self.setVisible(bool(captions))
 
-    def place_at(self, share: float) -> None:
-        """Place the row at a fraction of the height of the parent from its top, with full width."""
-        over = self.parentWidget().size()
-        self.setGeometry(0, round(share * over.height()), over.width(), caption_height(self))
+    def place_at(self, share: float, width: int) -> None:
+        """Place the row at a fraction of the height of the parent from its top, with a width in pixels."""
+        self.setGeometry(0, round(share * self.parentWidget().height()), width, caption_height(self))
 
     def _part(self, caption: Caption, number: int) -> _Entry:
         part = _Entry(caption)
@@ -170,12 +173,13 @@ class _Entry(QWidget):
         row.setSpacing(4)
         if caption.colour is not None:
             row.addWidget(Swatch(caption.colour))
-        name = QLabel(caption.name)
+        name = ElidingLabel(caption.name)
         font = name.font()
         font.setBold(True)
         name.setFont(font)
         row.addWidget(name)
         self._figures = _figures()
+        self._figures.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         row.addWidget(self._figures, 1)
         self.setFixedHeight(caption_height(self))
 
@@ -183,6 +187,8 @@ class _Entry(QWidget):
         """Update the figures."""
         if self._figures.text() != caption.figures:
             _show_figures(self._figures, caption)
+            first = f"{caption.figures.split(' · ')[0]}…"  # is complete even if the name is long
+            self._figures.setMinimumWidth(self._figures.fontMetrics().horizontalAdvance(first))
             set_help(self, f"{caption.name}: {caption.figures}", "")
 
 

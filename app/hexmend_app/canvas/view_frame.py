@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from PySide6.QtCore import QRect, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
@@ -40,8 +41,13 @@ class ViewFrame(QVBoxLayout):
         super().__init__()
         self.setSpacing(0)
         self.captions: Sequence[Caption] = ()
+        self._wipe: Wipe | None = None
         self._rows, self._wipe_row = [CaptionRow(view) for _ in range(_MAX_ROWS)], WipeRow()
         self._edge = WipeHandle(view)
+        self._strip = QWidget(view)  # behind the legend, to the right of several views
+        self._strip.setAutoFillBackground(True)
+        self._strip.hide()
+        self._view, self._legend_width = view, 0
         self.addWidget(self._wipe_row)
         self.addWidget(view, 1)
         for row in self._rows:
@@ -57,13 +63,27 @@ class ViewFrame(QVBoxLayout):
 
     def set_captions(self, captions: Sequence[Caption], wipe: Wipe | None) -> None:
         """Set the captions of the views, or of the sides of a wipe."""
-        self.captions = captions
+        self.captions, self._wipe = captions, wipe
         side_by_side = captions if len(captions) > 1 and wipe is None else []
         n_columns = columns(max(len(side_by_side), 1))
         for i, row in enumerate(self._rows):
             row.set_captions(side_by_side[i * n_columns : (i + 1) * n_columns], i * n_columns)
         self.fit()
         self._wipe_row.set_captions(captions, (wipe.left, wipe.right) if wipe is not None else None)
+
+    def set_counts(self, counts: Sequence[tuple[tuple[str, int], ...]]) -> None:
+        """Set names and numbers of hexes with special colours, for each view."""
+        if len(counts) == len(self.captions) and any(
+            caption.counts != own for caption, own in zip(self.captions, counts, strict=True)
+        ):
+            pairs = zip(self.captions, counts, strict=True)
+            self.set_captions([replace(caption, counts=own) for caption, own in pairs], self._wipe)
+
+    def set_legend_width(self, width: int) -> None:
+        """Set the width of the strip for the legend to the right of several views, in pixels."""
+        self._legend_width = width
+        self._strip.setVisible(width > 0)
+        self.fit()
 
     def set_wipe(self, wipe: Wipe | None) -> None:
         """Show the edge of the wipe at a position, or hide it."""
@@ -75,4 +95,5 @@ class ViewFrame(QVBoxLayout):
         """Place the captions for the current size of the view."""
         shown = [row for row in self._rows if not row.isHidden()]
         for i, row in enumerate(shown):
-            row.place_at(i / len(shown))
+            row.place_at(i / len(shown), self._view.width() - self._legend_width)
+        self._strip.setGeometry(self._view.width() - self._legend_width, 0, self._legend_width, self._view.height())

@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QWidget
 
 from hexmend_app.state.settings.settings import overlay_position
 
-_MARGIN = 8
+#: Distance of overlays from the edges, in pixels.
+MARGIN = 8
 
 #: Share of the maximum available height that a gap must have to be chosen because it is nearer.
 _SUFFICIENT_HEIGHT = 0.8
@@ -57,6 +58,7 @@ class Overlay(QObject):
         self._widget, self._over, self._home, self._width = widget, over, home, width
         self._setting = overlay_position(key, home) if key else None
         self._place = self._setting.get() if key else home
+        self._at_home = False  # True while the position of the user is ignored
         self._grip: QPoint | None = None  # position of a drag on the widget
         self._others: dict[QWidget, Callable[[], QRect]] = {}  # widgets to avoid, with their areas
         widget.setParent(over)
@@ -69,12 +71,20 @@ class Overlay(QObject):
     @property
     def place(self) -> tuple[float, float]:
         """Position as shares of the free width and height."""
-        return self._place
+        return self._home if self._at_home else self._place
 
     def move_to(self, place: tuple[float, float]) -> None:
         """Move the widget to a position, limited to [0, 1]."""
         self._place = tuple(min(max(share, 0.0), 1.0) for share in place)
         self.fit()
+
+    def stay_home(self, on: bool) -> None:
+        """Keep the widget at its default position, where it cannot be dragged; off restores the user's position."""
+        if on != self._at_home:
+            self._at_home, self._grip = on, None
+            if self._setting is not None:
+                self._widget.setCursor(Qt.CursorShape.ArrowCursor if on else Qt.CursorShape.OpenHandCursor)
+            self.fit()
 
     def keep_off(self, other: QWidget, part: Callable[[], QRect] | None = None) -> None:
         """Stay above or below another overlay of the same widget while that is visible.
@@ -92,7 +102,7 @@ class Overlay(QObject):
     def fit(self) -> None:
         """Set size and position of the widget, and put it on top."""
         size = self._size()
-        x, y = (round(_MARGIN + share * free) for share, free in zip(self._place, self._free(size), strict=True))
+        x, y = (round(MARGIN + share * free) for share, free in zip(self.place, self._free(size), strict=True))
         self._widget.setGeometry(self._avoiding_others(QRect(QPoint(x, y), size)))
         self._widget.raise_()
 
@@ -106,7 +116,7 @@ class Overlay(QObject):
                 occupied.append((area.top(), area.bottom() + 1))
         gaps, above = [], 0
         for top, below in sorted(occupied):
-            gaps.append((above + _MARGIN, top - _MARGIN))
+            gaps.append((above + MARGIN, top - MARGIN))
             above = max(above, below)
 
         def within(gap: tuple[int, int]) -> QRect:
@@ -124,7 +134,7 @@ class Overlay(QObject):
     def _size(self) -> QSize:
         widget = self._widget
         widget.ensurePolished()
-        wanted, available = widget.sizeHint(), self._over.size() - QSize(2 * _MARGIN, 2 * _MARGIN)
+        wanted, available = widget.sizeHint(), self._over.size() - QSize(2 * MARGIN, 2 * MARGIN)
         width = min(self._width or wanted.width(), available.width())
         if self._width is not None and widget.hasHeightForWidth():
             wanted.setHeight(widget.heightForWidth(width))
@@ -132,7 +142,7 @@ class Overlay(QObject):
 
     def _free(self, size: QSize) -> tuple[int, int]:
         """Return the free width and height next to a widget of a size, in pixels."""
-        free = self._over.size() - size - QSize(2 * _MARGIN, 2 * _MARGIN)
+        free = self._over.size() - size - QSize(2 * MARGIN, 2 * MARGIN)
         return max(free.width(), 0), max(free.height(), 0)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
@@ -164,7 +174,7 @@ class Overlay(QObject):
 
     def _on_mouse(self, event: QMouseEvent) -> None:
         """Drag the widget, or reset its position on a double click, if its position is a setting."""
-        if self._setting is None:
+        if self._setting is None or self._at_home:
             return
         kind, at = event.type(), event.globalPosition()
         if kind == QEvent.Type.MouseButtonPress and event.button() == Qt.MouseButton.LeftButton:
@@ -181,7 +191,7 @@ class Overlay(QObject):
             self._store()
 
     def _drag(self, at: QPointF) -> None:
-        corner = self._over.mapFromGlobal(at).toPoint() - self._grip - QPoint(_MARGIN, _MARGIN)
+        corner = self._over.mapFromGlobal(at).toPoint() - self._grip - QPoint(MARGIN, MARGIN)
         free = self._free(self._widget.size())
         position = corner.x(), corner.y()
         self.move_to(

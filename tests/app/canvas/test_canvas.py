@@ -277,6 +277,18 @@ def test_the_colour_bar_does_not_cover_close_buttons(canvas, qtbot):
         assert canvas.interactor.rect().contains(bar)
 
 
+@pytest.mark.parametrize("views", [2, 3, 4])
+def test_the_colour_bar_covers_none_of_several_views(canvas, views):
+    canvas.resize(900, 600)
+    canvas.show_side_by_side([(MESH, FIGURES)] * (views - 1))
+    turn()
+    for view in canvas.panes.all:
+        right = view.layers[0].GetViewport()[2] * canvas.interactor.width()
+        assert canvas.colour_bar.geometry().left() >= right
+    canvas.show_side_by_side([])
+    assert canvas.viewport.layers[0].GetViewport() == (0.0, 0.0, 1.0, 1.0)
+
+
 def test_the_colour_bar_does_not_cover_the_knob_of_a_wipe(canvas):
     canvas.show_side_by_side([(MESH, FIGURES)], Wipe(0, 1, 0.5))
     home = canvas.colour_bar.geometry()

@@ -42,6 +42,22 @@ def entries(view):
     return found
 
 
+def test_captions_show_the_counts_of_each_view_first(framed):
+    framed.frame.set_captions(captions(2), None)
+    framed.frame.set_counts([(("newly inverted", 1200), ("mended", 0)), (("newly inverted", 0), ("mended", 0))])
+    texts = [caption.figures for caption in framed.frame.captions]
+    assert texts == ["1,200 newly inverted · q min 0.5000", "none inverted · q min 0.5000"]
+    assert Caption("view", 0.5, 3, None).figures == "3 inverted · q min 0.5000"
+
+
+def test_captions_leave_the_strip_of_the_legend_free(framed):
+    framed.frame.set_captions(captions(2), None)
+    framed.frame.set_legend_width(101)
+    framed.view.resize(801, 603)
+    framed.frame.fit()
+    assert max(place.right() for place in entries(framed.view).values()) <= 700
+
+
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_each_caption_is_at_the_top_of_its_view(framed, qtbot, count):
     frame, view, size = framed.frame, framed.view, framed.view.size()

@@ -130,7 +130,7 @@ class FeatureSideViews(Feature):
         shown = [(NOW, self.session.document.now, BLUE)]
         shown += [(view.name, view.state, self._colour(view.state)) for view in self._views.all]
         captions = [Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown]
-        self.canvas.frame.set_captions(captions, self._views.wipe)
+        self.canvas.show_captions(captions, self._views.wipe)
 
     def _colour(self, state: State) -> Role | None:
         snapshot = self._snapshots.of(state)

@@ -52,6 +52,8 @@ class Arrangement:
     ----------
     caption_height : int
         Height in pixels that is reserved for the caption above each of several views side by side.
+    legend_width : int
+        Width in pixels that is reserved for the legend to the right of several views side by side.
     """
 
     def __init__(self, window: vtkRenderWindow, pixel_ratio: float = 1.0):
@@ -62,7 +64,7 @@ class Arrangement:
         self._centres: dict[Viewport, float] = {}  # window centres of the two views of a wipe
         self._separators: list[tuple[vtkRenderer, vtkActor2D]] = []
         self._dark = False
-        self.caption_height = 0
+        self.caption_height = self.legend_width = 0
 
     @property
     def outdated(self) -> bool:
@@ -77,9 +79,12 @@ class Arrangement:
         return (right - left) * width / max((high - low) * height, 1) if width else 1.0  # before the window is laid out
 
     def _side_by_side(self, views: int) -> list[Rectangle]:
-        """Return the rectangles of views side by side, below their captions."""
-        caption = self.caption_height / max(self._window.GetSize()[1], 1) if views > 1 else 0.0
-        return [(left, low, right, max(high - caption, low)) for left, low, right, high in grid(views)]
+        """Return the rectangles of views side by side, below their captions and to the left of the legend."""
+        if views == 1:
+            return grid(1)
+        width, height = (max(side, 1) for side in self._window.GetSize())
+        caption, share = self.caption_height / height, max(1 - self.legend_width / width, 0.0)
+        return [(left * share, low, right * share, max(high - caption, low)) for left, low, right, high in grid(views)]
 
     def arrange(self, views: Sequence[Viewport], visible: Sequence[Viewport], wipe: Wipe | None) -> None:
         """Place all views in the window at its current size; the edge of a wipe is at a whole pixel.

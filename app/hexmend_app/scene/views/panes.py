@@ -158,6 +158,15 @@ class Panes:
         """Reserve space for a caption above each of several views, in pixels."""
         self._arrangement.caption_height = pixels
 
+    def reserve_legend(self, pixels: int) -> None:
+        """Reserve space for a legend to the right of several views, in pixels; a fitted camera is fitted again."""
+        if pixels == self._arrangement.legend_width:
+            return
+        fitted, self._arrangement.legend_width = self.camera_controller.fitted, pixels
+        self.arrange()
+        if fitted:
+            self.camera_controller.fit()
+
     def arrange(self) -> None:
         """Place all views in the window at its current size."""
         self._arrangement.arrange(self.all, self.visible, self.wipe)

@@ -103,7 +103,7 @@ def test_a_drag_rotates_all_views_and_a_click_selects_a_hex_in_all(compared, qtb
     for one in canvas.panes.all:
         assert one.overlay_layers.selection.hex == chosen
         np.testing.assert_allclose(
-            one.overlay_layers.selection.highlight.box.points,
+            one.overlay_layers.selection.highlight.edges.lines.points,
             one.frame.mesh.points[one.frame.mesh.hexes[chosen]],
             rtol=1e-6,
         )

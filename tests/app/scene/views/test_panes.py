@@ -90,6 +90,20 @@ def test_space_for_captions_is_reserved_above_each_of_several_views(panes, views
     assert panes.first.layers[0].GetViewport() == (0.0, 0.0, 0.5, 1.0)
 
 
+@pytest.mark.parametrize("views", [1, 2, 4])
+def test_space_for_the_legend_is_reserved_to_the_right_of_several_views(panes, views):
+    panes.show([shown(mesh) for mesh in OTHERS[: views - 1]])
+    panes.reserve_legend(60)
+    share = 0.75 if views > 1 else 1
+    for view, (left, low, right, high) in zip(panes.all, grid(views), strict=True):
+        assert view.layers[0].GetViewport() == pytest.approx((left * share, low, right * share, high))
+    fitted = panes.camera_controller.fitted
+    panes.reserve_legend(0)
+    assert fitted
+    assert panes.camera_controller.fitted
+    assert panes.first.layers[0].GetViewport() == pytest.approx(grid(views)[0])
+
+
 def test_all_views_share_a_camera(panes, pixels):
     panes.show([shown(mesh) for mesh in OTHERS])
     assert all(view.camera is panes.first.camera for view in panes.all)
