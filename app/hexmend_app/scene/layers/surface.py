@@ -11,6 +11,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.layers.edge_lines import EDGE, tone_edges
+from hexmend_app.scene.layers.soft_light import light_softly
 from hexmend_app.theme.palette import rgb
 
 _COLOURS = "colours"
@@ -39,10 +40,9 @@ class Surface:
         prop.SetEdgeColor(rgb(EDGE))
         prop.SetEdgeOpacity(0.5)
         prop.SetLineWidth(pixel_ratio)
-        prop.SetAmbient(0.58)
-        prop.SetDiffuse(0.47)
         prop.SetInterpolationToPhong()  # applies to polygons with normals
         tone_edges(self.actor)
+        light_softly(self.actor)
         renderer.AddActor(self.actor)
         self._flat, self._fine = vtkPolyDataMapper(), vtkPolyDataMapper()
         self._flat.SetScalarModeToUseCellFieldData()

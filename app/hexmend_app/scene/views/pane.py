@@ -7,11 +7,11 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkLight, vtkRenderer, vtkRen
 from hexmend_app.theme.palette import rgb
 
 #: Position of the light in camera coordinates, above the viewer's left shoulder.
-_LIGHT = (-0.12, 0.25, 1.0)
+_LIGHT = (-0.3, 0.45, 1.0)
 
 
 class Pane:
-    """Renderer with a single light; a light kit of five lights would double the frame time.
+    """Renderer with a single light, see `hexmend_app.scene.layers.soft_light`.
 
     Attributes
     ----------
