@@ -100,6 +100,7 @@ FRONTS = [
     ("run", "histogram", "runs"),
     ("look", "histogram", "script"),
     ("look", "histogram", "console"),
+    ("look", "histogram", "measure"),
 ]
 
 
@@ -164,6 +165,7 @@ def test_tab_goes_in_reading_order(everything_on):
         window.canvas.colour_bar,
         window.messages,
         window.features["timeline"].panel,
+        window.docks.row,
         named(window, QTabBar, "Panels below the view"),
         window.features["hex_inspector"].worst_list,
         named(window, QTabBar, "Tools"),

@@ -114,6 +114,7 @@ class DockSet(QObject):
                 for panel in group:
                     self._bars[panel.id] = bar = _wrapped(panel.widget)
                     self._bar_layout.addWidget(bar)
+                self.row.follow(self.bars)
             elif place is PanelPlace.EMPTY:
                 for panel in group:
                     self.view.insertWidget(0, panel.widget, 1)

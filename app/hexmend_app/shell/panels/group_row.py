@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from hexmend_app.feature import PanelGroup
@@ -59,6 +60,12 @@ class GroupRow(QWidget):
             button.setVisible(bool(panels))
             button.setChecked(group is front)
             set_help(button, tr(group.value), f"{tr(_HELP[group])}\n{', '.join(panels)}")
+
+    def follow(self, widget: QWidget) -> None:
+        """Let Tab come to the buttons after all controls in a widget."""
+        focusable = [child for child in widget.findChildren(QWidget) if child.focusPolicy() & Qt.FocusPolicy.TabFocus]
+        for before, after in pairwise([*focusable[-1:], *self._buttons.values()]):
+            QWidget.setTabOrder(before, after)
 
     def button(self, group: PanelGroup) -> QToolButton:
         """Return the button of a group."""

@@ -37,7 +37,8 @@ class TabBars:
         docks = list(docks)
         by_title = {dock.windowTitle(): dock for dock in docks}
         for bar in self._all():
-            bar.setFocusPolicy(Qt.FocusPolicy.TabFocus if bar.count() else Qt.FocusPolicy.NoFocus)
+            used = bar.count() > 1 and bar.isVisible()  # Qt keeps bars that are not needed
+            bar.setFocusPolicy(Qt.FocusPolicy.TabFocus if used else Qt.FocusPolicy.NoFocus)
             first = next((by_title[title] for title in map(bar.tabText, range(bar.count())) if title in by_title), None)
             if first is None or bar.accessibleName() == tr(_NAMES[first.place]):
                 continue
