@@ -95,8 +95,10 @@ GREY = Role("#8f98a3", "#8f98a3")
 RIM = Role("#11151c", "#8b95a3")  # around swatches
 
 # The 3D view
-BACKGROUND = Role("#eef1f5", "#323943")  # uniform, as a gradient takes a fifth of a frame in software rendering
-AXES = Role("#39414d", "#d5dae1", on=(BACKGROUND,))
+BACKGROUND = Role("#eef1f5", "#323943")
+BACKGROUND_BELOW = Role("#e3e8ef", "#2a3039")  # ends of the gradient, whose middle is BACKGROUND
+BACKGROUND_ABOVE = Role("#f9fafb", "#3a424d")
+AXES = Role("#39414d", "#d5dae1", on=(BACKGROUND, BACKGROUND_BELOW, BACKGROUND_ABOVE))
 GHOST = Role("#6f7b8b", "#aab4c1")
 ORIGINAL = Role("#0072b2", "#6cb9f0")  # boundary of the mesh as opened
 TARGET = Role("#e69f00", "#f0b53c")  # surface of a file on which the boundary slides

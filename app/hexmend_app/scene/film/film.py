@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -69,6 +70,7 @@ def pictures(
         Returns additional props, from the width of a thin line in pixels.
     """
     width, height = size
+    look = replace(look, structure=look.structure.without("shadow"))  # static areas take less space in films
     strip = strip_height(size)
     chart = chart and strip > 0 and not look.colours.neutral
     chart_width = round(_CHART * width) if chart else 0

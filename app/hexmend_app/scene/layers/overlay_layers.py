@@ -57,10 +57,10 @@ class OverlayLayers:
         self._on_failure = on_failure
         self._dark = False
         self._failed: set[str] = set()
-        self.ghosts = Ghosts(pane, pixel_ratio)
         self.optional: dict[str, OptionalLayer] = {
             switch.name: switch.drawn_by(pane, pixel_ratio) for switch in ordered_layers() if switch.drawn_by
         }
+        self.ghosts = Ghosts(pane, pixel_ratio)  # translucent actors are drawn in the order of their creation
         self.outline: Silhouette | None = None
         self.structure = StructureLayers(pane, pixel_ratio)
         self.arrows = ArrowLayer(pane, pixel_ratio)
@@ -90,6 +90,8 @@ class OverlayLayers:
         """Omit details in fast frames, or draw everything again."""
         self._attempt("structure", self.structure.set_fast, fast)
         self._attempt("arrows", self.arrows.set_fast, fast)
+        for name, layer in self.optional.items():
+            self._attempt(name, layer.set_fast, fast)
 
     def set_mesh(self, frame: Frame) -> None:
         """Replace the mesh; nothing of the previous mesh remains drawn."""

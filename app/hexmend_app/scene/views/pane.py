@@ -16,6 +16,8 @@ class Pane:
     Attributes
     ----------
     window : vtkRenderWindow
+    up : str
+        Vertical axis of the scene: x, y or z.
     renderer : vtkRenderer
         Covers the whole window unless its viewport is set.
 
@@ -28,8 +30,10 @@ class Pane:
     """
 
     def __init__(self, window: vtkRenderWindow, camera: vtkCamera | None = None):
-        self.window = window
+        self.window, self.up = window, "z"
         self.renderer = vtkRenderer()
+        self._background, self._ends, self._fast = "#000000", None, False
+        self.renderer.DitherGradientOff()  # its steps are of one level, and noise makes screenshots twice as large
         self.renderer.UseOITOff()  # translucent actors are drawn in their order: see `HexEdges`
         self.renderer.SetActiveCamera(vtkCamera() if camera is None else camera)
         light = vtkLight()
@@ -54,6 +58,16 @@ class Pane:
         self.window.AddRenderer(layer)
         return layer
 
-    def set_background(self, colour: str) -> None:
-        """Set the background colour, #rrggbb."""
-        self.renderer.SetBackground(rgb(colour))
+    def set_background(self, colour: str, ends: tuple[str, str] | None = None) -> None:
+        """Set the background colour, #rrggbb, and optionally the colours of its gradient in fine frames, from below."""
+        self._background, self._ends = colour, ends
+        self.set_fast(self._fast)
+
+    def set_fast(self, fast: bool) -> None:
+        """Draw the background uniformly, as a gradient takes a fifth of a fast frame in software rendering."""
+        self._fast = fast
+        gradient = self._ends is not None and not fast
+        self.renderer.SetGradientBackground(gradient)
+        self.renderer.SetBackground(rgb(self._ends[0] if gradient else self._background))
+        if gradient:
+            self.renderer.SetBackground2(rgb(self._ends[1]))

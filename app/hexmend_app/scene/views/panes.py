@@ -53,7 +53,7 @@ class Panes:
     ):
         self._window, self._pixel_ratio, self._on_failure = window, pixel_ratio, on_failure
         self.pane = Pane(window)
-        self.first = Viewport(self.pane, filters=filters, pixel_ratio=pixel_ratio, on_failure=on_failure)
+        self.first = Viewport(self.pane, filters=filters, pixel_ratio=pixel_ratio, on_failure=on_failure, gradient=True)
         self._dark = False
         self._others: list[tuple[Mesh, Viewport]] = []
         self.wipe: Wipe | None = None
@@ -122,7 +122,7 @@ class Panes:
 
     def _open(self, mesh: Mesh, figures: ElementQuality) -> Viewport:
         pane = Pane(self._window, self.first.camera)
-        view = Viewport(pane, False, self.first.filters, self._pixel_ratio, self._on_failure)
+        view = Viewport(pane, False, self.first.filters, self._pixel_ratio, self._on_failure, True)
         view.set_dark(self._dark)
         view.coarse_cuts = True
         view.draw(Frame(mesh, figures).matching(self.first.frame))
@@ -186,7 +186,8 @@ class Panes:
     def _observe(self, view: Viewport) -> None:
         """Prepare the camera before each layer of a view is drawn."""
         for layer in view.layers:
-            layer.AddObserver("StartEvent", lambda *_, view=view: self._begin(view))
+            # Before the observers of layers, which use the camera and the vertical axis.
+            layer.AddObserver("StartEvent", lambda *_, view=view: self._begin(view), 1.0)
 
     def _begin(self, view: Viewport) -> None:
         if self._arrangement.outdated:
@@ -196,6 +197,7 @@ class Panes:
                 self.camera_controller.fit()
         if self._others and view is self.visible[0]:
             self.camera_controller.reset_depth()
+        view.set_up(self.camera_controller.up)
         self._aim(view)
 
     def _aim(self, view: Viewport) -> None:

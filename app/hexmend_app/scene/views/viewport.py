@@ -21,7 +21,7 @@ from hexmend_app.scene.layers.overlay_layers import OverlayLayers, raise_error
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.picking import Hit, Picker
-from hexmend_app.theme.palette import BACKGROUND
+from hexmend_app.theme.palette import BACKGROUND, BACKGROUND_ABOVE, BACKGROUND_BELOW
 
 #: Number of hexes from which on a cut whose planes move is drawn coarsely.
 COARSE_CUT_HEXES = 1_000_000
@@ -56,6 +56,8 @@ class Viewport:
         Width of a thin line, in pixels.
     on_failure : callable, optional
         Called with the exception of a layer that fails, which is then hidden; by default the exception is raised.
+    gradient : bool
+        Draw a gradient of the background in fine frames.
     """
 
     def __init__(
@@ -65,8 +67,9 @@ class Viewport:
         filters: Filters | None = None,
         pixel_ratio: float = 1.0,
         on_failure: Callable[[Exception], object] = raise_error,
+        gradient: bool = False,
     ):
-        self._pane = pane
+        self._pane, self._gradient = pane, gradient
         self.frame: Frame | None = None
         self.filters = filters
         self._fast = self.coarse_cuts = False
@@ -81,7 +84,8 @@ class Viewport:
 
     def set_dark(self, dark: bool) -> None:
         """Use the colours of the dark or of the light theme."""
-        self._pane.set_background(BACKGROUND.of(dark))
+        ends = (BACKGROUND_BELOW.of(dark), BACKGROUND_ABOVE.of(dark)) if self._gradient else None
+        self._pane.set_background(BACKGROUND.of(dark), ends)
         if self.axes is not None:
             self.axes.set_dark(dark)
         self.overlay_layers.set_dark(dark)
@@ -253,6 +257,10 @@ class Viewport:
         """Show the mesh from a direction: a name of `DIRECTIONS`, or a vector, with z up if possible."""
         CameraController.of(self).look_along(direction)
 
+    def set_up(self, axis: str) -> None:
+        """Set the vertical axis of the scene: x, y or z."""
+        self._pane.up = axis
+
     # Fast and fine frames
 
     def moving(self) -> None:
@@ -283,6 +291,7 @@ class Viewport:
         if fast == self._fast:
             return
         self._fast = self.mesh_layer.fast = fast
+        self._pane.set_fast(fast)
         self.overlay_layers.set_fast(fast)
         if self.frame is None:
             return

@@ -58,7 +58,7 @@ TOLD = {
              "view_minus_x", "view_minus_y", "view_minus_z", "view_iso", "view_back", "view_forward", "parallel", "up_x",
              "up_y", "up_z", "paste_camera", "fit", "keep_camera", "measure"),
     "structure": ("show_irregular", "show_boundary", "show_sharp", "show_fixed", "show_free", "show_locked",
-                  "show_kinds", "show_others", "show_original", "show_interfaces"),
+                  "show_kinds", "show_others", "show_original", "show_interfaces", "show_shadow"),
     "hexes": ("next_worst", "previous_worst", "free_isolated", "back", "isolate", "dig", "undig", "visit", "tag", "pin",
               "undo", "redo"),
     "views": ("beside", "wipe", "wipe_left", "wipe_right", "close_views", "compare", "cancel_comparison"),

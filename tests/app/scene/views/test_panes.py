@@ -255,3 +255,17 @@ def test_a_view_that_is_no_longer_shown_leaves_the_window(stage, panes):
     assert stage.window.GetRenderers().GetNumberOfItems() == one > alone
     panes.show([])
     assert stage.window.GetRenderers().GetNumberOfItems() == alone
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_the_background_is_a_gradient_at_rest_and_uniform_in_fast_frames(panes, stage, dark):
+    panes.first.axes.widget.EnabledOff()
+    panes.set_dark(dark)
+    panes.moving()
+    uniform = stage.picture().astype(int)[:, 1]
+    assert np.ptp(uniform, axis=0).max() == 0
+    panes.still()
+    column = stage.picture().astype(int)[:, 1]
+    assert 8 < np.ptp(column, axis=0).max() < 30  # restrained
+    assert (np.diff(column.sum(axis=1)) <= 0).all()  # brighter above
+    assert np.abs(column.mean(axis=0) - uniform[0]).max() <= 2
