@@ -48,7 +48,7 @@ def test_the_reference_has_parameters_types_and_examples(site):
 
 def test_names_that_share_a_description_have_their_own_types(site):
     text = re.sub("<[^>]+>", "", (site / "api/run.html").read_text(encoding="utf-8"))
-    section = text.split("Run a smoother or a recipe to its end.")[1][:2000]
+    section = text.split("Run a method or a recipe to its end.")[1][:2000]
     stop = section.split("stop")[1].split("See iterate")[0]
     assert "StoppingCriteria" in stop
     assert "PathLike" not in stop

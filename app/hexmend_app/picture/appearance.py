@@ -48,6 +48,10 @@ class Since(StrEnum):
     """The previous recorded iteration."""
 
 
+#: The event of `Since.OPENED`, in sentences.
+FILE_OPENED = "the file was opened"
+
+
 class Arrows(StrEnum):
     """Nodes with arrows from their previous to their current positions."""
 

@@ -95,7 +95,7 @@ def _layout_actions(docks: Docks) -> list[Action]:
         ),
         Action(
             id="reset_layout",
-            text=tr("&Reset layout"),
+            text=tr("De&fault layout"),
             menu="View/Panels",
             part=9,
             icon="dock-window",

@@ -103,8 +103,8 @@ def test_what_is_worse_is_red(mesh):
 
 def test_without_the_viewer_it_is_said_why_there_is_no_picture(mesh, drawing):
     drawing()
-    assert "hexmend[app,notebook]" in mesh._repr_html_()
-    with pytest.raises(HexmendError, match="hexmend\\[app,notebook\\]"):
+    assert ".[app,notebook]" in mesh._repr_html_()
+    with pytest.raises(HexmendError, match=r"\.\[app,notebook\]"):
         hx.view(mesh)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hexmend.boundary.displacement import Displacement, ReferenceState
-from hexmend_app.picture.appearance import Since
+from hexmend_app.picture.appearance import FILE_OPENED, Since
 from hexmend_app.state.mesh import history
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History
@@ -44,7 +44,7 @@ class ComparisonBases:
     def _find(self, since: Since, shown: history.RecordedIteration | None) -> tuple[State, str]:
         """Return the earlier state and its name; `shown` is the iteration that the document shows."""
         if since is Since.OPENED or shown is None:
-            return self._document.start, "the file was opened"
+            return self._document.start, FILE_OPENED
         record = shown.record
         if since is Since.ITERATION and shown.number:
             numbers = self._history.recorded_numbers(record)

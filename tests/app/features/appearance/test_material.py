@@ -84,6 +84,7 @@ def test_a_session_with_the_former_layer_colours_by_material(host, tmp_path):
     _, content = read_archive(path, "Hexmend session", session_file.VERSION)
     content["window"]["view"]["look"]["structure"]["extra"] = ["materials"]
     del content["window"]["run_setup"]["rules"], content["window"]["comparison"]["rules"]
+    del content["window"]["view"]["measuring"]
     write_archive(path, "Hexmend session", 6, content)
     data = session_data.read(path)
     assert data.view.look.colours.metric == "material"

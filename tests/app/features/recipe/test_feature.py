@@ -99,7 +99,7 @@ def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
     assert stages(panel) == [
         "1  GETMe, simultaneous (at most 20 iterations)",
         "2  Local steepest descent (p 4, at most 3 iterations, tolerance 0)",
-        "3  Mend (Guard on)",
+        "3  Mend (Keep the best result on)",
     ]
     press(button(panel, "Move up"))  # the one added last is chosen
     assert [stage.smoother.name for stage in window.session.recipe_draft.stages] == ["getme", "mend", "local-sd"]
