@@ -66,6 +66,7 @@ study: $(VENV)/.app $(VENV)/.kernels
 	@$(BIN)/hexmend study thesis --quick -o build/study
 
 docs: $(VENV)/.app $(VENV)/.kernels
+	@scripts/debian-packages
 	@$(BIN)/python scripts/tables.py
 	@$(BIN)/python scripts/write_reference.py
 	@$(BIN)/python scripts/draw_method_figures.py docs
