@@ -100,6 +100,23 @@ def test_a_footprint_has_the_place_and_the_area_of_the_projection(axis, n):
     np.testing.assert_allclose(low + pixel * centre, 5 + sides / 2, atol=0.05 * sides.max())
 
 
+def test_fast_frames_show_the_shadow_until_nodes_move(panes):
+    def in_fast_frame(mesh):
+        pictures = []
+        for look in (Look(), BARE):
+            if look is not BARE:
+                panes.draw(Frame(MESH, FIGURES, look=look))
+                panes.still()
+                panes.pixels()
+            panes.draw(Frame(mesh, FIGURES, look=look))
+            panes.moving()
+            pictures.append(panes.pixels())
+        return np.abs(pictures[0] - pictures[1]).max()
+
+    assert in_fast_frame(MESH) > 3
+    assert in_fast_frame(MESH.with_points(1.01 * MESH.points)) == 0
+
+
 def test_hidden_hexes_cast_no_shadow(panes):
     everything = darkened(panes).sum()
     hidden = frozenset(range(MESH.n_hexes - 2))
