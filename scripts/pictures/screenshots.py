@@ -133,8 +133,8 @@ def zoom_out(window: Window, share: float = 0.85) -> None:
 
 def resize_panels(window: Window, width: int, height: int) -> None:
     """Resize the panels on the right, in pixels."""
-    docks = [dock for dock in window.findChildren(QDockWidget) if dock.windowTitle() in ("Run", "Histogram")]
-    tools, facts = sorted(docks, key=lambda dock: dock.windowTitle() != "Run")
+    docks = [dock for dock in window.findChildren(QDockWidget) if dock.windowTitle() in ("Smooth", "Histogram")]
+    tools, facts = sorted(docks, key=lambda dock: dock.windowTitle() != "Smooth")
     window.resizeDocks([tools, facts], [width, width], Qt.Orientation.Horizontal)
     window.resizeDocks([tools, facts], [tools.height() + facts.height() - height, height], Qt.Orientation.Vertical)
 
