@@ -244,7 +244,7 @@ def test_meshes_are_found_in_subfolders_and_cases_are_one_mesh(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_click_on_a_head_sorts_by_number_and_missing_values_come_last(bench, tmp_path):
+def test_heads_sort(bench, tmp_path):
     with chromium(tmp_path) as browser:
         opened = browser("--no-sandbox")
         page = opened.new_page()

@@ -10,8 +10,9 @@ from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
 from superqt import QFlowLayout
 
 from hexmend_app.theme.palette import KEPT
-from hexmend_app.theme.style import BLUE, GREY, MUTED, icon, note, set_help, set_variant, smaller
+from hexmend_app.theme.style import BLUE, GREY, MUTED, icon, set_help, set_variant, smaller, tint
 from hexmend_app.translation import tr
+from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.legend import Swatch, legend_entry
 
 _MAX_NAME_WIDTH, _HEIGHT = 150, 18
@@ -38,8 +39,9 @@ class HistogramLegend(QWidget):
         self._flow.setHorizontalSpacing(4)
         self._flow.setVerticalSpacing(0)
         self.entries: dict[int, SnapshotEntry] = {}
-        self._title = note()
-        self._title.setWordWrap(False)
+        self._title = ElidingLabel()
+        self._title.setFont(smaller(self._title.font()))
+        tint(self._title, MUTED)
         self._title.setSizePolicy(self.sizePolicy())
         self._title.setMinimumHeight(_HEIGHT)
         self._title.setContentsMargins(0, 0, 8, 0)
@@ -57,6 +59,7 @@ class HistogramLegend(QWidget):
 
     def size_within(self, width: int) -> QSize:
         """Return the size for a maximum width: one row if it fits, or more rows."""
+        self._title.setMaximumWidth(max(width, 1))  # shortened in a narrow plot
         widths = [self._flow.itemAt(index).sizeHint().width() for index in range(self._flow.count())]
         width = min(sum(widths) + (len(widths) - 1) * self._flow.horizontalSpacing() + 1, max(width, 1))
         return QSize(width, self._flow.heightForWidth(width))

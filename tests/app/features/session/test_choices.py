@@ -30,7 +30,7 @@ _NOT_KEPT = (
     "action pace",
 )  # fmt: skip
 #: Explanations that are unfolded, and lists of a wipe that there is not.
-_UNSEEN = ("Explain", "Left view", "Right view")
+_UNSEEN = ("Explain", "Advanced", "Left view", "Right view")
 
 
 @pytest.fixture

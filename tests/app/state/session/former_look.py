@@ -30,6 +30,6 @@ def former_look(**changed: Any) -> dict[str, Any]:
 def without_later_fields(data: Any) -> Any:
     """Return the data of a session without the fields of meshes and documents that later versions introduced."""
     if isinstance(data, dict):
-        later = {"side_set_types", "periodic_pairs", "files", "rules"}
+        later = {"side_set_types", "periodic_pairs", "files", "rules", "measuring"}
         return {key: without_later_fields(value) for key, value in data.items() if key not in later}
     return [without_later_fields(value) for value in data] if isinstance(data, list) else data
