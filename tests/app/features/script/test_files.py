@@ -96,7 +96,7 @@ def assert_same_pictures(both, folder):
     before, after = (frames(one, folder) for one in both)
     assert before.shape == after.shape
     assert before.std() > 5
-    assert abs(before - after).mean() < 0.1
+    assert abs(before - after).mean() < 0.5  # films have palettes of 256 colours
 
 
 def test_a_histogram_with_snapshots(window, qtbot, script, tmp_path):
@@ -259,6 +259,8 @@ def test_a_figure_set(window, qtbot, script, tmp_path):
     for both in (surface, cut):
         assert_same_pictures(both, tmp_path)
     for before, after in others:
+        if isinstance(before, list):  # a script knows the nodes of a run, not its parameters
+            before, after = ([row | {"parameters": ""} for row in rows] for rows in (before, after))
         assert before == after
 
 
