@@ -31,7 +31,7 @@ SET = "set:"
 #: Value that leaves the choice to the program.
 AUTO = "auto"
 #: Fields of `Parameter` that `hexmend methods --json` does not list.
-_NOT_IN_JSON = ("type", "no_limit", "suggestions", "sets", "automatic", "percent_of", "titles", "advanced")
+_NOT_IN_JSON = ("type", "no_limit", "suggestions", "sets", "automatic", "percent_of", "titles", "advanced", "label")
 _TRUE, _FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
@@ -63,6 +63,8 @@ class Parameter:
         Titles of the choices in forms, in their order; empty where the choices themselves say enough.
     advanced : bool
         Forms show it on request only, as its default suits nearly all meshes.
+    label : str
+        Label in forms; "" for the name in words.
     """
 
     name: str
@@ -80,6 +82,7 @@ class Parameter:
     percent_of: str = ""
     titles: tuple[str, ...] = ()
     advanced: bool = False
+    label: str = ""
 
     def check(self, value: Any) -> Any:
         """Return `value` as this parameter's type, or raise `ParameterError` saying what was expected.
@@ -201,11 +204,12 @@ def parameter(
     percent_of: str = "",
     titles: tuple[str, ...] = (),
     advanced: bool = False,
+    label: str = "",
 ) -> Any:
     """Declare a dataclass field as a parameter; its type is the field's annotation, the rest as in `Parameter`."""
     own = {"low": low, "high": high, "choices": choices, "unit": unit, "help": help, "no_limit": no_limit}
     own |= {"suggestions": suggestions, "automatic": automatic, "percent_of": percent_of, "sets": sets}
-    own |= {"titles": titles, "advanced": advanced}
+    own |= {"titles": titles, "advanced": advanced, "label": label}
     return dataclasses.field(default=default, metadata={"parameter": own})
 
 

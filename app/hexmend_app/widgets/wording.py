@@ -8,25 +8,29 @@ from pathlib import Path
 
 from PySide6.QtCore import QLocale
 
+from hexmend.parameters import Parameter
+from hexmend_app.translation import tr
+
 _GREEK = {"alpha": "α", "beta": "β", "delta": "δ", "eta": "η", "lambda": "λ", "rho": "ρ", "sigma": "σ", "tau": "τ"}
-#: Labels of parameters whose names say too little.
-_LABELS = {"guard": "Keep the best result"}
 _SUBSCRIPT = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
 def name_in_words(name: str) -> str:
     """Return a declared name as a label.
 
-    >>> name_in_words("first_step"), name_in_words("c1"), name_in_words("delta"), name_in_words("guard")
-    ('First step', 'c₁', 'Delta (δ)', 'Keep the best result')
+    >>> name_in_words("first_step"), name_in_words("c1"), name_in_words("delta"), name_in_words("p")
+    ('First step', 'c₁', 'Delta (δ)', 'p')
     """
-    if name in _LABELS:
-        return _LABELS[name]
     if re.fullmatch(r"[a-z]\d*", name):
         return name.translate(_SUBSCRIPT)
     words = name.replace("_", " ").replace("-", " ").strip()
     words = words[:1].upper() + words[1:]
     return f"{words} ({_GREEK[name]})" if name in _GREEK else words
+
+
+def label_of(parameter: Parameter) -> str:
+    """Return the label of a declared parameter, in the language of the program."""
+    return tr(parameter.label or name_in_words(parameter.name))
 
 
 def short_number(value: float) -> str:

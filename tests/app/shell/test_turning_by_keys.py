@@ -66,7 +66,7 @@ def test_keys_of_vtk_do_nothing(window):
     view = window.canvas.interactor
     view.setFocus()
     before = pixels(window)
-    for typed in "wsquj":  # R measures
+    for typed in "wsrquj":
         QTest.keyClicks(view, typed)
     assert (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() < 0.01
     assert window.isVisible()

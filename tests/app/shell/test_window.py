@@ -31,6 +31,18 @@ def test_an_opened_mesh_is_shown_with_its_figures(window):
     assert (image.max(axis=2) - image.min(axis=2) > 60).mean() > 0.05
 
 
+def test_the_view_keeps_its_size_while_a_task_is_shown(window):
+    QApplication.processEvents()
+    size = window.canvas.size()
+    window.busy.show_work("test", "Drawing the film…", "Cancel", "End it.")
+    QApplication.processEvents()
+    assert window.busy.isVisible()
+    assert window.canvas.size() == size  # else a fitted camera would move
+    window.busy.done("test")
+    QApplication.processEvents()
+    assert window.canvas.size() == size
+
+
 def test_the_status_bar_shows_the_selected_hex(window):
     counts = named(window, QLabel, "Counts")
     q = window.session.document.now.figures.q

@@ -82,6 +82,6 @@ class FeatureMeasure(Feature):
     def _switch(self, on: bool) -> None:
         if on:
             self._view.start_measuring()
-            self.host.show_panel("measure")
+            self.host.offer_panel("measure")
         else:
             self._view.end_measuring()

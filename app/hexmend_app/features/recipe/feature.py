@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from hexmend.parameters import Parametrised, declared
+from hexmend.parameters import Parameter, Parametrised, declared
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.recipe_files import read_recipe, write_recipe
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
@@ -15,7 +15,7 @@ from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_recipe, ask_recipe_target
-from hexmend_app.widgets.wording import name_in_words, short_number
+from hexmend_app.widgets.wording import label_of, short_number
 
 _LIMITS = {
     "max_iterations": "at most {value} iterations",
@@ -169,15 +169,15 @@ def _text(stage: Stage) -> tuple[str, str]:
     return title, f"{title}: {stage.smoother.help}"
 
 
-def _value_text(name: str, template: str | None, value: str) -> str:
-    """Return the text of a value, by a template or with the name before it."""
-    return tr(template, value=value) if template else f"{tr(name_in_words(name))} {value}"
+def _value_text(parameter: Parameter, template: str | None, value: str) -> str:
+    """Return the text of a value, by a template or with the label before it."""
+    return tr(template, value=value) if template else f"{label_of(parameter)} {value}"
 
 
 def _changed_values(part: Parametrised, templates: Mapping[str, str] | None = None) -> list[str]:
     """Return the texts of values that differ from the defaults, by templates or names."""
     return [
-        _value_text(parameter.name, (templates or {}).get(parameter.name), _value(value))
+        _value_text(parameter, (templates or {}).get(parameter.name), _value(value))
         for parameter in declared(part)
         if (value := getattr(part, parameter.name)) != parameter.default
     ]

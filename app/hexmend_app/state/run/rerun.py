@@ -61,6 +61,7 @@ def rerun(
     history, run, pending = History(math.inf), iterate(ruled, work, stop), list(changes)
     record = history.begin(work.title, State.of(mesh))
     record.name, record.slot, record.plotted = name, slot, plotted
+    record.work, record.stop, record.rules = work, stop, rules or MotionRules()
     record.parent = None if parent is None else RecordedIteration(*parent)
     history.add(record, run.start)
     _switch_method(run, pending, 0)

@@ -19,7 +19,7 @@ from hexmend_app.theme.style import BLUE, WORSE, icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
 from hexmend_app.widgets.inputs.number_box import LONGEST_UNIT, NumberBox
-from hexmend_app.widgets.wording import name_in_words, short_number
+from hexmend_app.widgets.wording import label_of, short_number
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,7 @@ class ParameterForm(QWidget):
         self._show_rows()
 
     def _make_row(self, at: int, declaration: Parameter) -> _Row:
-        name, help = tr(name_in_words(declaration.name)), tr(declaration.help)
+        name, help = label_of(declaration), tr(declaration.help)
         editor = editor_for(declaration)
         default = declaration.default
         shown = _default_text(default)

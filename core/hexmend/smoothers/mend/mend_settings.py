@@ -48,7 +48,9 @@ class MendSettings(ObjectiveSmoother):
         advanced=True,
     )
     guard: bool = parameter(
-        False, help="Keep the best iterate that lowers neither the least q(H) nor the least scaled Jacobian."
+        False,
+        help="Keep the best iterate that lowers neither the least q(H) nor the least scaled Jacobian.",
+        label="Keep the best result",
     )
     solver_iterations: int = parameter(
         200, low=1, high=10**6, help="Iteration limit of conjugate gradients for a Newton step.", advanced=True

@@ -96,7 +96,7 @@ def assert_same_pictures(both, folder):
     before, after = (frames(one, folder) for one in both)
     assert before.shape == after.shape
     assert before.std() > 5
-    assert abs(before - after).mean() < 0.5  # films have palettes of 256 colours
+    assert abs(before - after).mean() < 0.1
 
 
 def test_a_histogram_with_snapshots(window, qtbot, script, tmp_path):
@@ -259,8 +259,6 @@ def test_a_figure_set(window, qtbot, script, tmp_path):
     for both in (surface, cut):
         assert_same_pictures(both, tmp_path)
     for before, after in others:
-        if isinstance(before, list):  # a script knows the nodes of a run, not its parameters
-            before, after = ([row | {"parameters": ""} for row in rows] for rows in (before, after))
         assert before == after
 
 
@@ -272,7 +270,7 @@ def test_a_report(window, qtbot, script, tmp_path):
     qtbot.waitUntil(lambda: not feature.going_on, timeout=PATIENCE)
     ((before, after),) = again(script, tmp_path, path)
     assert before.count(b"<figure") == after.count(b"<figure") > 4
-    qualities = re.compile(rb"[0-9,]+ inverted, q min [0-9.]+")  # no name: the mesh in the page is a long text
+    qualities = re.compile(rb"[^<>:]{1,60}: [0-9,]+ inverted, q min [0-9.]+")  # the mesh in the page is one long text
     assert qualities.findall(before) == qualities.findall(after) != []
 
 

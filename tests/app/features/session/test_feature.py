@@ -241,8 +241,7 @@ def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window)
         WindowStart(bare_window, tmp_path / "work.hexmend")
     bare_window.refresh()
     assert tables(bare_window) == before
-    # A fitted view is fitted anew while panels take their place.
-    assert bare_window.canvas.pose.position == pytest.approx(pose.position, rel=0.05)
+    assert bare_window.canvas.pose == pose
 
 
 def test_a_damaged_session_is_rejected_and_the_open_mesh_stays(window, qtbot, tmp_path):

@@ -282,7 +282,7 @@ def test_lines_are_as_thick_on_paper_in_every_size(panels, lines):
         image = np.asarray(page.image().convert("L"))[100 : round(0.75 * size[1])]  # without words and axes
         shares.append((image < 150).mean())
     assert shares[0] > 5e-4
-    assert shares[1] == pytest.approx(shares[0], rel=0.4)
+    assert shares[1] == pytest.approx(shares[0], rel=0.2)
 
 
 @pytest.mark.slow
