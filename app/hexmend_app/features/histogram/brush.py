@@ -122,24 +122,25 @@ class ColourRange(QObject):
 
     Signals
     -------
-    changed(low, high)
-        The user dragged a handle to these positions, from 0 to 1.
+    dragged(end, position)
+        The user dragged a handle: 0 for the low end, 1 for the high one.
 
     Parameters
     ----------
     plot : pyqtgraph.PlotWidget
     """
 
-    changed = Signal(float, float)
+    dragged = Signal(int, float)
 
     def __init__(self, plot: pg.PlotWidget):
         super().__init__(plot)
+        self._ends = [0.0, 1.0]  # also beyond the axis
         self._lines = []
         for marker in ("|>", "<|"):
             line = pg.InfiniteLine(angle=90, movable=True, bounds=(0.0, 1.0))
             line.addMarker(marker, position=0.5, size=12)
             line.setZValue(50)
-            line.sigDragged.connect(self._on_dragged)
+            line.sigDragged.connect(lambda line: self.drag(self._lines.index(line), line.value()))
             line.hide()
             plot.addItem(line, ignoreBounds=True)
             self._lines.append(line)
@@ -151,24 +152,30 @@ class ColourRange(QObject):
             line.setHoverPen(pg.mkPen(hover, width=2))
 
     def show_ends(self, ends: tuple[float, float] | None) -> None:
-        """Show the handles at two positions, each moved to the axis; hide them for None."""
-        for index, line in enumerate(self._lines):
+        """Show the handles at two positions, at the nearest end of the axis if beyond it; hide them for None."""
+        for line in self._lines:
             line.setVisible(ends is not None)
-            if ends is not None and not line.moving:
-                with QSignalBlocker(line):
-                    line.setValue(min(max(ends[index], 0.0), 1.0))
+        if ends is not None and not any(line.moving for line in self._lines):
+            self._ends[:] = ends
+            self._place()
 
     @property
     def shown(self) -> bool:
         """True if the handles are shown."""
         return any(line.isVisible() for line in self._lines)
 
-    def ends(self) -> tuple[float, float]:
+    def handles(self) -> tuple[float, float]:
         """Return the positions of both handles."""
         return self._lines[0].value(), self._lines[1].value()
 
-    def _on_dragged(self, line: pg.InfiniteLine) -> None:
-        low, high = self.ends()
-        if high - low < _LEAST_RANGE:
-            line.setValue(high - _LEAST_RANGE if line is self._lines[0] else low + _LEAST_RANGE)
-        self.changed.emit(*self.ends())
+    def _place(self) -> None:
+        for line, end in zip(self._lines, self._ends, strict=True):
+            with QSignalBlocker(line):
+                line.setValue(min(max(end, 0.0), 1.0))
+
+    def drag(self, end: int, position: float) -> None:
+        """Move one end, 0 or 1, to a position; it stays on its side of the other end."""
+        limit = self._ends[1 - end] + (2 * end - 1) * _LEAST_RANGE
+        self._ends[end] = max(position, limit) if end else min(position, limit)
+        self._place()
+        self.dragged.emit(end, self._ends[end])

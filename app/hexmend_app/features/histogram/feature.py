@@ -147,8 +147,8 @@ class FeatureHistogram(Feature):
         self._view.change(show={"quality": range.quality, "metric": range.metric, "inverted": range.inverted})
 
     def _pin_colours(self, low: float, high: float) -> None:
-        """Pin the range of colours to values with three digits."""
-        self._view.change(colours={"range": (float(f"{low:.3g}"), float(f"{high:.3g}"))})
+        """Pin the range of colours."""
+        self._view.change(colours={"range": (low, high)})
 
     def _isolate_inverted(self) -> None:
         now = self._document.now

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -69,6 +70,7 @@ class QualityHistogram(QWidget):
         super().__init__(parent)
         self._distributions = Distributions()
         self._range: Show | None = None
+        self._colour_ends = (0.0, 1.0)
         self._announcer = Announcer(self)
         self._announcer.announced.connect(self.range_changed)
         self._make_widgets()
@@ -105,7 +107,7 @@ class QualityHistogram(QWidget):
         self.plot.view.cleared.connect(lambda: self._choose(None))
         self.plot.view.bar_clicked.connect(self.inverted_requested)
         self.plot.view.clicked.connect(self._on_clicked)
-        self.plot.colour_range.changed.connect(self._on_colours)
+        self.plot.colour_range.dragged.connect(self._on_colours)
         self.plot.plot.scene().sigMouseMoved.connect(self._hover)
         self.summary = ElidingLabel()  # one line: a second line would move the plot while a range is brushed
         self.summary.setFont(tabular(smaller(self.summary.font())))
@@ -180,6 +182,7 @@ class QualityHistogram(QWidget):
     def set_colour_range(self, ends: tuple[float, float] | None) -> None:
         """Show the values at both ends of the range of colours; None if the colours show another metric."""
         if ends is not None:
+            self._colour_ends = ends
             low, width = self.axis.low, self.axis.high - self.axis.low
             ends = ((ends[0] - low) / width, (ends[1] - low) / width)
         self.plot.colour_range.show_ends(ends)
@@ -230,9 +233,12 @@ class QualityHistogram(QWidget):
         if cell is not None and current.in_cell(cell) and y <= self.plot.heights.bar(current, current.in_cell(cell))[0]:
             self._choose(current.cells.range(cell, cell))
 
-    def _on_colours(self, low: float, high: float) -> None:
-        axis = self.axis
-        self.colours_dragged.emit(*(axis.low + end * (axis.high - axis.low) for end in (low, high)))
+    def _on_colours(self, end: int, position: float) -> None:
+        """Announce the range of colours with one end at a position of the plot, rounded to a thousandth of the axis."""
+        ends, width = list(self._colour_ends), self.axis.high - self.axis.low
+        ends[end] = round(self.axis.low + position * width, 3 - math.floor(math.log10(width)))
+        self._colour_ends = (ends[0], ends[1])
+        self.colours_dragged.emit(*ends)
 
     def _on_typed(self, low: float, high: float, inverted: bool) -> None:
         minimum, maximum = METRICS[self.axis.metric].full_range

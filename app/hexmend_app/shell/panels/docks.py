@@ -44,9 +44,11 @@ class Docks(DockSet):
         dock = self._docks.get(id)
         if dock is None or not dock.is_open:  # a bar below the view is always visible
             return
-        if self.hidden or (self.folded and self._in_drawer(dock)):
+        if self.folded and self._in_drawer(dock):
             self._offered.append(dock)
-            self.group = dock.group if self._in_drawer(dock) else self.group
+            self.group = dock.group
+        elif self.hidden:
+            self._offered.append(dock)
         elif self._in_drawer(dock):
             self._open_drawer(dock.group)
             self._raise(dock)
@@ -135,6 +137,7 @@ class Docks(DockSet):
         else:
             self._main.restoreState(self._saved, LAYOUT)
         self.hidden = hidden
+        newest = next((dock for dock in reversed(self._offered) if self._in_drawer(dock)), None)
         if not hidden:
             for dock in [dock for dock in self._offered if dock.isVisible()]:
                 self._raise(dock)
@@ -142,6 +145,8 @@ class Docks(DockSet):
         for id in self._shown_bars:
             self._bars[id].setVisible(not hidden)
         self._restoring = False
+        if not (hidden or self.folded) and newest is not None:
+            self._open_drawer(newest.group)  # a panel of another group was offered meanwhile
         self._refresh_row()
         self.changed.emit()
 

@@ -225,14 +225,29 @@ def test_an_end_of_the_range_of_colours_is_dragged(histogram, announced, qtbot):
     ranges = []
     histogram.colours_dragged.connect(lambda low, high: ranges.append((low, high)))
     histogram.set_colour_range((0.2, 2.0))
-    assert histogram.plot.colour_range.ends() == (0.2, 1.0)  # at the end of the axis
+    assert histogram.plot.colour_range.handles() == (0.2, 1.0)  # at the end of the axis
     viewport, start = histogram.plot.plot.viewport(), point_at(histogram, 0.2)
     move(viewport, QPointF(start), Qt.MouseButton.NoButton)
     QTest.mousePress(viewport, LEFT, pos=start)
     for x in (0.25, 0.3, 0.4):
         move(viewport, QPointF(point_at(histogram, x)), LEFT)
     QTest.mouseRelease(viewport, LEFT, pos=point_at(histogram, 0.4))
-    assert ranges[-1] == pytest.approx((0.4, 1.0), abs=0.02)
+    low, high = ranges[-1]
+    assert low == pytest.approx(0.4, abs=0.02)
+    assert high == 2.0  # stays beyond the axis
     assert announced == []  # the hexes shown stay the same
     histogram.set_colour_range(None)
     assert not histogram.plot.colour_range.shown
+
+
+@pytest.mark.parametrize("ends", [(1.5, 2.0), (-2.0, -1.0), (0.3, 0.3005)])
+@pytest.mark.parametrize("end", [0, 1])
+def test_the_range_of_colours_is_never_empty(histogram, ends, end):
+    ranges = []
+    histogram.colours_dragged.connect(lambda low, high: ranges.append((low, high)))
+    for position in (0.0, 0.3, 1.0):
+        histogram.set_colour_range(ends)
+        histogram.plot.colour_range.drag(end, position)
+    assert len(ranges) == 3
+    assert all(low < high for low, high in ranges)
+    assert all(pair[1 - end] == ends[1 - end] for pair in ranges)

@@ -204,6 +204,18 @@ def test_offering_a_panel_of_another_group_shows_it_in_the_open_drawer(docks):
     assert checked(docks) == [PanelGroup.SMOOTH]
 
 
+def test_a_panel_of_another_group_that_is_offered_while_all_are_hidden_is_shown_with_them(docks):
+    press(docks, PanelGroup.SMOOTH)
+    docks.set_hidden(True)
+    docks.offer_panel("tags")
+    assert checked(docks) == []
+    docks.set_hidden(False)
+    assert visible(docks) == {"run", "recipe", "histogram", "tags"}
+    assert checked(docks) == [PanelGroup.FIND]
+    press(docks, PanelGroup.FIND)
+    assert visible(docks) == {"run", "recipe", "histogram"}
+
+
 def test_a_dock_with_a_tab_has_no_title_of_its_own(docks):
     docks.show_panel("tags")
     QApplication.processEvents()
