@@ -1,11 +1,14 @@
 """The ground shadow: where it is, when it is seen, and in which pictures."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from hexmend.quality import measure
 from hexmend_app.picture import Camera, ColourBarStyle, Page, Scene, TextPlace
 from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.scene.geometry.footprint import footprint
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
@@ -17,6 +20,7 @@ from tests.core.grids import grid
 MESH = grid(4, 4, 2)
 FIGURES = measure(MESH.points, MESH.hexes)
 BARE = Look(structure=Look().structure.without("shadow"))
+NO_CUT = Cut()
 
 
 @pytest.fixture
@@ -29,10 +33,10 @@ def panes():
         yield panes
 
 
-def darkened(panes):
+def darkened(panes, cut=NO_CUT):
     """Return True for pixels that the shadow darkens in a fine frame, (height, width) bool."""
     pictures = []
-    for look in (Look(), BARE):
+    for look in (replace(Look(), cut=cut), replace(BARE, cut=cut)):
         panes.draw(Frame(MESH, FIGURES, look=look))
         panes.camera_controller.reset_depth()
         panes.still()
@@ -63,6 +67,14 @@ def test_there_is_no_shadow_upside_down(panes):
 def test_the_ground_is_perpendicular_to_the_vertical_axis(panes, axis):
     panes.camera_controller.set_up(axis)
     assert darkened(panes)[120:].sum() > 100
+
+
+@pytest.mark.parametrize("style", CutStyle)
+def test_the_shadow_is_that_of_the_hexes_that_a_cut_leaves(panes, style):
+    whole = darkened(panes)
+    cut = darkened(panes, Cut.at((1, 0, 0), (1.0, 2.0, 1.0), style))
+    assert 0.2 * whole.sum() < cut.sum() < 0.7 * whole.sum()
+    assert (darkened(panes) == whole).all()
 
 
 def test_the_shadow_is_no_part_of_a_fitted_view(panes):

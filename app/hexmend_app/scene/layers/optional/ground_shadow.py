@@ -9,6 +9,8 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkRenderingCore import vtkTexture
 
 from hexmend.mesh.mesh import Mesh
+from hexmend_app.picture.cut import Cut
+from hexmend_app.scene.cutting.cut import remaining_hexes
 from hexmend_app.scene.geometry.filters import same_mask
 from hexmend_app.scene.geometry.footprint import footprint
 from hexmend_app.scene.layers.flat_actor import flat_actor
@@ -50,7 +52,7 @@ class GroundShadow(OptionalLayer):
         self._pane = pane
         self._frame: Frame | None = None
         self._keep: np.ndarray | None = None
-        self._drawn: tuple | None = None  # points, axis and mask of the shadow
+        self._drawn: tuple | None = None  # points, axis, smooth cut and mask of the shadow
         self._fast = False
         self._ground, self._up = np.zeros(3), np.zeros(3)
         self._actor = flat_actor(pane.renderer)
@@ -91,15 +93,22 @@ class GroundShadow(OptionalLayer):
         if self._frame is None:
             return
         axis = "xyz".index(self._pane.up)
-        points = self._frame.mesh.points
-        if not self._fast and not self._is_drawn(points, axis):
-            self._drawn = points, axis, self._keep
+        if not self._fast and not self._is_drawn(axis):
+            self._drawn = self._frame.mesh.points, axis, self._smooth_cut, self._keep
             self._update(axis)
-        self._actor.SetVisibility(self._is_drawn(points, axis) and self._is_seen())
+        self._actor.SetVisibility(self._is_drawn(axis) and self._is_seen())
 
-    def _is_drawn(self, points: np.ndarray, axis: int) -> bool:
-        drawn = self._drawn
-        return drawn is not None and drawn[0] is points and drawn[1] == axis and same_mask(drawn[2], self._keep)
+    @property
+    def _smooth_cut(self) -> Cut | None:
+        """The cut if it is smooth: the mask contains the hexes that it cuts away."""
+        cut = self._frame.look.cut
+        return cut if cut.smooth else None
+
+    def _is_drawn(self, axis: int) -> bool:
+        if self._drawn is None:
+            return False
+        points, *others, keep = self._drawn
+        return points is self._frame.mesh.points and others == [axis, self._smooth_cut] and same_mask(keep, self._keep)
 
     def _is_seen(self) -> bool:
         camera = self._pane.camera
@@ -108,7 +117,10 @@ class GroundShadow(OptionalLayer):
 
     def _update(self, axis: int) -> None:
         mesh = self._frame.mesh
-        numbers = np.arange(mesh.n_hexes) if self._keep is None else np.flatnonzero(self._keep)
+        keep = np.ones(mesh.n_hexes, bool) if self._keep is None else self._keep
+        if self._smooth_cut is not None:
+            keep = keep & remaining_hexes(mesh.points, mesh.hexes, self._smooth_cut)
+        numbers = np.flatnonzero(keep)
         hexes = mesh.hexes[numbers[:: -(-len(numbers) // _MAX_HEXES) or 1]]
         if not len(hexes):
             self._drawn = None
@@ -116,7 +128,7 @@ class GroundShadow(OptionalLayer):
         image, low, high = footprint(mesh.points, hexes, axis)
         shown = mesh.points[hexes.ravel()]
         lowest = shown[:, axis].min()
-        if self._keep is None:
+        if self._keep is None and self._smooth_cut is None:
             lowest = mesh.points[mesh.topology.boundary, axis].min(initial=lowest)
         level = lowest - _GAP * np.linalg.norm(np.ptp(shown, axis=0))
         across = [k for k in range(3) if k != axis]
