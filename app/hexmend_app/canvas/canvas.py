@@ -195,8 +195,7 @@ class Canvas(CameraView):
 
     def show_captions(self, captions: Sequence[Caption], wipe: Wipe | None) -> None:
         """Show the captions of the views, with the numbers of hexes with special colours."""
-        self.frame.set_captions(captions, wipe)
-        self._legend.show_counts()
+        self.frame.set_captions(self._legend.with_counts(captions), wipe)
 
     def move_wipe(self, wipe: Wipe) -> None:
         """Move the edge of the wipe."""
@@ -259,10 +258,9 @@ class Canvas(CameraView):
         if not self._measuring:
             self.clicked.emit(self._at(place))
         elif (hit := self._pick(place)) is not None:
-            node = self.viewport.frame.mesh.points[hit.node]
-            distance = pixels(self.panes.pane.renderer, float(np.linalg.norm(hit.place - node)), node)
-            near = distance <= _SNAP * self.devicePixelRatioF()
-            self.measured.emit(tuple((node if near else hit.place).tolist()))
+            gap = float(np.linalg.norm(hit.place - hit.node_place))
+            near = pixels(self.panes.pane.renderer, gap, hit.node_place) <= _SNAP * self.devicePixelRatioF()
+            self.measured.emit(tuple((hit.node_place if near else hit.place).tolist()))
 
     def _dig(self, place: QPointF) -> None:
         hit = self._pick(place)

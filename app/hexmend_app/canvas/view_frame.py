@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from PySide6.QtCore import QRect, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
@@ -71,13 +70,9 @@ class ViewFrame(QVBoxLayout):
         self.fit()
         self._wipe_row.set_captions(captions, (wipe.left, wipe.right) if wipe is not None else None)
 
-    def set_counts(self, counts: Sequence[tuple[tuple[str, int], ...]]) -> None:
-        """Set names and numbers of hexes with special colours, for each view."""
-        if len(counts) == len(self.captions) and any(
-            caption.counts != own for caption, own in zip(self.captions, counts, strict=True)
-        ):
-            pairs = zip(self.captions, counts, strict=True)
-            self.set_captions([replace(caption, counts=own) for caption, own in pairs], self._wipe)
+    def change_captions(self, captions: Sequence[Caption]) -> None:
+        """Set the captions of the same views, or of the same wipe."""
+        self.set_captions(captions, self._wipe)
 
     def set_legend_width(self, width: int) -> None:
         """Set the width of the strip for the legend to the right of several views, in pixels."""

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 from PySide6.QtWidgets import QWidget
 
 from hexmend_app.canvas.colour_bar import ColourBar
+from hexmend_app.canvas.view_captions import Caption
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.scene.views.panes import Panes
 from hexmend_app.widgets.overlay import MARGIN, Overlay
@@ -54,7 +58,10 @@ class ViewLegend:
             single = len(self._panes.all) == 1  # the captions of several views show the numbers
             bar.set_special([(name, n if single else 0, colour) for name, n, colour in view.colours.special_counts])
         self.place()
-        self.show_counts()
+        captions = self._frame.captions
+        with_counts = self.with_counts(captions)
+        if any(one.counts != before.counts for one, before in zip(with_counts, captions, strict=True)):
+            self._frame.change_captions(with_counts)
 
     def place(self) -> None:
         """Reserve a strip for the colour bar to the right of several views side by side, if there is space."""
@@ -65,8 +72,10 @@ class ViewLegend:
         self._frame.set_legend_width(width)
         self._panes.reserve_legend(round(width * self._over.devicePixelRatioF()))
 
-    def show_counts(self) -> None:
-        """Show the numbers of hexes with special colours in the captions of several views."""
-        if self._panes.first.colouring is not None and len(self._panes.all) > 1:
-            counts = [view.colours.special_counts for view in self._panes.all]
-            self._frame.set_counts([tuple((name, n) for name, n, _ in view) for view in counts])
+    def with_counts(self, captions: Sequence[Caption]) -> Sequence[Caption]:
+        """Return the captions of several views with the numbers of hexes with special colours."""
+        views = self._panes.all
+        if self._panes.first.colouring is None or len(views) < 2 or len(views) != len(captions):
+            return captions
+        counts = [tuple((name, n) for name, n, _ in view.colours.special_counts) for view in views]
+        return [replace(caption, counts=own) for caption, own in zip(captions, counts, strict=True)]

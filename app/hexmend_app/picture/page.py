@@ -218,8 +218,8 @@ class Page(ConfigTable):
 
     @property
     def ground(self) -> str | None:
-        """Background colour, #rrggbb; None if transparent."""
-        return {"white": "#ffffff", "transparent": None}.get(self.background, self.background)
+        """Background colour, #rrggbb in lower case; None if transparent."""
+        return {"white": "#ffffff", "transparent": None}.get(self.background, self.background.lower())
 
     @property
     def dark(self) -> bool:

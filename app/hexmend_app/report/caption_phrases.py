@@ -59,7 +59,9 @@ def cut_open(cut: Cut) -> str:
     >>> cut_open(Cut(slab=Slab(thickness=0.2))), cut_open(Cut(sphere=Sphere((0, 0, 1), 2)))
     ('cut by the slab across x at 50 % of its extent, 20 % thick', 'cut by the sphere around (0, 0, 1), radius 2')
     >>> cut_open(Cut(depth=Depth(2, 3)))
-    'cut at depths from 2 to 3 layers'
+    'cut to depths from 2 to 3 layers'
+    >>> cut_open(Cut(sphere=Sphere((0, 0, 1), 2), notch=True))
+    'cut by the sphere around (0, 0, 1), radius 2, without its inside'
     """
     if cut.box is not None:
         low, high = (_vector(corner) for corner in (cut.box.low, cut.box.high))
@@ -69,14 +71,20 @@ def cut_open(cut: Cut) -> str:
         size = f"{cut.slab.thickness:.4g}" if cut.slab.point else f"{100 * cut.slab.thickness:.3g} %"
         place = f"by the slab {_plane(cut.slab)}, {size} thick"
     elif cut.sphere is not None:
-        unit = " relative to the extents" if cut.sphere.shares else ""
-        place = f"by the sphere around {_vector(cut.sphere.centre)}, radius {cut.sphere.radius:.4g}{unit}"
+        centre, radius = _vector(cut.sphere.centre), cut.sphere.radius
+        if cut.sphere.shares:
+            place = (
+                f"by the sphere around {centre} relative to the extents, radius {100 * radius:.3g} % of the diagonal"
+            )
+        else:
+            place = f"by the sphere around {centre}, radius {radius:.4g}"
     elif cut.depth is not None:
         unit = "layers" if cut.depth.unit is DepthUnit.LAYERS else "mean edge lengths"
-        place = f"at depths from {cut.depth.low:.4g} to {cut.depth.high:.4g} {unit}"
+        place = f"to depths from {cut.depth.low:.4g} to {cut.depth.high:.4g} {unit}"
     else:
         place = listed([_plane(one) for one in cut.planes])
-    return f"cut {place}{', through the hexes' if cut.style is CutStyle.SMOOTH else ''}"
+    inside = ", without its inside" if cut.notch and not cut.planes else ""
+    return f"cut {place}{inside}{', through the hexes' if cut.style is CutStyle.SMOOTH else ''}"
 
 
 def coloured_by(colours: Colours, inverted: bool) -> str:

@@ -1,5 +1,7 @@
 """Captions of views: each at the top of its view, in one or two rows."""
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import QPoint, QRect
 from PySide6.QtTest import QTest
@@ -44,7 +46,9 @@ def entries(view):
 
 def test_captions_show_the_counts_of_each_view_first(framed):
     framed.frame.set_captions(captions(2), None)
-    framed.frame.set_counts([(("newly inverted", 1200), ("mended", 0)), (("newly inverted", 0), ("mended", 0))])
+    counts = ((("newly inverted", 1200), ("mended", 0)), (("newly inverted", 0), ("mended", 0)))
+    pairs = zip(framed.frame.captions, counts, strict=True)
+    framed.frame.change_captions([replace(caption, counts=own) for caption, own in pairs])
     texts = [caption.figures for caption in framed.frame.captions]
     assert texts == ["1,200 newly inverted · q min 0.5000", "none inverted · q min 0.5000"]
     assert Caption("view", 0.5, 3, None).figures == "3 inverted · q min 0.5000"

@@ -75,13 +75,14 @@ def column_texts(entries: Sequence[ComparisonRow], quantity: Quantity) -> dict[s
     return {entry.name: kept if named.get(entry.name) == KEPT_START else named.get(entry.name, "") for entry in entries}
 
 
-def best(entries: Sequence[ComparisonRow], quantity: Quantity) -> set[str]:
+def best(entries: Sequence[ComparisonRow], quantity: Quantity, texts: Mapping[str, str]) -> set[str]:
     """Return the names of the methods with the best value; none if all values are equal or neither is better.
 
-    Values that look equal in the table are equal.
+    Values whose texts of `column_texts` are equal are equal.
 
     >>> rows = [ComparisonRow(name, "", {"q_min": value}) for name, value in (("a", 0.1), ("b", 0.3), ("c", 0.30001))]
-    >>> sorted(best(rows, next(one for one in LINES if one.key == "q_min")))
+    >>> q_min = next(one for one in LINES if one.key == "q_min")
+    >>> sorted(best(rows, q_min, column_texts(rows, q_min)))
     ['b', 'c']
     """
     sign = quantity.better
@@ -92,7 +93,6 @@ def best(entries: Sequence[ComparisonRow], quantity: Quantity) -> set[str]:
     }
     if not sign or not values:
         return set()
-    texts = column_texts(entries, quantity)
     if len({texts[name] for name in values}) < 2:
         return set()
     highest = max(values, key=values.get)
@@ -129,8 +129,8 @@ class ComparisonModel(QAbstractTableModel):
         if not same:
             self.beginResetModel()
         self.entries, self.full, self.busy = entries, full, busy
-        self._best = [best(entries, quantity) for quantity in LINES]
         self._texts = [column_texts(entries, quantity) for quantity in LINES]
+        self._best = [best(entries, quantity, texts) for quantity, texts in zip(LINES, self._texts, strict=True)]
         if same:  # the view keeps its selection and scroll position
             self.dataChanged.emit(self.index(0, 0), self.index(len(entries) - 1, self.columnCount() - 1))
         else:

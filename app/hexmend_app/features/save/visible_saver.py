@@ -9,7 +9,6 @@ import numpy as np
 from PySide6.QtCore import QObject
 
 from hexmend.errors import HexmendError
-from hexmend.io import unsupported_data
 from hexmend_app.codec.number_ranges import ranges_text
 from hexmend_app.feature import Host
 from hexmend_app.features.save.visible_hexes import write_hexes
@@ -68,7 +67,7 @@ class VisibleSaver(QObject):
     def _on_ended(self, event: FileExported, count: int) -> None:
         task, self._task = self._task, None
         self._host.busy.done("save_visible")
-        path, state, _ = event.values
+        path = event.values[0]
         if isinstance(task.error, HexmendError):
             self._host.messages.show_error(tr("The visible hexes were not saved"), str(task.error))
             return
@@ -76,7 +75,7 @@ class VisibleSaver(QObject):
             raise task.error
         self._host.session.user_event.emit(event)
         self._host.messages.show_info(tr("{count} saved to {path}", count=counted(count, "hex"), path=path))
-        warn_of_omitted(self._host, path, unsupported_data(path, state.mesh))
+        warn_of_omitted(self._host, path, task.result)
 
 
 def warn_of_omitted(host: Host, path: Path, omitted: Sequence[str]) -> None:

@@ -25,11 +25,14 @@ class Hit:
         Node of the hex that is nearest to the picked point.
     place : (3,) float64
         Picked point.
+    node_place : (3,) float64
+        Position of the node in the view that was picked in.
     """
 
     hex: int
     node: int
     place: np.ndarray
+    node_place: np.ndarray
 
 
 class Picker:
@@ -62,4 +65,5 @@ class Picker:
         h, place = hex_of(pv.wrap(self._picker.GetDataSet()), cell), np.array(self._picker.GetPickPosition())
         nodes = mesh.hexes[h]
         squared_distances = np.square(mesh.points[nodes] - place).sum(axis=1)
-        return Hit(h, int(nodes[squared_distances.argmin()]), place)
+        node = int(nodes[squared_distances.argmin()])
+        return Hit(h, node, place, mesh.points[node])

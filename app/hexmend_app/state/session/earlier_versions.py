@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend.advice import Advice
 from hexmend.aliases import former_attributes
+from hexmend.errors import ParameterError
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import migrate_surface_tolerance
 from hexmend_app.codec.codec import DecodeError
@@ -75,7 +76,7 @@ def _with_other_cuts(window: dict[str, Any]) -> dict[str, Any]:
     try:
         planes, box, kind = former["planes"], former["box"], "box" if former["boxed"] else "planes"
         proposed = proposed_cuts(np.array([box["box"]["low"], box["box"]["high"]], dtype=float))
-    except (LookupError, TypeError, ValueError) as error:
+    except (LookupError, TypeError, ValueError, ParameterError) as error:
         raise DecodeError(f"the window's proposed cuts are not of their type: {error!r}"[:200]) from None
     others = [encode(proposed[kind]) for kind in (CutKind.SLAB, CutKind.SPHERE, CutKind.DEPTH)]
     return {**window, "features": {**features, "cut": {"cuts": [planes, box, *others], "kind": kind}}}

@@ -102,9 +102,9 @@ class FileExported:
         """Positional arguments of the function."""
         return _argument(self.values)
 
-    def perform(self) -> None:
-        """Call the function, which writes the files; its errors are passed on."""
-        self.function(*self.arguments, **{name: _argument(value) for name, value in self.options.items()})
+    def perform(self) -> Any:
+        """Call the function, which writes the files, and return its value; its errors are passed on."""
+        return self.function(*self.arguments, **{name: _argument(value) for name, value in self.options.items()})
 
 
 @dataclass(frozen=True, eq=False)

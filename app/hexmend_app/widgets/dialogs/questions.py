@@ -37,16 +37,18 @@ def ask_mesh(parent: QWidget) -> str:
 
 def ask_target(parent: QWidget, stem: str, suffix: str = ".vtu") -> str:
     """Ask for the file to save the mesh to; "" if cancelled. The suffix is proposed if it can be written."""
-    suffix = suffix.lower() if suffix.lower() in writable_suffixes() else ".vtu"
-    kinds = ";;".join(map(_mesh_kind, writable_suffixes()))
-    return _ask_to_save(parent, tr("Save mesh as"), f"{stem}-smoothed{suffix}", kinds, _mesh_kind(suffix))
+    return _ask_mesh(parent, tr("Save mesh as"), f"{stem}-smoothed", suffix)
 
 
 def ask_visible(parent: QWidget, stem: str, suffix: str = ".vtu") -> str:
     """Ask for the file to save the visible hexes to, as `ask_target`."""
+    return _ask_mesh(parent, tr("Save visible hexes as"), f"{stem}-visible", suffix)
+
+
+def _ask_mesh(parent: QWidget, title: str, stem: str, suffix: str) -> str:
     suffix = suffix.lower() if suffix.lower() in writable_suffixes() else ".vtu"
     kinds = ";;".join(map(_mesh_kind, writable_suffixes()))
-    return _ask_to_save(parent, tr("Save visible hexes as"), f"{stem}-visible{suffix}", kinds, _mesh_kind(suffix))
+    return _ask_to_save(parent, title, f"{stem}{suffix}", kinds, _mesh_kind(suffix))
 
 
 def ask_session(parent: QWidget, stem: str) -> str:

@@ -43,7 +43,8 @@ def click_at(window, at):
 
 def test_two_clicks_measure_a_distance_a_third_an_angle_and_escape_ends(window, panel):
     key(window, Qt.Key.Key_R)
-    QApplication.processEvents()  # the drawer opens
+    QApplication.processEvents()
+    assert window.docks.folded
     window.canvas.draw_still()
     ends = boundary_nodes(window, 3)
     assert window.session.view.measuring

@@ -182,6 +182,18 @@ def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypa
     assert window.session.modified  # the tag: the mesh itself is not saved
 
 
+@pytest.mark.parametrize(("tagged", "warned"), [((0,), True), ((1,), False)], ids=["in the part", "elsewhere"])
+def test_only_data_of_the_visible_hexes_is_missed(window, qtbot, tmp_path, tagged, warned):
+    window.session.commands.tag("far", tagged)
+    window.session.view.dig(1)  # hides it
+    window.refresh()
+    saver = window.features["save"].visible
+    saver.save(tmp_path / "out.su2", window.canvas.viewport)
+    qtbot.waitUntil(lambda: not saver.going_on, timeout=PATIENCE)
+    missed = " ".join(text for _, title, text in window.messages.messages() if title == "Some data was not saved")
+    assert ("element sets (far)" in missed) is warned
+
+
 def test_nothing_is_saved_if_no_hex_is_visible(window, tmp_path):
     window.session.view.set_cut(Cut.at((1, 0, 0), (-1e6, 0, 0)))
     window.refresh()

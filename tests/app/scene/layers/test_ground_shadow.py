@@ -83,7 +83,9 @@ def test_the_shadow_is_no_part_of_a_fitted_view(panes):
     np.testing.assert_array_equal(panes.first.places, places)
 
 
-@pytest.mark.parametrize(("background", "drawn"), [("white", False), ("transparent", False), ("#e0e0e0", True)])
+@pytest.mark.parametrize(
+    ("background", "drawn"), [("white", False), ("#FFFFFF", False), ("transparent", False), ("#e0e0e0", True)]
+)
 def test_pictures_on_white_or_without_a_background_have_no_shadow(background, drawn):
     page = Page(pixels=(300, 240), background=background)
     images = []

@@ -173,12 +173,16 @@ def test_a_cut_leaves_the_same_elements_in_all_views(panes):
 
 
 def test_picking_uses_the_view_under_the_pointer(panes, pixels):
-    panes.show([shown(OTHERS[0])])
+    other = MESH.with_points(1.02 * MESH.points)
+    panes.show([shown(other)])
     pixels()
     assert panes.at(60, 80) is panes.first
     assert panes.at(180, 80) is panes.all[1]
     left, right = panes.pick(60, 80), panes.pick(180, 80)
     assert left.hex == right.hex
+    for hit, mesh in ((left, MESH), (right, other)):
+        np.testing.assert_array_equal(hit.node_place, mesh.points[hit.node])
+    assert not np.array_equal(left.node_place, right.node_place)
     panes.show([shown(MESH)], Wipe(0, 1, 0.5))
     pixels()
     wiped = [found(panes, x) for x in (100, 140)]

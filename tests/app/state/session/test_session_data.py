@@ -67,6 +67,14 @@ def test_data_of_another_type_are_reported(tmp_path, place, damage):
         session_data.read(tmp_path / "damaged.hexmend")
 
 
+def test_a_proposed_box_that_is_no_box_is_reported(tmp_path):
+    version, content = read_archive(_FILES / "version_3.hexmend", "Hexmend session", session_file.VERSION)
+    content["window"]["choices"]["cut"]["box"]["low"] = [float("nan"), 0.0, 0.0]
+    write_archive(tmp_path / "damaged.hexmend", "Hexmend session", version, content)
+    with pytest.raises(FileError, match="inconsistent: the window"):
+        session_data.read(tmp_path / "damaged.hexmend")
+
+
 def test_a_session_is_unchanged_by_reading_and_writing_it(tmp_path):
     data = session_data.read(_FILES / "version_2.hexmend")
     session_data.write(tmp_path / "again.hexmend", data)
