@@ -39,7 +39,8 @@ def test_the_reference_has_parameters_types_and_examples(site):
     text = (site / "api/run.html").read_text(encoding="utf-8")
     assert 'id="hexmend.run.smooth"' in text
     section = text.split('id="hexmend.run.smooth"')[1].split('id="hexmend.iteration')[0]
-    assert "smoother" in section
+    assert "method" in section
+    assert "watch" in section
     assert "Called with each iteration" in section
     assert "&gt;&gt;&gt; " in re.sub("<[^>]+>", "", section)
     norm = (site / "api/energy.html").read_text(encoding="utf-8")

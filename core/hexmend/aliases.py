@@ -127,9 +127,7 @@ ATTRIBUTES: dict[str, dict[str, str]] = {
     "hexmend.io.base.format.Format": {
         "cannot": "limitations", "holds": "capabilities", "names": "stored_names", "recognised": "matches",
     },
-    "hexmend.iteration.result.Iteration": {
-        "figures": "quality", "n_inverted": "inverted", "notes": "diagnostics", "power": "norm",
-    },
+    "hexmend.iteration.result.Iteration": {"figures": "quality", "notes": "diagnostics", "power": "norm"},
     "hexmend.iteration.result.Result": {"limits": "active"},
     "hexmend.iteration.step.Step": {
         "detour": "infeasible", "figures": "quality", "limits": "active", "more": "intermediate",
@@ -145,7 +143,6 @@ ATTRIBUTES: dict[str, dict[str, str]] = {
     "hexmend.run.breakpoints.Breakpoints": {"cuts": "backtracks"},
     "hexmend.run.run.Run": {"go_on_with": "switch_method", "limit": "max_iterations", "reached": "best"},
     "hexmend.smoothers.base.Smoother": {"power": "norm"},
-    "hexmend.summary.Summary": {"n_inverted": "inverted"},
 }  # fmt: skip
 
 KEYWORDS: dict[str, dict[str, str]] = {

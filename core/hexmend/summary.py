@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from hexmend.aliases import reads_old_names
 from hexmend.quantity import Quantity, format_count, format_objective, format_quality
 from hexmend.terminal_text import count_phrase
 
@@ -18,7 +17,6 @@ def _figure(label: str, help: str, text: Callable[[Any], str], better: int = 0, 
     )
 
 
-@reads_old_names
 @dataclass(frozen=True, repr=False)
 class Summary:
     """Counts and quality of a mesh, (2.11), (2.12); every field is described by its entry in `SUMMARY_QUANTITIES`.

@@ -19,7 +19,7 @@ from pyvista.plotting.plotter import BasePlotter
 from vtkmodules.vtkCommonCore import vtkObject
 from vtkmodules.vtkRenderingCore import vtkProp, vtkRenderer
 
-from hexmend.errors import HexmendError
+from hexmend.errors import HexmendError, install_hint
 from hexmend_app.scene.views.prop_copy import copy_prop
 from hexmend_app.theme.palette import THEME
 
@@ -190,6 +190,5 @@ def open_window(title: str = "PyVista") -> Any:
     try:
         from pyvistaqt import BackgroundPlotter
     except ImportError as error:
-        remedy = "run  pip install '.[app]'  in the source folder of Hexmend"
-        raise HexmendError(f"pyvistaqt cannot be imported ({error}): {remedy}") from None
+        raise HexmendError(f"pyvistaqt cannot be imported ({error}): {install_hint('app')}") from None
     return BackgroundPlotter(title=title, app=QApplication.instance(), auto_update=False)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.arrays import mask
-from hexmend.errors import HexmendError, MeshError
+from hexmend.errors import HexmendError, MeshError, install_hint
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.mesh_quality import find_metric, measure_mesh
 from hexmend.quality.selection import region
@@ -116,8 +116,7 @@ def _show_in_notebook(result: Any, options: dict[str, Any]) -> Any:
     try:
         return result.show(jupyter_backend=options.pop("jupyter_backend", "html"), return_viewer=True, **options)
     except ImportError as error:
-        remedy = "run  pip install '.[notebook]'  in the source folder of Hexmend"
-        raise HexmendError(f"the view needs a missing package ({error}): {remedy}") from None
+        raise HexmendError(f"the view needs a missing package ({error}): {install_hint('notebook')}") from None
 
 
 def _marks(mesh: Mesh, hexes: Sequence[int] | np.ndarray) -> np.ndarray:

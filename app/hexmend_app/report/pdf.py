@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hexmend.errors import HexmendError
+from hexmend.errors import HexmendError, install_hint
 from hexmend.io.storage.atomic import atomic_write
 
 
@@ -33,8 +33,7 @@ def check_pdf() -> None:
         import weasyprint as _  # noqa: F401
     except ImportError:
         raise HexmendError(
-            "a PDF report needs WeasyPrint: run  pip install '.[app]'  in the source folder of Hexmend, "
-            "or write .html and print it in a browser"
+            f"a PDF report needs WeasyPrint: {install_hint('app')}, or write .html and print it in a browser"
         ) from None
     except OSError as error:
         raise HexmendError(

@@ -19,6 +19,7 @@ from contextlib import suppress
 
 from hexmend import __version__
 from hexmend.cli.process.interrupts import CleanExit, exit_interrupted, exit_on_signals
+from hexmend.errors import install_hint
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -28,9 +29,6 @@ if TYPE_CHECKING:
 
 #: The command that is run for a mesh file without a command, or without any arguments.
 _DEFAULT = "view"
-
-#: Command that installs the viewer.
-_INSTALL_APP = "pip install '.[app]'  in the source folder of Hexmend"
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -93,7 +91,7 @@ def _main(words: list[str]) -> int:
             return _unknown(words[0], loaders)
         words.insert(0, _DEFAULT)
     if words[0] not in loaders:
-        print(f"hexmend: the viewer is not installed: run  {_INSTALL_APP}", file=sys.stderr)
+        print(f"hexmend: the viewer is not installed: {install_hint('app')}", file=sys.stderr)
         return 2
     return _run(loaders[words[0]], words[1:])
 
@@ -163,7 +161,7 @@ def _help(loaders: dict[str, Callable[[], Command]]) -> int:
         try:
             print(f"  {name:<10} {load().help}")
         except ImportError:
-            print(f"  {name:<10} not installed: {_INSTALL_APP}")
+            print(f"  {name:<10} not installed: {install_hint('app')}")
     return 0
 
 

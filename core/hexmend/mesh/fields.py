@@ -88,6 +88,31 @@ def as_set(values: object, label: str, count: int) -> np.ndarray:
     return array
 
 
+def as_numbers(values: object, label: str, count: int) -> np.ndarray:
+    """Convert numbers or marks of items to numbers (k,), each from 0 to `count` - 1.
+
+    Parameters
+    ----------
+    values : (k,) array-like of whole numbers, one number, or (count,) bool
+    label : str
+        Name of the values in messages.
+    count : int
+
+    Returns
+    -------
+    (k,) int
+
+    Raises
+    ------
+    MeshError
+        As for `as_set`, and for marks of another length.
+    """
+    given = as_array(values, label)
+    if given.dtype == bool:
+        return np.flatnonzero(as_bools(given, label, count))
+    return as_set(np.atleast_1d(given), label, count)
+
+
 def _as_side_set(values: object, label: str, hexes: int) -> np.ndarray:
     """Convert a named set of faces to an array of integers (k, 2): in each row a hex and one of its six faces."""
     array = as_integers(values, label, ("side", "column"))

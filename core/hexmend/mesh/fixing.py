@@ -8,10 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from hexmend.aliases import exports
-from hexmend.mesh.fields import as_set
+from hexmend.mesh.fields import as_numbers
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
-from hexmend.mesh.validation import as_array, as_bools
 
 
 def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
@@ -42,7 +41,7 @@ def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = 
     (8, 6)
     """
     pinned = np.zeros(mesh.n_nodes, dtype=bool) if mesh.pinned is None else mesh.pinned.copy()
-    pinned[as_set(np.atleast_1d(as_array(nodes, "nodes")), "nodes", mesh.n_nodes)] = on
+    pinned[as_numbers(nodes, "nodes", mesh.n_nodes)] = on
     return mesh.replace(pinned=pinned)
 
 
@@ -129,12 +128,12 @@ def fixed_sets(mesh: Mesh) -> tuple[str, ...]:
     return tuple(name for name, members in nodes.items() if len(members) and mesh.immovable[members].all())
 
 
-def _numbers(mesh: Mesh, nodes: str | int | Sequence[int] | np.ndarray) -> np.ndarray:
-    """Return the numbers of nodes that are given by the name of a set, by numbers or by marks."""
-    if isinstance(nodes, str):
-        return nodes_in_set(mesh, nodes)
-    given = as_array(nodes, "nodes")
-    return np.flatnonzero(as_bools(given, "nodes", mesh.n_nodes)) if given.dtype == bool else given
+def _numbers(mesh: Mesh, nodes: str | int | Sequence[str] | Sequence[int] | np.ndarray) -> np.ndarray:
+    """Return the numbers of nodes that are given by names of sets, by numbers or by marks."""
+    names = [nodes] if isinstance(nodes, str) else nodes
+    if isinstance(names, list | tuple) and names and all(isinstance(name, str) for name in names):
+        return np.unique(np.concatenate([nodes_in_set(mesh, name) for name in names]))
+    return as_numbers(nodes, "nodes", mesh.n_nodes)
 
 
 def fix_outside(mesh: Mesh, hexes: Sequence[int] | np.ndarray, rings: int = 0) -> Mesh:
@@ -143,8 +142,8 @@ def fix_outside(mesh: Mesh, hexes: Sequence[int] | np.ndarray, rings: int = 0) -
     Parameters
     ----------
     mesh : Mesh
-    hexes : (k,) int
-        Such as `mesh.region("inverted")`.
+    hexes : (k,) int or (m,) bool
+        By number or as marks, such as `mesh.region("inverted")`.
     rings : int
         Number of rings; each adds the hexes that share a node with those before.
 
@@ -158,7 +157,8 @@ def fix_outside(mesh: Mesh, hexes: Sequence[int] | np.ndarray, rings: int = 0) -
         For a hex that does not exist.
     """
     region = np.zeros(mesh.n_nodes, dtype=bool)
-    region[mesh.hexes[mesh.topology.hexes_around(hexes, rings)]] = True
+    inside = as_numbers(hexes, "hexes", mesh.n_hexes)
+    region[mesh.hexes[mesh.topology.hexes_around(inside, rings)]] = True
     rules = mesh.node_rules
     if rules.free is not None:  # a rule frees no node outside the region
         mesh = mesh.with_node_rules(replace(rules, free=rules.free & region))

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from hexmend.errors import MeshError, ParameterError
-from hexmend.mesh.fields import as_set
+from hexmend.errors import ParameterError
+from hexmend.mesh.fields import as_numbers, as_set
 from hexmend.mesh.mesh import Mesh
-from hexmend.parameters import suggestion
+from hexmend.mesh.rules.named_sets import set_names, unknown_set
 
 
 def add_set(
@@ -27,10 +29,10 @@ def add_set(
     mesh : Mesh
         It is not changed.
     name : str
-    hexes : (k,) int, optional
-        Numbers of hexes, such as `mesh.worst(10)`.
-    nodes : (k,) int, optional
-        Numbers of nodes.
+    hexes : (k,) int or (m,) bool, optional
+        Numbers or marks of hexes, such as `mesh.worst(10)`.
+    nodes : (k,) int or (n,) bool, optional
+        Numbers or marks of nodes.
     sides : (k, 2) int, optional
         The hex and the row of `hexmend.mesh.hexahedron.FACES` of each face.
 
@@ -56,23 +58,33 @@ def add_set(
     kinds = [kind for kind, members in given.items() if members is not None]
     if len(kinds) != 1:
         raise ParameterError(f"set {name!r}: expected its members by one of hexes=, nodes= and sides=")
-    return mesh.replace(**{kinds[0]: {**getattr(mesh, kinds[0]), name: given[kinds[0]]}})
+    kind, members = kinds[0], given[kinds[0]]
+    if kind != "side_sets":
+        count = mesh.n_hexes if kind == "hex_sets" else mesh.n_nodes
+        members = as_numbers(members, f"{kind[:-1].replace('_', ' ')} {name!r}", count)
+    return mesh.replace(**{kind: {**getattr(mesh, kind), name: members}})
 
 
 def remove_set(mesh: Mesh, name: str) -> Mesh:
-    """Return the mesh without its sets of hexes, nodes and sides of a name.
+    """Return the mesh without its sets of hexes, nodes, sides and other cells of a name.
 
     Raises
     ------
     MeshError
         For a set that does not exist; the message suggests the nearest.
     """
-    kinds = [kind for kind in ("hex_sets", "node_sets", "side_sets") if name in getattr(mesh, kind)]
-    if not kinds:
-        names = [*mesh.hex_sets, *mesh.node_sets, *mesh.side_sets]
-        known = ", ".join(map(repr, names)) or "none"
-        raise MeshError(f"there is no set {name!r}: {suggestion(name, names)}there are {known}")
-    changes = {kind: {key: one for key, one in getattr(mesh, kind).items() if key != name} for kind in kinds}
+    if name not in (names := set_names(mesh)):
+        raise unknown_set(name, names)
+    changes: dict[str, Any] = {
+        kind: {key: members for key, members in getattr(mesh, kind).items() if key != name}
+        for kind in ("hex_sets", "node_sets", "side_sets")
+        if name in getattr(mesh, kind)
+    }
+    if any(name in cells.sets for cells in mesh.cells):
+        changes["cells"] = tuple(
+            dataclasses.replace(cells, sets={key: one for key, one in cells.sets.items() if key != name})
+            for cells in mesh.cells
+        )
     return mesh.replace(**changes)
 
 

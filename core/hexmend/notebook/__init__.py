@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.errors import HexmendError
+from hexmend.errors import HexmendError, install_hint
 from hexmend.iteration import Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.notebook.html_tables import of_mesh, of_result
@@ -117,4 +117,4 @@ def _provided(name: str) -> Callable[..., Any]:
             return entry.load()
         except ImportError as error:  # the libraries that it draws with are an extra
             reason = f"{reason} ({error})"
-    raise HexmendError(f'{reason}: run  pip install ".[{extras}]"  in the source folder of Hexmend')
+    raise HexmendError(f"{reason}: {install_hint(extras)}")

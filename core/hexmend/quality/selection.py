@@ -8,11 +8,11 @@ import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.errors import MeshError
-from hexmend.mesh.fields import as_set
+from hexmend.mesh.fields import as_numbers
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
-from hexmend.mesh.validation import as_array, as_bools, as_reals
-from hexmend.parameters import Parameter, suggestion
+from hexmend.mesh.rules.named_sets import nodes_in_set, set_names, unknown_set
+from hexmend.mesh.validation import as_reals
+from hexmend.parameters import Parameter
 from hexmend.quality.mesh_quality import measure_mesh
 
 _RINGS = Parameter("rings", int, 0, 0, None, None, "", "")
@@ -40,9 +40,7 @@ def hexes_in_set(mesh: Mesh, name: str) -> np.ndarray:
         return np.asarray(mesh.hex_sets[name])
     if name == "inverted":
         return np.flatnonzero(measure_mesh(mesh).inverted)
-    known = ", ".join(map(repr, mesh.hex_sets)) or "none"
-    near = suggestion(name, [*mesh.hex_sets, "inverted"])
-    raise MeshError(f"there is no element set {name!r}: {near}there are {known} and 'inverted'")
+    raise unknown_set(name, [*mesh.hex_sets, "inverted"], "element set")
 
 
 def region(
@@ -94,11 +92,7 @@ def region(
     for name in names:
         marks[_hexes_of(mesh, name)] = True
     if hexes is not None:
-        given = as_array(hexes, "hexes")
-        if given.dtype == bool:
-            marks &= as_bools(given, "hexes", mesh.n_hexes)
-        else:
-            marks &= mask(as_set(np.atleast_1d(given), "hexes", mesh.n_hexes), mesh.n_hexes)
+        marks &= mask(as_numbers(hexes, "hexes", mesh.n_hexes), mesh.n_hexes)
     if box is not None:
         low, high = _box(box)
         centres = mesh.points[mesh.hexes].mean(axis=1)
@@ -119,8 +113,7 @@ def _hexes_of(mesh: Mesh, name: str) -> np.ndarray:
         return np.unique(np.asarray(mesh.side_sets[name])[:, 0])
     known = [*dict.fromkeys([*set_names(mesh), *(materials.names if materials is not None else ())]), "inverted"]
     if name not in known:
-        listed = ", ".join(map(repr, known))
-        raise MeshError(f"there is no set or material {name!r}: {suggestion(name, known)}expected one of {listed}")
+        raise unknown_set(name, known, "set or material")
     return np.flatnonzero(mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.hexes].any(axis=1))
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from hexmend.errors import HexmendError
+from hexmend.errors import HexmendError, install_hint
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.quantity import format_count, format_quality, format_significant
 from hexmend.report.documents import write_csv, write_text
@@ -68,8 +68,7 @@ def write_parquet(path: Path, rows: Rows, types: Mapping[str, type]) -> None:
         import pyarrow as pa
         from pyarrow import parquet
     except ImportError:
-        remedy = "run  pip install '.[study]'  in the source folder of Hexmend"
-        raise HexmendError(f"{path.name} needs pyarrow: {remedy}") from None
+        raise HexmendError(f"{path.name} needs pyarrow: {install_hint('study')}") from None
     known = {str: pa.string(), int: pa.int64(), float: pa.float64()}
     schema = pa.schema([(name, known[type_]) for name, type_ in types.items()])
     with atomic_write(path) as temporary:

@@ -37,7 +37,12 @@ class _Ended(Quantity):
         >>> _Ended("outcome", "ended", "", ended).of({"outcome": "converged", "iterations": 8, "kept": 0})
         'kept the start'
         """
-        return KEPT_START if record.get("iterations") and record.get("kept") == 0 else super().of(record)
+        return KEPT_START if _kept_start(record) else super().of(record)
+
+
+def _kept_start(record: Mapping[str, Any]) -> bool:
+    """Return True if no iteration of a run was better than the initial mesh."""
+    return bool(record.get("iterations")) and record.get("kept") == 0
 
 
 def ended(outcome: str) -> str:
@@ -220,7 +225,7 @@ def _explained(records: Sequence[Mapping[str, Any]]) -> list[str]:
         "no-descent": "No descent: no step lowers the objective along the search direction.",
         "stopped": "Stopped: ended by the user before it converged.",
     }
-    if any(record.get("iterations") and record.get("kept") == 0 for record in records):
+    if any(map(_kept_start, records)):
         sentences |= {KEPT_START: "Kept the start: no iteration was better than the initial mesh."}
         ended.add(KEPT_START)
     failed = [f"{record['method']}: {record['message']}" for record in records if record.get("outcome") == "failed"]

@@ -148,7 +148,7 @@ def _configured(
     method: Smoother | Recipe | str, stop: StoppingCriteria | None, settings: dict[str, Any]
 ) -> tuple[Smoother | Recipe, StoppingCriteria | None]:
     """Return the smoother or recipe and its limits, with the settings applied."""
-    smoother = METHODS[method]() if isinstance(method, str) else method
+    smoother = _named(method) if isinstance(method, str) else method
     if not isinstance(smoother, Smoother | Recipe):
         raise TypeError(f"{type(smoother).__name__} is not a method: expected a hexmend.Smoother, a Recipe or a name")
     names = sorted(one.name for one in declared(StoppingCriteria))
@@ -163,6 +163,16 @@ def _configured(
     if limits_given and isinstance(smoother, Recipe) and stop is None:
         return smoother.limited(**limits_given), None
     return smoother, dataclasses.replace(stop or StoppingCriteria(), **limits_given) if limits_given else stop
+
+
+def _named(name: str) -> Smoother | Recipe:
+    """Return a method with its defaults, or a recipe of Hexmend, by name."""
+    if name not in METHODS:
+        from hexmend.run.recipe_files import read_recipe, supplied_recipes  # not needed for methods
+
+        if name in supplied_recipes():
+            return read_recipe(name)
+    return METHODS[name]()
 
 
 def _unknown(smoother: Smoother | Recipe, name: str, known: Sequence[str]) -> ParameterError:

@@ -117,7 +117,7 @@ def describe_iteration(run: Run) -> str:
     return f"{at.inverted:,} inverted, q min {at.q_min:.4f}, q mean {at.q_mean:.4f}, move {at.largest_move:.2g}"
 
 
-def _describe(run: Run) -> str:
+def describe_run(run: Run) -> str:
     """Return the method, the number of the iteration and its quality as text."""
     count = f"iteration {run.last.number:,} of at most {run.max_iterations:,}"
     return f"{current_method(run)}: {count}, {run.last.seconds:.0f} s: {describe_iteration(run)}"
@@ -136,7 +136,7 @@ def _is_terminal() -> bool:
 
 def _write_bar(run: Run) -> None:
     done = round(_BAR_WIDTH * _share(run))
-    text = f"[{'#' * done}{'.' * (_BAR_WIDTH - done)}] {_describe(run)}"
+    text = f"[{'#' * done}{'.' * (_BAR_WIDTH - done)}] {describe_run(run)}"
     width = shutil.get_terminal_size().columns - 1
     sys.stderr.write(f"\r{text[:width]:{width}}")
     sys.stderr.flush()
@@ -148,7 +148,7 @@ def _erase_bar() -> None:
 
 
 def _write_line(run: Run) -> None:
-    sys.stderr.write(f"{_describe(run)}\n")
+    sys.stderr.write(f"{describe_run(run)}\n")
     sys.stderr.flush()
 
 
@@ -159,7 +159,7 @@ class _NotebookBar:
         self._handle: Any = None
 
     def write(self, run: Run) -> None:
-        text = _describe(run)
+        text = describe_run(run)
         bar = f'<progress max="1" value="{_share(run):.3f}" style="width: 12em"></progress>'
         self._update({"text/html": f"<div>{bar} {escape(text)}</div>", "text/plain": text})
 

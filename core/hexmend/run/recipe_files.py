@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.storage.toml_files import read_toml, write_toml
+from hexmend.parameters import suggestion
 from hexmend.run.recipe import Recipe, from_toml, to_toml
 
 
@@ -48,9 +48,9 @@ def _recipe_file(path: Path) -> Path:
     files = supplied_recipes()
     if path.name in files:
         return files[path.name]
-    near = difflib.get_close_matches(path.name, files, n=1)
-    hint = f"Did you mean {near[0]}? " if near else ""
-    remedy = f"{hint}Recipes of Hexmend: {', '.join(files) or 'none is installed'}; a file of yours ends in .toml."
+    hint = suggestion(path.name, files)
+    listed = ", ".join(files) or "none is installed"
+    remedy = f"{hint[:1].upper()}{hint[1:]}Recipes of Hexmend: {listed}; a file of yours ends in .toml."
     raise FileError(path, "there is no recipe of this name", remedy)
 
 

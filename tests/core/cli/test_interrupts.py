@@ -21,7 +21,7 @@ if os.environ["TIMER"] == "no alarm":
 {moment}
 from hexmend.cli.main import main
 from hexmend.cli.output import progress
-progress.LINE_INTERVAL = progress.LIVE_DELAY = 0.0
+progress.LINE_INTERVAL = progress.BAR_DELAY = 0.0
 sys.exit(main())
 """
 #: The signal comes as this module is imported; an exception there may be taken for another, and is none of ours.

@@ -66,7 +66,7 @@ def test_a_long_run_tells_of_itself_in_whole_lines_and_on_standard_error_only(me
 def test_on_a_terminal_a_line_changes_and_vanishes(monkeypatch, capsys):
     monkeypatch.setenv("FORCE_COLOR", "1")  # rich takes this for a terminal
     monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setattr(progress, "LIVE_DELAY", 0.0)
+    monkeypatch.setattr(progress, "BAR_DELAY", 0.0)
     run = iterate(
         gallery.make("cube", size=64, scramble=0.3), "laplacian", StoppingCriteria(max_iterations=4, tolerance=0)
     )

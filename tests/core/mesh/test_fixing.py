@@ -70,6 +70,15 @@ def test_the_command_keeps_sets_and_moves_regions(tmp_path, capsys):
     assert json.loads(report.read_text())["before"]["free_nodes"] == 8
     capsys.readouterr()
     assert main([*words, "--only", "parts"]) == 3
-    assert (
-        "there is no element set 'parts': did you mean part? there are 'part' and 'inverted'" in capsys.readouterr().err
-    )
+    assert "there is no element set 'parts': did you mean part? there are 'part', 'inverted'" in capsys.readouterr().err
+
+
+def test_several_sets_are_fixed_by_name():
+    fixed = fix(MESH, ["some", "part"])
+    expected = np.union1d(nodes_in_set(MESH, "some"), nodes_in_set(MESH, "part"))
+    np.testing.assert_array_equal(np.flatnonzero(fixed.pinned), expected)
+
+
+def test_a_region_is_given_by_numbers_or_marks():
+    marks = np.arange(MESH.n_hexes) == 62
+    np.testing.assert_array_equal(fix_outside(MESH, marks).pinned, fix_outside(MESH, [62]).pinned)

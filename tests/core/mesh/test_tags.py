@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from hexmend.errors import MeshError, ParameterError
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.rules.named_sets import set_names
 from hexmend.mesh.tags import add_set, remove_set
 from tests.core.grids import grid
 
@@ -34,3 +36,20 @@ def test_what_is_no_set_is_refused():
         add_set(MESH, "a", hexes=[27])
     with pytest.raises(MeshError, match=r"there is no set 'inlt': did you mean inlet\? there are 'inlet'"):
         remove_set(add_set(MESH, "inlet", nodes=np.arange(4)), "inlt")
+
+
+def test_members_of_a_set_are_marked_or_numbered():
+    mesh = MESH
+    marks = np.arange(27) % 5 == 0
+    np.testing.assert_array_equal(add_set(mesh, "some", hexes=marks).hex_sets["some"], [0, 5, 10, 15, 20, 25])
+    with pytest.raises(MeshError, match="some"):
+        add_set(mesh, "some", hexes=marks[:-1])
+
+
+def test_a_set_of_other_cells_is_removed_too():
+    quads = MESH.topology.boundary_faces[:4]
+    mesh = MESH.replace(cells=(Cells("quad", quads, sets={"wall": [0, 1], "inlet": [2]}),))
+    assert set_names(mesh) == ["wall", "inlet"]
+    assert set_names(remove_set(mesh, "wall")) == ["inlet"]
+    with pytest.raises(MeshError, match=r"no set 'wal': did you mean wall\? there are 'wall', 'inlet'"):
+        remove_set(mesh, "wal")

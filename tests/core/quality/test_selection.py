@@ -53,8 +53,8 @@ def test_inverted_hexes_are_those_that_are_measured():
 
 
 @pytest.mark.parametrize(("given", "error", "words"), [
-    ({"names": ["faar"]}, MeshError, "there is no set or material 'faar': did you mean far\\? expected one of"),
-    ({"names": ["zzz"]}, MeshError, "'zzz': expected one of 'corner', 'core', 'far', 'wall', '7', '8', 'inverted'"),
+    ({"names": ["faar"]}, MeshError, "there is no set or material 'faar': did you mean far\\? there are"),
+    ({"names": ["zzz"]}, MeshError, "'zzz': there are 'corner', 'core', 'far', 'wall', '7', '8', 'inverted'"),
     ({"hexes": [64]}, MeshError, "hexes"),
     ({"hexes": np.ones(63, bool)}, MeshError, "hexes"),
     ({"box": [0, 1]}, MeshError, "expected two opposite corners"),

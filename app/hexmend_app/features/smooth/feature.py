@@ -90,7 +90,7 @@ class FeatureSmooth(Feature):
                 menu="Smooth",
                 keys="F10",
                 icon="skip-next",
-                help=tr("Run the number of iterations set in the Run panel, then pause."),
+                help=tr("Run the number of iterations set in the panel Smooth, then pause."),
                 handle=self.panel.step,
                 enabled=lambda: self._ready() and self._state().step,
             ),

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from hexmend.errors import FileError
+from hexmend.errors import FileError, install_hint
 
 #: Constant rate factor of x264; 18 is visually almost lossless.
 _QUALITY = "18"
@@ -24,8 +24,8 @@ def check_installed(path: Path) -> None:
         raise FileError(
             path,
             "a film cannot be written as .mp4 without PyAV",
-            "Run  pip install '.[film]'  in the source folder of Hexmend (its FFmpeg is under the GPL, hence no part "
-            "of [app]), or use .gif, .webp or .png.",
+            f"For .mp4 {install_hint('film')} (its FFmpeg is under the GPL, hence no part of [app]), or use .gif, "
+            ".webp or .png.",
         )
 
 

@@ -13,7 +13,7 @@ from hexmend.cli.output.progress_line import progress_line
 from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.cli.process.terminal import redraws_lines
 from hexmend.io.storage.file_progress import watch_files
-from hexmend.run.progress import current_method, describe_iteration
+from hexmend.run.progress import BAR_DELAY, LINE_INTERVAL, current_method, describe_iteration, describe_run
 from hexmend.signal_guard import uninterrupted
 
 if TYPE_CHECKING:
@@ -21,12 +21,6 @@ if TYPE_CHECKING:
     from hexmend.run import Run
 
 _Item = TypeVar("_Item")
-
-#: Seconds between plain lines, and of iterations before the first of them: a short run prints none.
-LINE_INTERVAL = 4.0
-
-#: Seconds after which a live line is drawn on a terminal, because rich takes time to load.
-LIVE_DELAY = 0.4
 
 
 class Progress:
@@ -100,7 +94,7 @@ class _Live:
     """A line that changes in place and is removed at the end."""
 
     def __init__(self):
-        self._due = monotonic() + LIVE_DELAY
+        self._due = monotonic() + BAR_DELAY
         self._line = self._run = self._task = None
 
     @uninterrupted  # a line that is drawn in part could not be removed
@@ -124,7 +118,7 @@ class _Live:
 
 
 def show_count(items: Iterable[_Item], total: int, text: str) -> Iterator[_Item]:
-    """Yield items, and show on a terminal how many of them are done, from `LIVE_DELAY` on.
+    """Yield items, and show on a terminal how many of them are done, from `BAR_DELAY` on.
 
     Parameters
     ----------
@@ -137,7 +131,7 @@ def show_count(items: Iterable[_Item], total: int, text: str) -> Iterator[_Item]
     if not redraws_lines():
         yield from items
         return
-    due, line = monotonic() + LIVE_DELAY, None
+    due, line = monotonic() + BAR_DELAY, None
     try:
         for number, item in enumerate(items, 1):
             if line is None and monotonic() >= due:
@@ -162,8 +156,7 @@ class _Lines:
         if self._due is None:  # the interval begins after the preparations for the first iteration
             self._due = monotonic() + LINE_INTERVAL
         if monotonic() >= self._due:
-            at = f"iteration {run.last.number:,} of at most {run.max_iterations:,}, {run.last.seconds:.0f} s"
-            print(f"{current_method(run)}: {at}: {describe_iteration(run)}", file=sys.stderr, flush=True)
+            print(describe_run(run), file=sys.stderr, flush=True)
             self._due = monotonic() + LINE_INTERVAL
 
     def close(self) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from hexmend.arrays import mask
@@ -45,9 +47,17 @@ def nodes_in_set(mesh: Mesh, name: str) -> np.ndarray:
     found = [cells.nodes[cells.sets[name]].ravel() for cells in mesh.cells if name in cells.sets]
     if found:
         return np.unique(np.concatenate(found))
-    names = set_names(mesh)
+    raise unknown_set(name, set_names(mesh))
+
+
+def unknown_set(name: str, names: Sequence[str], kind: str = "set") -> MeshError:
+    """Return the error for a set that does not exist; the message suggests the nearest name, and lists all.
+
+    >>> print(unknown_set("wal", ["wall", "inlet"]))
+    there is no set 'wal': did you mean wall? there are 'wall', 'inlet'
+    """
     known = ", ".join(map(repr, names)) or "none"
-    raise MeshError(f"there is no set {name!r}: {suggestion(name, names)}there are {known}")
+    return MeshError(f"there is no {kind} {name!r}: {suggestion(name, names)}there are {known}")
 
 
 def boundary_faces_in_sets(mesh: Mesh) -> dict[str, np.ndarray]:

@@ -9,7 +9,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
-from hexmend.errors import HexmendError, ParameterError
+from hexmend.errors import HexmendError, ParameterError, install_hint
 from hexmend.run.memory import available
 from hexmend.study.batch.process import run_task
 from hexmend.study.batch.table_columns import Status, answer
@@ -43,8 +43,7 @@ class Cluster:
         try:
             import distributed  # noqa: F401
         except ImportError:
-            remedy = "run  pip install '.[study]'  in the source folder of Hexmend"
-            raise ParameterError(f"--scheduler needs Dask: {remedy}") from None
+            raise ParameterError(f"--scheduler needs Dask: {install_hint('study')}") from None
         self._address = address
 
     def answers(self, tasks: Sequence[Task]) -> Generator[tuple[Task, dict[str, Any]]]:

@@ -19,7 +19,7 @@ VARIABLE = "HEXMEND_HEXSMOOTHING"
 
 @dataclass(frozen=True)
 class HexSmoothing(Peer):
-    """The program with its default of 50 iterations, by Medit files.
+    """The program with its own number of iterations, by Medit files.
 
     Its results depend on the unit of length, because it regularises relative to a cube of edge 1: the mesh is scaled to
     a mean edge of 1.
@@ -39,6 +39,6 @@ class HexSmoothing(Peer):
 HEXSMOOTHING = HexSmoothing(
     name="hexsmoothing",
     title="hexsmoothing",
-    note="innerSmoothing with 50 iterations, the mesh scaled to a mean edge of 1",
+    note="its program for hexes with its own number of iterations, the mesh scaled to a mean edge of 1",
     shape=True,
 )

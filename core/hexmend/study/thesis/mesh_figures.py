@@ -11,7 +11,7 @@ from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
-from hexmend.errors import HexmendError
+from hexmend.errors import HexmendError, install_hint
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
 from hexmend.study.thesis.experiment_result import ExperimentResult
@@ -94,7 +94,7 @@ def draw_figures(
         Numbers of the others, and what to do; "" if all were drawn.
     """
     found = [(figure, state) for figure in MESH_FIGURES if (state := _state(figure, results)) is not None]
-    draw, drawn, problem = _drawer(), [], "run  pip install '.[app]'  in the source folder of Hexmend"
+    draw, drawn, problem = _drawer(), [], install_hint("app")
     for figure, (mesh, summary) in found:
         if draw is None:
             break

@@ -17,7 +17,7 @@ from hexmend.report import output_folder
 from hexmend.report.batch import failures
 from hexmend.report.collection.documents import read_page, replace_tables, write_collection
 from hexmend.report.collection.record import CollectionRecord, Program
-from hexmend.report.collection.tables import meshes_table, objective_table, programs_table
+from hexmend.report.collection.tables import collection_tables
 from hexmend.study.batch.case import TaskLimits
 from hexmend.study.batch.local import Local
 from hexmend.study.batch.peer_case import PeerCase
@@ -94,7 +94,7 @@ def _write_report(folder: Path, page: Path | None, record: CollectionRecord, stu
     paths = write_collection(folder, record)
     if page:
         replace_tables(page, record)
-    for table in (programs_table(record), meshes_table(record), objective_table(record)):
+    for table in collection_tables(record):
         print_table(table)
     own = {program.title for program in record.programs if program.own}
     for mesh, cases, status, reason in failures([row for row in study.rows if row["case"] in own]):

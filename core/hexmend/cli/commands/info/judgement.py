@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.doctor import Finding
 from hexmend.quality import METRICS, ElementQuality
-from hexmend.quantity import format_count
+from hexmend.terminal_text import count_phrase
 
 if TYPE_CHECKING:
     from hexmend.locking import Locking
@@ -60,7 +60,8 @@ class Judgement:
         if repairable := _kinds(finding for finding in findings if finding.mendable):
             return cls(False, f"To be repaired before solving: {repairable}.", _command("repair", path))
         if inverted:
-            sentence = f"Not fit for solving: {format_count(inverted)} of {_hexes(total)} {_are(inverted)} inverted."
+            verb = "is" if inverted == 1 else "are"
+            sentence = f"Not fit for solving: {inverted:,} of {count_phrase(total, 'hex', 'hexes')} {verb} inverted."
             return cls(False, sentence, _untangling(path, quality, locking))
         if findings:
             return cls(False, f"Not fit for solving: {_kinds(findings)}.", shlex.join(["hexmend", path]))
@@ -69,7 +70,7 @@ class Judgement:
         limit, _ = METRICS["scaled-jacobian"].acceptable
         poor = int(np.count_nonzero(quality.scaled_jacobian < limit))
         if poor:
-            counted = f"{format_count(poor)} of {_hexes(total)} {'has' if poor == 1 else 'have'}"
+            counted = f"{poor:,} of {count_phrase(total, 'hex', 'hexes')} {'has' if poor == 1 else 'have'}"
             sentence = f"Fit for solving, but poor: {counted} a scaled Jacobian below {limit:g}."
             return cls(True, sentence, _command("smooth", path))
         sentence = f"Fit for solving: no hex is inverted or has a scaled Jacobian below {limit:g}."
@@ -102,11 +103,3 @@ def _command(name: str, path: str, *options: str) -> str:
 
 def _kinds(findings: Iterable[Finding]) -> str:
     return ", ".join(finding.kind.replace("-", " ") for finding in findings)
-
-
-def _hexes(count: int) -> str:
-    return f"{format_count(count)} {'hex' if count == 1 else 'hexes'}"
-
-
-def _are(count: int) -> str:
-    return "is" if count == 1 else "are"

@@ -169,8 +169,6 @@ def _print_locked(args: argparse.Namespace, locking: Locking) -> None:
         more = len(locking.corners) - _MAX_PLACES
         if more > 0:
             print(f"      ... and {more:,} more corners; --json lists them all.")
-    if not locking.unmendable.all():
-        print(f"      With a layer under the boundary it can stay as it is: hexmend pad {args.mesh} -o OUT")
 
 
 def _print_problems(args: argparse.Namespace, findings: Sequence[Finding]) -> None:

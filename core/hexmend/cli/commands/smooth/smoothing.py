@@ -21,7 +21,7 @@ from hexmend.cli.output.mesh_output import MeshOutput
 from hexmend.cli.output.progress import follow
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
-from hexmend.errors import ParameterError
+from hexmend.errors import ParameterError, install_hint
 from hexmend.io import read, writer_for
 from hexmend.io.surfaces.curve_file import with_curves_of_file
 from hexmend.iteration import Iteration, Result
@@ -94,8 +94,7 @@ def _run_on_ranks(args: argparse.Namespace) -> int:
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] not in ("mpi4py", "pymetis"):
             raise
-        remedy = "run  pip install '.[mpi]'  in the source folder of Hexmend"
-        raise ParameterError(f"several processes need mpi4py and pymetis: {remedy}") from None
+        raise ParameterError(f"several processes need mpi4py and pymetis: {install_hint('mpi')}") from None
 
 
 def _keep(checkpoints: Checkpoints, mesh: Mesh, iteration: Iteration) -> None:

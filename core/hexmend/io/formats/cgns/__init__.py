@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hexmend.errors import FileError
+from hexmend.errors import FileError, install_hint
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
 from hexmend.io.base.format import register
@@ -23,7 +23,7 @@ def read(path: Path) -> Mesh:
     with open(path, "rb") as file:
         head = file.read(64)
     if ADF_MARK in head:
-        remedy = "pip install '.[app]' in the source folder of Hexmend adds a reader; or adf2hdf converts it."
+        remedy = f"For a reader {install_hint('app')}; or adf2hdf converts it."
         raise FileError(path, "is a CGNS file of the ADF kind", remedy)
     return to_mesh(path, hdf5.read_content("hexmend.io.formats.cgns.reader:content", path))
 
