@@ -112,7 +112,7 @@ def test_an_hdf5_file_is_not_read_as_adf(joined, tmp_path):
 def test_without_the_app_the_error_names_the_package_that_reads_it(library, monkeypatch, tmp_path):
     monkeypatch.setattr(format_lookup, "plugin_formats", tuple)
     write_adf(library, tmp_path / "old.cgns", grid(1))
-    with pytest.raises(FileError, match=r"pip install '\.\[app\]' in the source folder of Hexmend") as caught:
+    with pytest.raises(FileError, match=r"pip install '\.\[app\]'  in the source folder of Hexmend") as caught:
         io.read(tmp_path / "old.cgns")
     assert "damaged" not in str(caught.value)
 

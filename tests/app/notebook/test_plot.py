@@ -94,6 +94,6 @@ def test_without_a_display_a_picture_is_saved_nevertheless(monkeypatch, tmp_path
 def test_without_the_viewer_the_extra_to_install_is_named(monkeypatch):
     monkeypatch.setattr(importlib.metadata, "entry_points", lambda **chosen: [])
     with pytest.raises(
-        HexmendError, match=r'the viewer, which draws meshes, is not installed: run  pip install "\.\[app\]"'
+        HexmendError, match=r"the viewer, which draws meshes, is not installed: run  pip install '\.\[app\]'"
     ):
         MESH.plot()
