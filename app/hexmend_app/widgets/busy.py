@@ -6,10 +6,11 @@ from collections.abc import Callable
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QPushButton, QWidget
 
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
+from hexmend_app.widgets.eliding_label import ElidingLabel
 
 #: Steps of the bar.
 _STEPS = 1000
@@ -20,7 +21,7 @@ class Busy(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._text = QLabel()
+        self._text = ElidingLabel()
         self._text.setAccessibleName(tr("Current task"))
         self._bar = QProgressBar()
         self._bar.setRange(0, 0)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from PySide6.QtCore import QSize
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from hexmend.iteration import Outcome
 from hexmend_app.state.run.run_controller import Phase
@@ -13,6 +14,7 @@ from hexmend_app.theme.palette import AMBER, BETTER, BLUE, MUTED, WORSE
 from hexmend_app.theme.style import tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
+from hexmend_app.widgets.eliding_label import ElidingLabel
 
 #: Words and colours of the phases of a run that has not ended.
 _PHASES = {
@@ -45,19 +47,28 @@ _BUTTONS = "run", "step", "stop"
 _FACES = "Run", "Pause", "Resume", "Preparing", "Stopping"
 
 
+class _State(ElidingLabel):
+    """Label that has the width of the longest word, and is elided in a narrow window."""
+
+    def sizeHint(self) -> QSize:
+        words = (tr(word) for word, _ in (*_PHASES.values(), *_ENDS.values()))
+        return QSize(max(map(self.fontMetrics().horizontalAdvance, words)) + 4, super().sizeHint().height())
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(self.fontMetrics().horizontalAdvance(tr("Converged")), super().minimumSizeHint().height())
+
+
 class RunBar(QWidget):
     """Row of buttons that run, step and stop, and the word for the state of the run."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._buttons = {name: ActionButton(with_text=name == "run") for name in _BUTTONS}
-        self._state = QLabel()
+        self._state = _State()
         self._state.setAccessibleName(tr("State of the run"))
         font = self._state.font()
         font.setBold(True)
         self._state.setFont(font)
-        widest = max((tr(word) for word, _ in (*_PHASES.values(), *_ENDS.values())), key=len)
-        self._state.setMinimumWidth(self._state.fontMetrics().horizontalAdvance(widest))
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(4)

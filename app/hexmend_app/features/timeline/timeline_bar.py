@@ -54,7 +54,7 @@ class TimelineBar(QWidget):
         super().__init__(parent)
         self.run_bar = RunBar()
         self._runs = ComboBox()
-        let_shrink(self._runs, 12)
+        let_shrink(self._runs, 5)
         self._runs.activated.connect(self.run_chosen)
         set_help(self._runs, tr("Run"), tr("Run shown in the timeline."))
         self._buttons = {name: ActionButton() for name in _STEPS}

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtWidgets import QWidget
 
 from hexmend_app.translation import tr
+from hexmend_app.widgets.eliding_label import ElidingLabel
 
 if TYPE_CHECKING:
     from hexmend_app.state.session.session import Session
 
 
-class HexCounts(QLabel):
+class HexCounts(ElidingLabel):
     """Label with counts of the open mesh."""
 
     def __init__(self, parent: QWidget | None = None):
@@ -27,6 +28,7 @@ class HexCounts(QLabel):
         else:
             text = tr("{hexes:,} hexes", hexes=summary.hexes)
         self.setText("  ·  ".join(filter(None, (text, _isolated_text(session), _selected_text(session)))))
+        self.setToolTip(self.text())
 
 
 def _isolated_text(session: Session) -> str:
