@@ -38,7 +38,7 @@ def main() -> None:
             window.refresh()
             wait_until(lambda session=window.session: session.mesh_checker.of(session.document.now.mesh) is not None)
             wait_until_drawn(window)
-            screenshot(window, folder / f"doctor-{k}.png")
+            screenshot(window, folder / (f"doctor-{k}.png" if k else "doctor.png"))
             window.close()
 
 
