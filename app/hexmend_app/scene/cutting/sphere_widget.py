@@ -11,6 +11,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkPropColl
 
 from hexmend_app.picture.cut_shapes import Sphere
 from hexmend_app.scene.cutting.handles import Handles
+from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import PLANE_ACTIVE, PLANE_EDGE, rgb
 
@@ -118,9 +119,7 @@ def _draw_on_top(shape: vtkLineRepresentation) -> None:
         source.GetActors(actors)
     for at in range(actors.GetNumberOfItems()):
         mapper = actors.GetItemAsObject(at).GetMapper()
-        mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0, _IN_FRONT)
-        mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0, _IN_FRONT)
+        offset_depth(mapper, lines=_IN_FRONT, polygons=_IN_FRONT)
 
 
 def _unit_circles() -> pv.PolyData:

@@ -8,6 +8,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend.boundary.displacement import ROUNDING, Displacement
 from hexmend_app.picture.appearance import Arrows
+from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
 from hexmend_app.scene.layers.surface import set_points
@@ -208,9 +209,7 @@ def _actors(renderer: vtkRenderer, pixel_ratio: float) -> tuple[vtkActor, vtkAct
 def _actor(renderer: vtkRenderer, colour: str, width: float, depth: float) -> vtkActor:
     mapper = vtkPolyDataMapper()
     mapper.SetScalarVisibility(False)
-    mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, depth)
-    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, depth)
+    offset_depth(mapper, lines=depth, polygons=depth, slope=-1.0)
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.PickableOff()

@@ -10,7 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.colour.colouring import INVERTED
-from hexmend_app.scene.layers.flat_actor import flat_actor
+from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.surface import colours_of
 from hexmend_app.theme.palette import rgb
 
@@ -120,6 +120,5 @@ def _actor(renderer: vtkRenderer, colour: str, width: float, depth: float) -> vt
     actor = flat_actor(renderer, width)
     actor.GetProperty().SetColor(rgb(colour))
     mapper = actor.GetMapper()
-    mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, depth)
+    offset_depth(mapper, lines=depth, slope=-1.0)
     return actor

@@ -6,6 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
+from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.surface import set_points
 from hexmend_app.theme.palette import rgb
 
@@ -56,9 +57,7 @@ class Marks:
         mapper.SetScalarModeToUseCellFieldData()
         mapper.SelectColorArray(_COLOURS)
         mapper.SetColorModeToDirectScalars()
-        mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, _LINE_DEPTHS[coloured])
-        mapper.SetRelativeCoincidentTopologyPointOffsetParameter(_POINT_DEPTHS[coloured])
+        offset_depth(mapper, lines=_LINE_DEPTHS[coloured], points=_POINT_DEPTHS[coloured], slope=-1.0)
         actor = vtkActor()
         actor.SetMapper(mapper)
         actor.PickableOff()

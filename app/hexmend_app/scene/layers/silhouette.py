@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import sharp_edges
 from hexmend_app.picture.appearance import Look
-from hexmend_app.scene.layers.flat_actor import flat_actor
+from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
 from hexmend_app.scene.layers.surface import set_points
 from hexmend_app.theme.palette import SHADE, SHARP, SILHOUETTE, rgb
@@ -64,10 +64,10 @@ class Silhouette:
         self._renderer = renderer
         self.actor, self._sharp = flat_actor(renderer, pixel_ratio), flat_actor(renderer, _BOLD * pixel_ratio)
         self.actor.GetMapper().SetInputData(self._poly)
-        _offset(self._sharp.GetMapper(), _IN_FRONT, _IN_FRONT)
+        offset_depth(self._sharp.GetMapper(), lines=_IN_FRONT, polygons=_IN_FRONT)
         if not lines:
             self.actor.GetProperty().BackfaceCullingOn()
-            _offset(self.actor.GetMapper(), 0.0, _BEHIND)
+            offset_depth(self.actor.GetMapper(), lines=0.0, polygons=_BEHIND)
         self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
@@ -124,10 +124,3 @@ class Silhouette:
 def _lines(points: np.ndarray, ends: np.ndarray) -> pv.PolyData:
     """Build lines from points, (k, 3), and point numbers of their ends, (e, 2)."""
     return pv.PolyData(points, lines=np.column_stack([np.full(len(ends), 2), ends]).ravel())
-
-
-def _offset(mapper: vtkMapper, lines: float, polygons: float) -> None:
-    """Offset the depth of lines and polygons, in VTK's units; positive is behind."""
-    mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, lines)
-    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, polygons)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkBillboardTextActor3D, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend_app.picture.appearance import Measurement
-from hexmend_app.scene.layers.flat_actor import flat_actor
+from hexmend_app.scene.layers.flat_actor import flat_actor, label_actor, offset_depth
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import rgb
 
@@ -37,11 +37,10 @@ class MeasurementLayer:
             actor.GetProperty().SetColor(rgb(colour))
             actor.GetProperty().SetPointSize((width + 6) * pixel_ratio)
             mapper = actor.GetMapper()
-            mapper.SetResolveCoincidentTopologyToPolygonOffset()
-            mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0, offset)
-            mapper.SetRelativeCoincidentTopologyPointOffsetParameter(offset)
+            offset_depth(mapper, lines=offset, points=offset)
             self._actors.append(actor)
-        self._texts = [self._text(pixel_ratio) for _ in range(3)]  # two distances and an angle
+        # Two distances and an angle.
+        self._texts = [label_actor(self._text_layer, round(15 * pixel_ratio)) for _ in range(3)]
         self.hide()
 
     @property
@@ -90,18 +89,3 @@ class MeasurementLayer:
             prop.SetVisibility(False)
         for layer in self.layers:
             layer.DrawOff()
-
-    def _text(self, pixel_ratio: float) -> vtkBillboardTextActor3D:
-        actor = vtkBillboardTextActor3D()
-        actor.SetInput(" ")
-        actor.PickableOff()
-        prop = actor.GetTextProperty()
-        prop.SetFontSize(round(15 * pixel_ratio))
-        prop.SetBold(True)
-        prop.SetColor(rgb(_LINE))
-        prop.SetBackgroundColor(rgb(_RIM))
-        prop.SetBackgroundOpacity(0.75)
-        prop.SetJustificationToCentered()
-        prop.SetVerticalJustificationToCentered()
-        self._text_layer.AddActor(actor)
-        return actor

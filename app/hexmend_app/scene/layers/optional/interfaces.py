@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.scene.geometry.filters import same_mask
+from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
 from hexmend_app.scene.views.frame import Frame
@@ -38,9 +39,7 @@ class InterfaceLayer(TranslucentSurface, OptionalLayer):
         self.actors[1].GetProperty().SetLineWidth(_EDGE_WIDTH * pixel_ratio)
         for actor in self.actors:
             mapper = actor.GetMapper()
-            mapper.SetResolveCoincidentTopologyToPolygonOffset()
-            mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, _IN_FRONT)
-            mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, _EDGES_IN_FRONT)
+            offset_depth(mapper, polygons=_IN_FRONT, lines=_EDGES_IN_FRONT)
         self._drawn: tuple[object, object] = (None, None)
         self._keep: np.ndarray | None = None
 

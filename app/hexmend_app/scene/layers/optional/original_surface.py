@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.scene.geometry.filters import same_mask
+from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
 from hexmend_app.scene.views.frame import Frame
@@ -37,9 +38,7 @@ class OriginalSurface(TranslucentSurface, OptionalLayer):
         self._keep: np.ndarray | None = None
         for actor in self.actors:
             mapper = actor.GetMapper()
-            mapper.SetResolveCoincidentTopologyToPolygonOffset()
-            mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, _FACES_BEHIND)
-            mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, _EDGES_BEHIND)
+            offset_depth(mapper, polygons=_FACES_BEHIND, lines=_EDGES_BEHIND)
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
         """Draw the original boundary faces of shown hexes; an unchanged surface is not rebuilt."""

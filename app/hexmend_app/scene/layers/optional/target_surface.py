@@ -7,6 +7,7 @@ import pyvista as pv
 
 from hexmend.mesh.mesh import Mesh, TargetSurface
 from hexmend.terminal_text import printable
+from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
 from hexmend_app.scene.views.frame import Frame
@@ -37,8 +38,7 @@ class TargetSurfaceLayer(TranslucentSurface, OptionalLayer):
         super().__init__(pane, pixel_ratio)
         self._target: TargetSurface | None = None
         mapper = self.actors[0].GetMapper()
-        mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, _BEHIND)
+        offset_depth(mapper, polygons=_BEHIND)
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
         """Draw the whole surface without its edges, of which there are many; an unchanged one is not rebuilt."""

@@ -8,7 +8,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES
 from hexmend_app.scene.camera.fitting import pixels
-from hexmend_app.scene.layers.flat_actor import flat_actor
+from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.theme.palette import rgb
 
 _LINE, _RIM = "#ffffff", "#11151c"
@@ -56,8 +56,7 @@ class HexEdges:
         actor.ForceTranslucentOn()
         actor.GetProperty().SetColor(rgb(colour))
         mapper = actor.GetMapper()
-        mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-2.0, depth)
+        offset_depth(mapper, lines=depth, slope=-2.0)
         return actor
 
     def show(self, corners: np.ndarray) -> None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkActor, vtkBillboardTextActor3D, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend_app.scene.camera.fitting import pixels
+from hexmend_app.scene.layers.flat_actor import label_actor
 from hexmend_app.scene.layers.selection.hex_edges import HexEdges
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import rgb
@@ -36,7 +37,7 @@ class Highlight:
         self._layer = pane.overlay()
         self.edges = HexEdges(pane.renderer, pixel_ratio)
         self._corners = np.zeros((1, 8, 3))
-        self._texts = [self._text() for _ in range(8)]
+        self._texts = [label_actor(self._layer, round(14 * self._pixel_ratio)) for _ in range(8)]
         self._point = self._add(pv.PolyData(np.zeros((1, 3))), _NODE)
         self._point.GetProperty().SetPointSize(12 * pixel_ratio)
         self._point.GetProperty().RenderPointsAsSpheresOn()
@@ -57,20 +58,6 @@ class Highlight:
         actor.SetMapper(mapper)
         actor.GetProperty().SetColor(rgb(colour))
         actor.GetProperty().LightingOff()
-        self._layer.AddActor(actor)
-        return actor
-
-    def _text(self) -> vtkBillboardTextActor3D:
-        actor = vtkBillboardTextActor3D()
-        actor.SetInput(" ")
-        prop = actor.GetTextProperty()
-        prop.SetFontSize(round(14 * self._pixel_ratio))
-        prop.SetBold(True)
-        prop.SetColor(1, 1, 1)
-        prop.SetBackgroundColor(0.07, 0.08, 0.11)
-        prop.SetBackgroundOpacity(0.75)
-        prop.SetJustificationToCentered()
-        prop.SetVerticalJustificationToCentered()
         self._layer.AddActor(actor)
         return actor
 
