@@ -25,15 +25,6 @@ class InstallationError(HexmendError, ImportError):
     """Part of Hexmend that is not installed, or not built."""
 
 
-def install_hint(extra: str) -> str:
-    """Return the command that installs an extra.
-
-    >>> install_hint("study")
-    "run  pip install '.[study]'  in the source folder of Hexmend"
-    """
-    return f"run  pip install '.[{extra}]'  in the source folder of Hexmend"
-
-
 class InsufficientMemoryError(HexmendError):
     """Run that needs more memory than is available."""
 

@@ -6,6 +6,15 @@ import os
 import sys
 
 
+def install_hint(extra: str) -> str:
+    """Return the command that installs an extra.
+
+    >>> install_hint("study")
+    "run  pip install '.[study]'  in the source folder of Hexmend"
+    """
+    return f"run  pip install '.[{extra}]'  in the source folder of Hexmend"
+
+
 def in_notebook() -> bool:
     """Return True in a cell of a notebook, where IPython shows what is displayed."""
     shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()

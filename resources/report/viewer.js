@@ -35,7 +35,11 @@ class Viewer {
   listen() {
     const { is } = this;
     is.metric.addEventListener("change", () => this.chooseMetric());
-    for (const name of ["map", "method"]) is[name].addEventListener("change", () => this.rebuild());
+    is.map.addEventListener("change", () => this.rebuild());
+    is.method.addEventListener("change", () => {
+      is.between.value = 1; // who selects a method wants to see its result
+      this.rebuild();
+    });
     for (const name of ["axis", "at", "other", "low", "high", "inverted"]) {
       is[name].addEventListener("input", () => (this.alone = false));
     }

@@ -19,7 +19,8 @@ from pyvista.plotting.plotter import BasePlotter
 from vtkmodules.vtkCommonCore import vtkObject
 from vtkmodules.vtkRenderingCore import vtkProp, vtkRenderer
 
-from hexmend.errors import HexmendError, install_hint
+from hexmend.errors import HexmendError
+from hexmend.terminal_text import install_hint
 from hexmend_app.scene.views.prop_copy import copy_prop
 from hexmend_app.theme.palette import THEME
 

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from hexmend.arrays import mask
-from hexmend.errors import HexmendError, MeshError, install_hint
+from hexmend.errors import HexmendError, MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.mesh_quality import find_metric, measure_mesh
 from hexmend.quality.selection import region
-from hexmend.terminal_text import in_notebook
+from hexmend.terminal_text import in_notebook, install_hint
 from hexmend_app.picture.colours import Colours
 from hexmend_app.scene.colour.colouring import INVERTED, resolve
 from hexmend_app.scene.render.graphics import GraphicsError, prepare_off_screen

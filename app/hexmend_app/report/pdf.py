@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hexmend.errors import HexmendError, install_hint
+from hexmend.errors import HexmendError
 from hexmend.io.storage.atomic import atomic_write
+from hexmend.terminal_text import install_hint
 
 
 def write_pdf(path: Path, text: str) -> None:

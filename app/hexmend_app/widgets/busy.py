@@ -25,7 +25,7 @@ class Busy(QWidget):
         self._text.setAccessibleName(tr("Current task"))
         self._bar = QProgressBar()
         self._bar.setRange(0, 0)
-        self._bar.setFixedSize(140, 10)  # as high as text, so that the layout does not jump
+        self._bar.setFixedSize(100, 10)  # as high as text, so that the layout does not jump
         self._bar.setTextVisible(False)
         self._bar.setAccessibleName(tr("Progress of the task"))
         self._cancel = QPushButton()

@@ -19,7 +19,7 @@ from contextlib import suppress
 
 from hexmend import __version__
 from hexmend.cli.process.interrupts import CleanExit, exit_interrupted, exit_on_signals
-from hexmend.errors import install_hint
+from hexmend.terminal_text import install_hint
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

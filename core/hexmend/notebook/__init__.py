@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.errors import HexmendError, install_hint
+from hexmend.errors import HexmendError
 from hexmend.iteration import Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.notebook.html_tables import of_mesh, of_result
+from hexmend.terminal_text import install_hint
 
 __all__ = ["Still", "View", "html", "plot", "view"]
 

@@ -7,7 +7,7 @@ import sys
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QScrollArea, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QScrollArea, QSlider, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.picture.colours import Range
@@ -36,6 +36,7 @@ def test_a_task_in_the_bottom_row_does_not_make_it_higher(window):
     QApplication.processEvents()
     # Otherwise the first task would resize the view, and a fitted camera would move.
     assert window.busy.sizeHint().height() <= window.docks.row.sizeHint().height()
+    assert named(window.features["timeline"].panel, QSlider, "Iteration").width() >= 90
     window.busy.done("test")
 
 

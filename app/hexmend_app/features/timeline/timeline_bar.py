@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QAction, QActionGroup
+from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
 from hexmend_app.features.timeline.run_bar import RunBar
@@ -19,6 +19,9 @@ from hexmend_app.widgets.wording import counted, size
 
 #: Options for the memory of node positions, in MB, and for the playback speed, in iterations per second.
 LIMITS, SPEEDS = (128, 256, 512, 1024, 2048, 4096), (2, 5, 10, 20, 30)
+
+#: Smallest width of the slider, and width of a bar from which it has all buttons, in pixels.
+_LEAST_TRACK, _WIDE = 90, 760
 
 #: Actions on buttons next to the slider.
 _STEPS = ("first", "back", "play", "on", "newest")
@@ -62,6 +65,7 @@ class TimelineBar(QWidget):
         for button in (*self._buttons.values(), self._branch):
             button.setAutoRaise(True)
         self._slider = TrackSlider()
+        self._slider.setMinimumWidth(_LEAST_TRACK)
         self._slider.valueChanged.connect(self.number_chosen)
         set_help(self._slider, tr("Iteration"), tr("Displayed iteration."))
         self._at = QLabel()
@@ -88,6 +92,12 @@ class TimelineBar(QWidget):
         for widget in (self._at, self._branch, self._more):
             layout.addWidget(widget)
         self.set_runs(())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave out the buttons for the ends of the run where the bar is narrow: the slider has these ends too."""
+        super().resizeEvent(event)
+        for name in ("first", "newest"):
+            self._buttons[name].setVisible(self.width() >= _WIDE)
 
     def set_runs(self, names: Sequence[tuple[str, str]]) -> None:
         """List the names and tooltips of runs without sending a signal."""

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from PIL import Image
 
-from hexmend.errors import FileError, install_hint
+from hexmend.errors import FileError
+from hexmend.terminal_text import install_hint
 
 #: Constant rate factor of x264; 18 is visually almost lossless.
 _QUALITY = "18"

@@ -9,11 +9,12 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
-from hexmend.errors import HexmendError, ParameterError, install_hint
+from hexmend.errors import HexmendError, ParameterError
 from hexmend.run.memory import available
 from hexmend.study.batch.process import run_task
 from hexmend.study.batch.table_columns import Status, answer
 from hexmend.study.batch.task import Task
+from hexmend.terminal_text import install_hint
 
 if TYPE_CHECKING:
     from distributed import Client, Future, Worker

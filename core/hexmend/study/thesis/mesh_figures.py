@@ -11,11 +11,12 @@ from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
-from hexmend.errors import HexmendError, install_hint
+from hexmend.errors import HexmendError
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
 from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import INITIAL
+from hexmend.terminal_text import install_hint
 
 
 @dataclass(frozen=True)

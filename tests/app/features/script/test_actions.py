@@ -35,6 +35,7 @@ UNTOLD = {
     "script": "writes the script",
     "copy_camera": "copies",
     "copy_measurement": "copies",
+    "measure": "begins to pick points, which are told",
     "copy_command": "copies",
     "pace_*": "is how runs are watched, which changes no result",
     "key_figures": "lays out the view",
@@ -56,7 +57,7 @@ UNTOLD = {
 TOLD = {
     "look": ("edges", "shading", "neutral", "cut", "face", "roll_left", "roll_right", "view_x", "view_y", "view_z",
              "view_minus_x", "view_minus_y", "view_minus_z", "view_iso", "view_back", "view_forward", "parallel", "up_x",
-             "up_y", "up_z", "paste_camera", "fit", "keep_camera", "measure"),
+             "up_y", "up_z", "paste_camera", "fit", "keep_camera"),
     "structure": ("show_irregular", "show_boundary", "show_sharp", "show_fixed", "show_free", "show_locked",
                   "show_kinds", "show_others", "show_original", "show_interfaces", "show_shadow"),
     "hexes": ("next_worst", "previous_worst", "free_isolated", "back", "isolate", "dig", "undig", "visit", "tag", "pin",

@@ -21,7 +21,7 @@ from hexmend.cli.output.mesh_output import MeshOutput
 from hexmend.cli.output.progress import follow
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
-from hexmend.errors import ParameterError, install_hint
+from hexmend.errors import ParameterError
 from hexmend.io import read, writer_for
 from hexmend.io.surfaces.curve_file import with_curves_of_file
 from hexmend.iteration import Iteration, Result
@@ -35,6 +35,7 @@ from hexmend.report import record, write_history, write_json
 from hexmend.run import iterate
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
+from hexmend.terminal_text import install_hint
 
 
 def run(args: argparse.Namespace) -> int:

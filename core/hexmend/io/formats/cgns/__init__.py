@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hexmend.errors import FileError, install_hint
+from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
 from hexmend.io.base.format import register
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import install_hint
 
 #: Texts near the beginning of files of the two kinds.
 ADF_MARK, HDF5_MARKS = b"ADF Database", (b"HDF5 MotherNode", b"CGNSLibraryVersion")
