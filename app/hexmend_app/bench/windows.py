@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
+import shutil
+import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from statistics import median
@@ -33,6 +36,7 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
     from hexmend_app.state.mesh.document import State
 
     app = application()
+    keep_settings()
     rows = []
     for mesh in meshes:
         window = Window()
@@ -50,6 +54,16 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
         window.close()
         app.processEvents()
     return {"meshes": rows}
+
+
+def keep_settings() -> None:
+    """Let windows of this process use settings of their own, so that a benchmark leaves those of the user alone."""
+    from PySide6.QtCore import QSettings
+
+    folder = tempfile.mkdtemp(prefix="hexmend-bench-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    for form in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
+        QSettings.setPath(form, QSettings.Scope.UserScope, folder)
 
 
 def rotation_frame_ms(window: Window) -> float:

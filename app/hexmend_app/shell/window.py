@@ -81,7 +81,8 @@ class Window(QMainWindow):
         LetterKeys(self)
         FocusAfterReturn(self, lambda: None if self.canvas is None else self.canvas.interactor)
         self._counts = HexCounts()
-        lay_out_status_bar(self.statusBar(), self.docks.bars, self.busy, self._counts, self.docks.row)
+        lay_out_status_bar(self.statusBar(), self.docks.bars, self._counts, self.docks.row)
+        Overlay(self.busy, self.docks.centre, (1.0, 1.0))  # the slider in the bottom row stays in place
         self.session: Session | None = None
         self.canvas: Canvas | None = None
         self.features: dict[str, Feature] = {}

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QProgressBar, QPushButton, QWidget
 
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
@@ -16,16 +16,17 @@ from hexmend_app.widgets.eliding_label import ElidingLabel
 _STEPS = 1000
 
 
-class Busy(QWidget):
+class Busy(QFrame):
     """Progress indicator of the newest task, with a button that ends it."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
+        self.setObjectName("busy")
         self._text = ElidingLabel()
         self._text.setAccessibleName(tr("Current task"))
         self._bar = QProgressBar()
         self._bar.setRange(0, 0)
-        self._bar.setFixedSize(100, 10)  # as high as text, so that the layout does not jump
+        self._bar.setFixedSize(140, 10)  # as high as text, so that the layout does not jump
         self._bar.setTextVisible(False)
         self._bar.setAccessibleName(tr("Progress of the task"))
         self._cancel = QPushButton()
@@ -35,7 +36,7 @@ class Busy(QWidget):
         self._escape_owner = ""
         self._tasks: dict[str, tuple[str, str, str, Callable[[], object], float | None]] = {}  # by owner
         layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setContentsMargins(8, 4, 8, 4)
         for part in (self._text, self._bar, self._cancel):
             layout.addWidget(part)
         self.hide()

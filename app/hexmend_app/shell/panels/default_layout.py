@@ -16,9 +16,11 @@ RIGHT, BOTTOM = Qt.DockWidgetArea.RightDockWidgetArea, Qt.DockWidgetArea.BottomD
 #: Places of docks, in order.
 PLACES = (PanelPlace.TOOLS, PanelPlace.FACTS, PanelPlace.DRAWER)
 
-#: Width of the right column as a share of that of the window, its minimum in pixels, and the share of tools in its
-#: height.
-_COLUMN_SHARE, _MINIMUM_COLUMN, _TOOLS_SHARE = 0.145, 240, 0.6
+#: Width of the right column as a share of that of the window, and its minimum in pixels.
+_COLUMN_SHARE, _MINIMUM_COLUMN = 0.145, 240
+
+#: Shares of tools and of figures in the height of the window.
+_SHARES = 0.55, 0.36
 
 
 def area_of(place: PanelPlace) -> Qt.DockWidgetArea:
@@ -46,11 +48,30 @@ def arrange(main: QMainWindow, docks: Sequence[Dock]) -> None:
 
 def size(main: QMainWindow, docks: Sequence[Dock]) -> None:
     """Give the right column its default size."""
-    firsts = [next((dock for dock in docks if dock.place is place), None) for place in PLACES[:2]]
-    firsts = [dock for dock in firsts if dock is not None]
-    heights = [round(main.height() * share) for share in (_TOOLS_SHARE, 1 - _TOOLS_SHARE)]
+    firsts = _column(docks)
     main.resizeDocks(firsts, [_column_width(main)] * len(firsts), Qt.Orientation.Horizontal)
+    share_column(main, docks, _SHARES)
+
+
+def share_column(main: QMainWindow, docks: Sequence[Dock], shares: Sequence[float]) -> None:
+    """Give the tools and the figures in the right column shares of the height of the window."""
+    firsts = _column(docks)
+    heights = [round(share * main.height()) for share in shares]
     main.resizeDocks(firsts, heights[: len(firsts)], Qt.Orientation.Vertical)
+
+
+def column_shares(main: QMainWindow, docks: Sequence[Dock]) -> tuple[float, float]:
+    """Return the shares of tools and figures in the height of the window; the default ones unless both are shown."""
+    shown = [dock for dock in _column(docks) if dock.isVisible() and not dock.isFloating()]
+    if len(shown) != 2:
+        return _SHARES
+    return shown[0].height() / main.height(), shown[1].height() / main.height()
+
+
+def _column(docks: Sequence[Dock]) -> list[Dock]:
+    """Return the docks of tools and of figures that are in front, or the first ones."""
+    groups = [[dock for dock in docks if dock.place is place] for place in PLACES[:2]]
+    return [next((dock for dock in group if dock.in_front), group[0]) for group in groups if group]
 
 
 def _column_width(main: QMainWindow) -> int:

@@ -71,7 +71,8 @@ class DockSet(QObject):
         self.folded, self.hidden, self.group = True, False, PanelGroup.FIND
         self._drawer_height = _DRAWER
         self._placed = self._restoring = False
-        self._saved, self._shown_bars = QByteArray(), []  # the arrangement before all panels were hidden
+        # The arrangement before all panels were hidden.
+        self._saved, self._shares, self._shown_bars = QByteArray(), (0.0, 0.0), []
         self._offered: list[Dock] = []  # raised once they are visible
         self.centre = QWidget()
         self.centre.setMinimumSize(*_MINIMUM_VIEW)
@@ -84,6 +85,7 @@ class DockSet(QObject):
         self.row = GroupRow(tr("Tasks"))
         main.setCentralWidget(self.centre)
         main.setDocumentMode(True)
+        main.setAnimated(False)  # docks have their places at once, as restoring needs
         main.setDockOptions(QMainWindow.DockOption.AllowTabbedDocks | QMainWindow.DockOption.AllowNestedDocks)
         for corner in (Qt.Corner.TopRightCorner, Qt.Corner.BottomRightCorner):
             main.setCorner(corner, default_layout.RIGHT)

@@ -130,6 +130,7 @@ class Docks(DockSet):
         self._restoring = True
         if hidden:
             self._saved = self._main.saveState(LAYOUT)
+            self._shares = default_layout.column_shares(self._main, self._all())
             self._shown_bars = [id for id in self._bars if self.is_open(id)]
             self._offered += [dock for dock in self._all() if dock.in_front]
             for dock in self._all():
@@ -164,6 +165,7 @@ class Docks(DockSet):
             "folded": self.folded,
             "drawer": self._drawer_height,
             "group": self.group.value,
+            "shares": self._shares if self.hidden else default_layout.column_shares(self._main, self._all()),
             "column": tools.width() if tools is not None else 0,
             "fronts": [dock.windowTitle() for dock in dict.fromkeys([*self._offered, *fronts])],
             "closed": [id for id in self.ids() if not self.is_open(id) and id not in shown],
@@ -204,5 +206,9 @@ class Docks(DockSet):
                 elif self._in_drawer(dock):
                     self._offered.append(dock)
         self._restoring = False
+        QApplication.sendPostedEvents(self._main, QEvent.Type.LayoutRequest)
+        if saved.shares is not None:
+            default_layout.share_column(self._main, self._all(), saved.shares)
+        self._tab_bars.hide_stale(self._all())
         self._refresh_row()
         self.set_hidden(saved.hidden)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QWidget
 
 from hexmend_app.translation import tr
@@ -19,10 +20,19 @@ class HexCounts(ElidingLabel):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setAccessibleName(tr("Counts"))
+        self._longest = ""
+
+    def sizeHint(self) -> QSize:
+        """Return the size for the longest text of the mesh, so that the slider next to it stays in place."""
+        return QSize(self.fontMetrics().horizontalAdvance(self._longest), super().sizeHint().height())
 
     def refresh(self, session: Session) -> None:
         """Show the counts of the current mesh."""
         summary = session.document.now.summary
+        longest = f"{summary.hexes:,} hexes, {summary.hexes:,} inverted  ·  hex {summary.hexes:,}"
+        if longest != self._longest:
+            self._longest = longest
+            self.updateGeometry()
         if summary.inverted:
             text = tr("{hexes:,} hexes, {inverted:,} inverted", hexes=summary.hexes, inverted=summary.inverted)
         else:

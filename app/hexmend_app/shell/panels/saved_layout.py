@@ -31,6 +31,8 @@ class SavedLayout:
         The drawer is closed; all panels are hidden.
     group : PanelGroup
         Of the docks in the drawer.
+    shares : (float, float) or None
+        Shares of tools and of figures in the height of the window; None for the default.
     drawer, column : int
         Height of the drawer and width of the right column in pixels; 0 for the default width.
     """
@@ -41,6 +43,7 @@ class SavedLayout:
     folded: bool
     hidden: bool
     group: PanelGroup
+    shares: tuple[float, float] | None
     drawer: int
     column: int
 
@@ -56,8 +59,16 @@ class SavedLayout:
                 folded=bool(data["folded"]),
                 hidden=bool(data["hidden"]),
                 group=PanelGroup(data.get("group", PanelGroup.FIND.value)),
+                shares=_shares(data.get("shares")),
                 drawer=max(int(data["drawer"]), _MINIMUM_DRAWER),
                 column=int(data.get("column") or 0),
             )
         except (KeyError, TypeError, ValueError):
             return None
+
+
+def _shares(data: object) -> tuple[float, float] | None:
+    if data is None:
+        return None
+    tools, figures = (min(max(float(share), 0.05), 0.9) for share in data)
+    return tools, figures

@@ -58,6 +58,13 @@ class TabBars:
             others = [] if dock.isFloating() else self._main.tabifiedDockWidgets(dock)
             dock.show_title(all(other.isHidden() for other in others))
 
+    def hide_stale(self, docks: Iterable[Dock]) -> None:
+        """Hide bars that are not right above a dock: restoring a state may leave bars of the state before visible."""
+        tops = {(dock.x(), dock.y()) for dock in docks if dock.isVisible() and not dock.isFloating()}
+        for bar in self._all():
+            if bar.count() and (bar.x(), bar.y() + bar.height()) not in tops:
+                bar.hide()
+
     def drawer_height(self) -> int:
         """Return the height of the tab bar of the drawer in pixels; 0 if it has none."""
         return sum(bar.height() for bar in self._all() if _is_drawer(bar) and bar.isVisible())

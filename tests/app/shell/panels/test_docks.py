@@ -302,6 +302,27 @@ def test_a_layout_is_restored(docks, another, folded, hidden):
     assert another.centre.size() == docks.centre.size()
 
 
+@pytest.mark.parametrize("hidden", [False, True], ids=["shown", "hidden"])
+def test_the_column_is_divided_as_before(docks, another, hidden):
+    resize(docks, "Run", 300, 430)
+    height = dock_of(docks, "Run").height()
+    docks.set_hidden(hidden)
+    another.restore(docks.state())
+    another.set_hidden(False)
+    QApplication.processEvents()
+    assert dock_of(another, "Run").height() == pytest.approx(height, abs=8)
+
+
+def test_no_tab_bar_of_the_former_layout_is_left(docks, another):
+    docks.show_panel("tags")
+    resize(docks, "Run", 400, 250)
+    another.show_panel("look")
+    another.restore(docks.state())
+    QApplication.processEvents()
+    bars = [bar for bar in another.parent().findChildren(QTabBar) if bar.isVisible() and bar.count()]
+    assert sorted(bar.tabText(0) for bar in bars) == ["Histogram", "Run", "Worst"]
+
+
 def test_a_floating_dock_is_restored_through_the_settings(docks, another):
     dock_of(docks, "Look").setFloating(True)
     dock_of(docks, "Look").resize(300, 250)
