@@ -19,6 +19,9 @@ PLACES = (PanelPlace.TOOLS, PanelPlace.FACTS, PanelPlace.DRAWER)
 #: Width of the right column as a share of that of the window, and its minimum in pixels.
 _COLUMN_SHARE, _MINIMUM_COLUMN = 0.145, 240
 
+#: Pixels by which Qt rounds the sizes of docks.
+_ROUNDING = 2
+
 #: Shares of tools and of figures in the height of the window.
 _SHARES = 0.55, 0.36
 
@@ -57,7 +60,8 @@ def share_column(main: QMainWindow, docks: Sequence[Dock], shares: Sequence[floa
     """Give the tools and the figures in the right column shares of the height of the window."""
     firsts = _column(docks)
     heights = [round(share * main.height()) for share in shares]
-    main.resizeDocks(firsts, heights[: len(firsts)], Qt.Orientation.Vertical)
+    if any(abs(dock.height() - height) > _ROUNDING for dock, height in zip(firsts, heights, strict=False)):
+        main.resizeDocks(firsts, heights[: len(firsts)], Qt.Orientation.Vertical)
 
 
 def column_shares(main: QMainWindow, docks: Sequence[Dock]) -> tuple[float, float]:
