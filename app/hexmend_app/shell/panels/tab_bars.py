@@ -12,6 +12,9 @@ from hexmend_app.shell.panels.dock import Dock
 from hexmend_app.theme.style import icon, set_help
 from hexmend_app.translation import tr
 
+#: Property of tab bars that have been set up once.
+_SET_UP = "set_up"
+
 #: Accessible names of the tab bars.
 _NAMES = {PanelPlace.TOOLS: "Tools", PanelPlace.FACTS: "Figures", PanelPlace.DRAWER: "Panels below the view"}
 
@@ -42,7 +45,8 @@ class TabBars:
             first = next((by_title[title] for title in map(bar.tabText, range(bar.count())) if title in by_title), None)
             if first is None or bar.accessibleName() == tr(_NAMES[first.place]):
                 continue
-            if not bar.accessibleName():
+            if not bar.property(_SET_UP):
+                bar.setProperty(_SET_UP, True)
                 bar.setElideMode(Qt.TextElideMode.ElideRight)
                 bar.setUsesScrollButtons(False)
                 bar.setDrawBase(False)
@@ -64,6 +68,7 @@ class TabBars:
         for bar in self._all():
             if bar.count() and (bar.x(), bar.y() + bar.height()) not in tops:
                 bar.hide()
+                bar.setAccessibleName("")  # another bar has it now
 
     def drawer_height(self) -> int:
         """Return the height of the tab bar of the drawer in pixels; 0 if it has none."""

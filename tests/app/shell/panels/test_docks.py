@@ -321,6 +321,8 @@ def test_no_tab_bar_of_the_former_layout_is_left(docks, another):
     QApplication.processEvents()
     bars = [bar for bar in another.parent().findChildren(QTabBar) if bar.isVisible() and bar.count()]
     assert sorted(bar.tabText(0) for bar in bars) == ["Histogram", "Run", "Worst"]
+    names = [bar.accessibleName() for bar in another.parent().findChildren(QTabBar) if bar.accessibleName()]
+    assert sorted(names) == ["Figures", "Panels below the view", "Tools"]
 
 
 def test_a_floating_dock_is_restored_through_the_settings(docks, another):
