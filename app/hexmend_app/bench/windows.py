@@ -35,8 +35,8 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
     from hexmend_app.shell.window import Window
     from hexmend_app.state.mesh.document import State
 
-    app = application()
     keep_settings()
+    app = application()
     rows = []
     for mesh in meshes:
         window = Window()
@@ -58,12 +58,11 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
 
 def keep_settings() -> None:
     """Let windows of this process use settings of their own, so that a benchmark leaves those of the user alone."""
-    from PySide6.QtCore import QSettings
+    from ..state.settings.settings import store_in
 
     folder = tempfile.mkdtemp(prefix="hexmend-bench-")
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    for form in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
-        QSettings.setPath(form, QSettings.Scope.UserScope, folder)
+    store_in(folder)
 
 
 def rotation_frame_ms(window: Window) -> float:

@@ -43,7 +43,10 @@ class TabBars:
             used = bar.count() > 1 and bar.isVisible()  # Qt keeps bars that are not needed
             bar.setFocusPolicy(Qt.FocusPolicy.TabFocus if used else Qt.FocusPolicy.NoFocus)
             first = next((by_title[title] for title in map(bar.tabText, range(bar.count())) if title in by_title), None)
-            if first is None or bar.accessibleName() == tr(_NAMES[first.place]):
+            if not used or first is None:
+                bar.setAccessibleName("")
+                continue
+            if bar.accessibleName() == tr(_NAMES[first.place]):
                 continue
             if not bar.property(_SET_UP):
                 bar.setProperty(_SET_UP, True)

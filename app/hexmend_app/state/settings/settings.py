@@ -61,6 +61,12 @@ def write_all() -> None:
     QSettings().sync()
 
 
+def store_in(folder: str) -> None:
+    """Read and write the settings of this process in a folder, instead of those of the user."""
+    for form in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
+        QSettings.setPath(form, QSettings.Scope.UserScope, folder)
+
+
 def _bytes(value: Any) -> QByteArray:
     if not isinstance(value, QByteArray):
         raise TypeError(value)
