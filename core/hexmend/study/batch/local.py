@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Generator, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from itertools import islice
 from typing import Any
 
 from hexmend.kernels import cores
@@ -36,14 +37,20 @@ class Local:
         jobs = max(1, min(self._jobs or count, len(tasks)))
         threads = self._threads or max(1, count // jobs)
         memory_mb, ending = (available() or 0) // jobs >> 20, threading.Event()
+        remaining = iter(tasks)
+        running: dict[Future[dict[str, Any]], Task] = {}
+
+        def begin(pool: ThreadPoolExecutor) -> None:
+            for task in islice(remaining, jobs - len(running)):
+                future = pool.submit(run_task, task, memory_mb=memory_mb, threads=threads, cancelled=ending.is_set)
+                running[future] = task
+
         with ThreadPoolExecutor(jobs) as pool:
             try:
-                done = {
-                    pool.submit(run_task, task, memory_mb=memory_mb, threads=threads, cancelled=ending.is_set): task
-                    for task in tasks
-                }
-                for future in as_completed(done):
-                    yield done[future], future.result()
+                begin(pool)
+                while running:
+                    for future in wait(running, return_when=FIRST_COMPLETED).done:
+                        yield running.pop(future), future.result()
+                        begin(pool)  # only now, when the answer is stored: an interrupted study keeps it
             finally:
                 ending.set()
-                pool.shutdown(cancel_futures=True)
