@@ -30,6 +30,9 @@ class LayerSwitch:
         Allow switching the layer on before its content has been counted.
     hidden_when_empty : bool
         Hide the row in the panel if the mesh has nothing to draw.
+    decorative : bool
+        Omit the layer from films, whose static areas then take less space, and from pictures on white or without a
+        background.
     drawn_by : type, optional
         Subclass of `hexmend_app.scene.layers.optional_layer.OptionalLayer`; None if `StructureLayers` draws the layer.
     """
@@ -44,6 +47,7 @@ class LayerSwitch:
     order: int = 100
     offered_early: bool = False
     hidden_when_empty: bool = False
+    decorative: bool = False
     drawn_by: type | None = None
 
 

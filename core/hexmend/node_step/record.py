@@ -17,6 +17,12 @@ from hexmend.quality.descent import descent
 #: Relative change of an energy that counts as rounding: energies of patches are computed with an error of about 2e-15.
 _ROUNDING = 1e-13
 
+#: Length of a move or a search direction that counts as rounding, in the unit of the step.
+_NO_MOVE = 1e-9
+
+#: Relative change of the energy from before to after a step that counts as rounding.
+_NO_CHANGE = 1e-12
+
 
 @reads_old_members
 class StepStatus(Enum):
@@ -139,6 +145,24 @@ class NodeStep:
     def descent(self) -> np.ndarray:
         """Negative gradient, (3,); zero if it is within rounding, see `hexmend.quality.descent.descent`."""
         return descent(self.gradient, self.hessian, self.before / self.unit if self.unit else self.before)
+
+    @property
+    def search_direction(self) -> np.ndarray:
+        """`direction`, (3,); zero if it is within rounding, or follows from a gradient that is."""
+        has_own_target = self.is_global or len(self.pulls) > 0
+        negligible = np.linalg.norm(self.direction) <= _NO_MOVE * self.unit
+        return np.zeros(3) if negligible or not (has_own_target or self.descent.any()) else self.direction
+
+    @property
+    def outcome(self) -> StepStatus:
+        """`status`, but AT_TARGET for a node that moved within rounding only."""
+        moved = self.status in (StepStatus.MOVED, StepStatus.SHORTENED)
+        return StepStatus.AT_TARGET if moved and self.move < _NO_MOVE else self.status
+
+    @property
+    def raises_energy(self) -> bool:
+        """True if the node moves and the energy rises by more than rounding."""
+        return self.move > 0 and self.energy_after > self.energy * (1 + _NO_CHANGE)
 
     @property
     def curve_is_rounding(self) -> bool:

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 from hexmend.node_step import NodeStep, StepStatus
 from hexmend_app.features.node_step.figures import NodeFigures
 from hexmend_app.features.node_step.step_plot import NodePlot
-from hexmend_app.features.node_step.step_texts import displayed_status, rows
+from hexmend_app.features.node_step.step_texts import rows
 from hexmend_app.theme.palette import DESCENT, OTHERWISE, SEARCH, TAKEN, TRIED
 from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
 from hexmend_app.translation import tr
@@ -165,7 +165,7 @@ class NodePanel(QWidget):
             True if the node has been moved, False for a preview of the step.
         """
         self._title.setText(tr("Node {node:,}", node=step.node))
-        status = displayed_status(step)
+        status = step.outcome
         moves = status in (StepStatus.MOVED, StepStatus.SHORTENED)
         outcome = status.value if done or not moves else status.value.replace("Moved", "Will be moved")
         self._status.setText(tr("{method}. {outcome}", method=method, outcome=tr(outcome)))

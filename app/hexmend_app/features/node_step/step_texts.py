@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.node_step import NodeStep, StepStatus
+from hexmend.node_step import NodeStep
 from hexmend.smoothers import METHODS
 from hexmend_app.theme.palette import TEXT, WORSE, Role
 from hexmend_app.translation import tr
@@ -21,12 +21,6 @@ _DIRECTIONS = {
     ),
 }
 
-#: Largest move that counts as rounding, in mean edge lengths.
-_NO_MOVE = 1e-9
-
-#: Largest relative change of energy that counts as rounding.
-_ROUNDING = 1e-12
-
 
 @dataclass(frozen=True)
 class Row:
@@ -36,12 +30,6 @@ class Row:
     value: str
     meaning: str
     colour: Role = TEXT
-
-
-def displayed_status(step: NodeStep) -> StepStatus:
-    """Return the status of a step; a node that moves by rounding only is at its target."""
-    moved = step.status in (StepStatus.MOVED, StepStatus.SHORTENED)
-    return StepStatus.AT_TARGET if moved and step.move < _NO_MOVE else step.status
 
 
 def rows(step: NodeStep) -> list[Row]:
@@ -76,13 +64,17 @@ def _energy(step: NodeStep) -> Row:
             hexes=counted(step.hexes.size, "hex"),
             **values,
         )
-    rises = step.move > 0 and step.energy_after > step.energy * (1 + _ROUNDING)
-    if rises:
+    if step.raises_energy:
         optimises = METHODS[step.method].optimises
         meaning += " " + (
             tr("It rises: other nodes move too.") if optimises else tr("It rises: this method does not evaluate it.")
         )
-    return Row(tr("Energy"), before if step.move == 0 else f"{before} → {after}", meaning, WORSE if rises else TEXT)
+    return Row(
+        tr("Energy"),
+        before if step.move == 0 else f"{before} → {after}",
+        meaning,
+        WORSE if step.raises_energy else TEXT,
+    )
 
 
 def _energy_text(value: float) -> str:

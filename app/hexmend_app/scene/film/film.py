@@ -70,7 +70,7 @@ def pictures(
         Returns additional props, from the width of a thin line in pixels.
     """
     width, height = size
-    look = replace(look, structure=look.structure.without("shadow"))  # static areas take less space in films
+    look = replace(look, structure=look.structure.without_decoration())
     strip = strip_height(size)
     chart = chart and strip > 0 and not look.colours.neutral
     chart_width = round(_CHART * width) if chart else 0

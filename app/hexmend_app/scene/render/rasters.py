@@ -75,7 +75,7 @@ def rasters(
         Maximum number of pixels that are rendered at once; larger pictures are rendered in tiles.
     """
     scene = layout.scene
-    look = _without_shadow(scene, scene.look(layout.meshes[0].mesh))
+    look = _without_decoration(scene, scene.look(layout.meshes[0].mesh))
     supersampling = scene.page.supersampling
     pixel_ratio = scene.page.line_width(scene.lines) * supersampling
     tiles = Tiles.of(layout.panel, supersampling, pixel_ratio, at_once)
@@ -128,7 +128,7 @@ class _Views:
         # Hex numbers apply to the first mesh only.
         show = scene.show.with_keys(marked=frozenset())
         scene = replace(scene, cut=replace(scene.cut, hexes=""), show=show)
-        return Frame(other.mesh, other.figures, look=_without_shadow(scene, scene.look(other.mesh)))
+        return Frame(other.mesh, other.figures, look=_without_decoration(scene, scene.look(other.mesh)))
 
     def _share_colour_range(self, look: Look) -> None:
         """Extend a fitted colour range to the values of all views."""
@@ -188,10 +188,10 @@ class _Views:
         return image.reduce(fine) if fine > 1 else image
 
 
-def _without_shadow(scene: Scene, look: Look) -> Look:
-    """Return a look without the ground shadow on a white or transparent page, where it would be taken for a smear."""
+def _without_decoration(scene: Scene, look: Look) -> Look:
+    """Return a look without decorative layers on a white or transparent page: a shadow would be taken for a smear."""
     if scene.page.ground in (None, "#ffffff"):
-        return replace(look, structure=look.structure.without("shadow"))
+        return replace(look, structure=look.structure.without_decoration())
     return look
 
 

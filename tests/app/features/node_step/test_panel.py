@@ -11,7 +11,7 @@ from hexmend.node_step import StepStatus, Trial, explain
 from hexmend.smoothers import METHODS
 from hexmend_app.features.node_step.panel import NodePanel
 from hexmend_app.features.node_step.step_plot import NodePlot, extent
-from hexmend_app.features.node_step.step_texts import displayed_status, rows
+from hexmend_app.features.node_step.step_texts import rows
 from hexmend_app.theme.style import TEXT, WORSE
 from tests.app.driving import named
 from tests.app.features.node_step.step_display import drawn_trials
@@ -31,10 +31,10 @@ def row(step, name):
 
 def test_a_move_within_rounding_counts_as_none():
     step = step_of("local-sd")
-    assert displayed_status(step) is StepStatus.MOVED
+    assert step.outcome is StepStatus.MOVED
     nudged = dataclasses.replace(step, after=step.before + 1e-17)
-    assert displayed_status(nudged) is StepStatus.AT_TARGET
-    assert displayed_status(dataclasses.replace(nudged, status=StepStatus.REJECTED)) is StepStatus.REJECTED
+    assert nudged.outcome is StepStatus.AT_TARGET
+    assert dataclasses.replace(nudged, status=StepStatus.REJECTED).outcome is StepStatus.REJECTED
 
 
 def test_a_negative_eigenvalue_is_called_a_saddle():

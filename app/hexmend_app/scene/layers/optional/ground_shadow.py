@@ -39,6 +39,7 @@ _LEAST_UP = -0.05
     action="&Ground shadow",
     order=99,
     offered_early=True,
+    decorative=True,
 )
 class GroundShadow(OptionalLayer):
     """Draws a blurred projection of the shown hexes onto a plane below them.

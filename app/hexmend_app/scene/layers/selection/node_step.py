@@ -21,9 +21,6 @@ _DESCENT_WIDTH = 1.7
 _SHAFT, _TIP, _TIP_LENGTH, _RIM_WIDTH = 0.026, 0.065, 0.2, 0.011
 _BALLS = {"pulls": 0.04, "tried": 0.042, "taken": 0.05, "node": 0.055}
 
-#: Length of a search direction that counts as rounding, in the unit of the step.
-_NO_MOVE = 1e-9
-
 
 class NodeStepMarks:
     """Draws a node step in front of everything else.
@@ -123,7 +120,7 @@ class NodeStepMarks:
             _draw(actor, _lines(x, spokes))
         self._draw_ghost(x, node, hexes, spokes)
         self._draw_arrow(DESCENT, _scaled(step.descent, _DESCENT * length), length, _DESCENT_WIDTH)
-        self._draw_arrow(SEARCH, _scaled(_search_direction(step), _DIRECTION * length), length)
+        self._draw_arrow(SEARCH, _scaled(step.search_direction, _DIRECTION * length), length)
         self._draw_arrow(TAKEN, step.after - step.before, 1.4 * length)
         tried = [step.before + trial.alpha * step.direction for trial in step.trials if trial.alpha != step.alpha]
         near = [point for point in tried if np.linalg.norm(point - step.before) < _MAX_DISTANCE * length]
@@ -173,13 +170,6 @@ class NodeStepMarks:
         self.step = None
         for layer in self.layers:
             layer.DrawOff()
-
-
-def _search_direction(step: NodeStep) -> np.ndarray:
-    """Return the search direction, (3,); zero if it is within rounding."""
-    to_target = step.is_global or len(step.pulls) > 0  # directions that do not follow from the gradient of the node
-    negligible = np.linalg.norm(step.direction) <= _NO_MOVE * step.unit
-    return np.zeros(3) if negligible or not (to_target or step.descent.any()) else step.direction
 
 
 def _draw(actor: vtkActor, poly: pv.PolyData) -> None:
