@@ -125,6 +125,11 @@ class ColourRange(QObject):
     dragged(end, position)
         The user dragged a handle: 0 for the low end, 1 for the high one.
 
+    Attributes
+    ----------
+    lines : list of pyqtgraph.InfiniteLine
+        The handle of the low end, and that of the high one.
+
     Parameters
     ----------
     plot : pyqtgraph.PlotWidget
@@ -135,41 +140,46 @@ class ColourRange(QObject):
     def __init__(self, plot: pg.PlotWidget):
         super().__init__(plot)
         self._ends = [0.0, 1.0]  # also beyond the axis
-        self._lines = []
+        self.lines = []
         for marker in ("|>", "<|"):
             line = pg.InfiniteLine(angle=90, movable=True, bounds=(0.0, 1.0))
             line.addMarker(marker, position=0.5, size=12)
             line.setZValue(50)
-            line.sigDragged.connect(lambda line: self.drag(self._lines.index(line), line.value()))
+            line.sigDragged.connect(lambda line: self.drag(self.lines.index(line), line.value()))
             line.hide()
             plot.addItem(line, ignoreBounds=True)
-            self._lines.append(line)
+            self.lines.append(line)
 
     def paint(self, colour: str, hover: str) -> None:
         """Set the colours of the handles."""
-        for line in self._lines:
+        for line in self.lines:
             line.setPen(pg.mkPen(colour, width=1, style=Qt.PenStyle.DashLine))
             line.setHoverPen(pg.mkPen(hover, width=2))
 
+    def end_at(self, height: float) -> None:
+        """Let the handles end at a fraction of the height of the plot, below its legend."""
+        for line in self.lines:
+            line.setSpan(0.0, height)
+
     def show_ends(self, ends: tuple[float, float] | None) -> None:
         """Show the handles at two positions, at the nearest end of the axis if beyond it; hide them for None."""
-        for line in self._lines:
+        for line in self.lines:
             line.setVisible(ends is not None)
-        if ends is not None and not any(line.moving for line in self._lines):
+        if ends is not None and not any(line.moving for line in self.lines):
             self._ends[:] = ends
             self._place()
 
     @property
     def shown(self) -> bool:
         """True if the handles are shown."""
-        return any(line.isVisible() for line in self._lines)
+        return any(line.isVisible() for line in self.lines)
 
     def handles(self) -> tuple[float, float]:
         """Return the positions of both handles."""
-        return self._lines[0].value(), self._lines[1].value()
+        return self.lines[0].value(), self.lines[1].value()
 
     def _place(self) -> None:
-        for line, end in zip(self._lines, self._ends, strict=True):
+        for line, end in zip(self.lines, self._ends, strict=True):
             with QSignalBlocker(line):
                 line.setValue(min(max(end, 0.0), 1.0))
 

@@ -205,5 +205,6 @@ class HistogramPlot(QWidget):
         self._legend.raise_()
         numbers = (0.3 + 0.7 * self._number_rows) * self.numbers["now"][0].boundingRect().height()
         fraction = min(max(size.height(), numbers) / max(space.height(), 1), _MAX_LEGEND)
+        self.colour_range.end_at(1 - fraction)
         low = self.heights.floor
         self.plot.setYRange(low, low + (self.heights.at_fraction(BROKEN_TOP) - low) / (1 - fraction), padding=0)

@@ -7,7 +7,7 @@ from PySide6.QtTest import QTest
 
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
-from tests.app.driving import LEFT, move
+from tests.app.driving import LEFT, move, turn
 from tests.app.features.histogram.mouse import ends, nothing_pending, point_at
 from tests.patience import PATIENCE
 
@@ -251,3 +251,15 @@ def test_the_range_of_colours_is_never_empty(histogram, ends, end):
     assert len(ranges) == 3
     assert all(low < high for low, high in ranges)
     assert all(pair[1 - end] == ends[1 - end] for pair in ranges)
+
+
+@pytest.mark.parametrize("width", [240, 600])
+def test_the_handles_end_below_the_legend(histogram, width):
+    histogram.resize(width, 300)
+    histogram.set_colour_range((0.2, 1.0))
+    turn()
+    plot = histogram.plot
+    bottom = plot.mapFromGlobal(histogram.legend.mapToGlobal(histogram.legend.rect().bottomLeft())).y()
+    for line in plot.colour_range.lines:
+        top = plot.plot.mapFromScene(line.mapRectToScene(line.boundingRect()).topLeft()).y()
+        assert bottom - 2 <= top < bottom + 30
