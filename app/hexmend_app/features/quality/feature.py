@@ -36,8 +36,10 @@ class FeatureQuality(Feature):
                 text=tr("&Key figures"),
                 menu="View",
                 part=3,
-                help=tr("Show inverted hexes, q min, q mean and least scaled Jacobian, at the start and now."),
-                handle=self._show_bar,
+                help=tr(
+                    "Show inverted hexes, q min, q mean and least scaled Jacobian in the view; side views have captions."
+                ),
+                handle=self._set_bar,
                 checked=settings.KEY_FIGURES.get,
             ),
         )
@@ -58,7 +60,7 @@ class FeatureQuality(Feature):
     def canvas_ready(self, canvas: Canvas) -> None:
         """Show the key figures in the view."""
         Overlay(self.bar, canvas.interactor, (0.0, 1.0), key="key_figures")
-        self.bar.setVisible(settings.KEY_FIGURES.get())
+        self._show_bar()
 
     def refresh(self) -> None:
         """Update the statistics."""
@@ -69,12 +71,16 @@ class FeatureQuality(Feature):
             summaries = document.start.summary, document.now.summary
             self.panel.set_summaries(*summaries)
             self.bar.set_summaries(*summaries)
-        if self.canvas is not None and self._seen.changed("mesh", document.start):
-            self.bar.setVisible(settings.KEY_FIGURES.get())
+        if self.canvas is not None and self._seen.changed("views", document.start, self.session.side_views.all):
+            self._show_bar()
 
-    def _show_bar(self, on: bool) -> None:
+    def _set_bar(self, on: bool) -> None:
         settings.KEY_FIGURES.set(on)
-        self.bar.setVisible(on)
+        self._show_bar()
+
+    def _show_bar(self) -> None:
+        """Show the key figures of a single view; the captions of several views have figures of their own."""
+        self.bar.setVisible(settings.KEY_FIGURES.get() and not self.session.side_views.all)
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now

@@ -76,3 +76,14 @@ def test_an_action_hides_the_bar_and_shows_it_again(window):
         action.trigger()
         window.refresh()
         assert (bar.isVisible(), action.isChecked(), settings.KEY_FIGURES.get()) == (on, on, on)
+
+
+def test_several_views_have_their_figures_in_the_captions_instead(window):
+    bar = window.features["quality"].bar
+    assert bar.isVisible()
+    window.action("beside").trigger()
+    window.refresh()
+    assert not bar.isVisible()
+    window.action("close_views").trigger()
+    window.refresh()
+    assert bar.isVisible()
