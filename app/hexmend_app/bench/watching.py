@@ -69,7 +69,7 @@ def _eased(window: Window) -> dict[str, float]:
     run.set_pace(Pace.EASED)
     shown = document.points_moved.connect(lambda: times.append(perf_counter()))
     run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=20))
-    while run.busy or run.eased.active:
+    while run.busy or run.view.eased.active:
         run_event_loop(0.1)
     document.points_moved.disconnect(shown)
     run.set_pace(Pace.FASTEST)

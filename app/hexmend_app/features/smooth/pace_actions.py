@@ -22,7 +22,7 @@ def pace_actions(run: RunController) -> Sequence[Action]:
     """Return one action for each pace, of which the present one is checked; the choice is stored."""
 
     def choose(pace: Pace, on: bool) -> None:
-        if on and pace is not run.pace:
+        if on and pace is not run.view.pace:
             run.set_pace(pace)
             settings.RUN_PACE.set(pace.value)
 
@@ -33,7 +33,7 @@ def pace_actions(run: RunController) -> Sequence[Action]:
             menu="Smooth/Iterations in the view",
             help=tr(help),
             handle=lambda on, pace=pace: choose(pace, on),
-            checked=lambda pace=pace: run.pace is pace,
+            checked=lambda pace=pace: run.view.pace is pace,
             needs_mesh=False,
             exclusive=True,
         )

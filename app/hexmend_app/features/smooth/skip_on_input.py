@@ -26,12 +26,12 @@ class SkipOnInput(QObject):
     def __init__(self, run: RunController, view: Callable[[], QWidget | None]):
         super().__init__(run)
         self._run, self._view = run, view
-        run.eased.active_changed.connect(self._on_active)
+        run.view.eased.active_changed.connect(self._on_active)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Show the result before the event gets where it goes."""
         if event.type() in _PRESSES and isinstance(watched, QWidget) and not self._in_view(watched, event):
-            self._run.skip_easing()
+            self._run.view.skip_easing()
         return False
 
     def _in_view(self, widget: QWidget, event: QEvent) -> bool:
@@ -41,4 +41,4 @@ class SkipOnInput(QObject):
     def _on_active(self) -> None:
         """Filter events while needed alone: each costs a call."""
         application = QApplication.instance()
-        (application.installEventFilter if self._run.eased.active else application.removeEventFilter)(self)
+        (application.installEventFilter if self._run.view.eased.active else application.removeEventFilter)(self)

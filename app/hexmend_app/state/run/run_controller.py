@@ -17,11 +17,11 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
-from hexmend_app.state.run.eased_view import EasedView
 from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_settings import rules_text, settings_text
+from hexmend_app.state.run.run_view import RunView
 from hexmend_app.state.run.worker import IterationFrame, Worker
 
 #: Milliseconds between two checks of the mailbox.
@@ -53,14 +53,10 @@ class RunController(QObject):
         Why the last run ended, and what to do.
     outcome : Outcome or None
         Why the last run ended; None if it failed.
-    following : bool
-        True if iterations are shown as they come; False while the user looks at earlier ones.
-    pace : Pace
-        Pace at which the iterations of runs are shown.
     history : History
         Records of all runs.
-    eased : EasedView
-        Shows iterations at the pace of that name.
+    view : RunView
+        What the document shows of the run.
 
     Signals
     -------
@@ -86,8 +82,6 @@ class RunController(QObject):
         super().__init__(parent)
         self._document = document
         self.history = history
-        self._before: State | None = None
-        self._emitting = False
         self._worker: Worker | None = None
         self._title = ""
         self._after_end: list[Callable[[], object]] = []
@@ -97,9 +91,7 @@ class RunController(QObject):
         self.record: RunRecord | None = None
         self.advice: Advice | None = None
         self.outcome: Outcome | None = None
-        self.following = True
-        self.pace = Pace.FASTEST
-        self.eased = EasedView(document, history, self)
+        self.view = RunView(document, history, lambda: self._worker and self._worker.last, self)
         self.phase = Phase.IDLE
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
@@ -116,7 +108,7 @@ class RunController(QObject):
     @property
     def iterating(self) -> bool:
         """True while another iteration is shown and nothing else has changed."""
-        return self._emitting or self.eased.advancing
+        return self.view.iterating
 
     def start(
         self,
@@ -139,22 +131,20 @@ class RunController(QObject):
         """
         if self.busy or not self._document.is_open:
             return
-        self.eased.skip()
-        self._before = self._document.now
+        self.view.eased.skip()
+        before = self._document.now
         self.work, self._title = smoother, smoother.title
-        self.record = self.history.begin(smoother.title, self._before)
-        self.following = True
+        self.record = self.history.begin(smoother.title, before)
         rules = smoother.rules if isinstance(smoother, Recipe) else rules or MotionRules()
         record = partial(self.history.add, self.record)
-        self._worker = Worker(self._before.mesh, smoother, stop, record, rules)
+        self._worker = Worker(before.mesh, smoother, stop, record, rules)
         self.record.work, self.record.stop, self.record.changes = smoother, stop, self._worker.changes
         self.record.rules = rules
         self.record.settings = "; ".join(filter(None, (settings_text(smoother, stop), rules_text(rules))))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
-        self._worker.shows_every = self.pace is Pace.EVERY
+        self._worker.shows_every = self.view.pace is Pace.EVERY
         self._worker.grant(iterations)
-        if self.pace is Pace.EASED and math.isinf(iterations):
-            self.eased.begin(self.record)
+        self.view.begin(self.record, before, iterations)
         self._set_phase(Phase.PREPARING)
         self._worker.task.start()
         self._timer.start()
@@ -167,18 +157,11 @@ class RunController(QObject):
 
     def set_pace(self, pace: Pace) -> None:
         """Set the pace at which the iterations of runs are shown."""
-        self.pace = pace
+        self.view.pace = pace
         if pace is not Pace.EASED:
-            self.skip_easing()
+            self.view.skip_easing()
         if self._worker is not None:
             self._worker.shows_every = pace is Pace.EVERY
-
-    def skip_easing(self) -> None:
-        """Show the newest iteration or the result at once, and those that follow as they come."""
-        if self.eased.active:
-            self.eased.skip()
-            if self._worker is not None and self._worker.last is not None and self.following:
-                self._preview(self._worker.last)
 
     def break_at(self, breakpoints: Breakpoints) -> None:
         """Set the breakpoints at which runs pause."""
@@ -191,31 +174,24 @@ class RunController(QObject):
         """Events at which runs pause."""
         return self._breakpoints
 
-    def follow(self, on: bool) -> None:
-        """Show iterations as they come, starting with the newest, or stop doing so."""
-        self.eased.cancel()
-        self.following = on
-        if on and self._worker is not None and self._worker.last is not None:
-            self._preview(self._worker.last)
-
     def pause(self) -> None:
         """Pause after the current iteration."""
         if self._worker is not None:
             self._worker.grant(0)
-            self.skip_easing()
+            self.view.skip_easing()
 
     def resume(self) -> None:
         """Resume the run, and show its iterations."""
         if self._worker is not None:
-            self.following = True
+            self.view.following = True
             self._worker.grant(math.inf)
             self._update()
 
     def step(self, iterations: int = 1) -> None:
         """Run some more iterations, show them, and pause."""
         if self._worker is not None:
-            self.skip_easing()
-            self.following = True
+            self.view.skip_easing()
+            self.view.following = True
             self._worker.grant_more(iterations)
             self._update()
 
@@ -241,7 +217,7 @@ class RunController(QObject):
 
         The function is called at once if no run is active; several functions are called in the order of the calls.
         """
-        self.skip_easing()
+        self.view.skip_easing()
         if self._worker is None:
             then()
             return
@@ -258,7 +234,7 @@ class RunController(QObject):
 
     def close(self) -> None:
         """Cancel the run; nothing more of it is shown or recorded."""
-        self.eased.cancel()
+        self.view.eased.cancel()
         self._timer.stop()
         self._after_end.clear()
         if self._worker is not None:
@@ -275,9 +251,7 @@ class RunController(QObject):
         over, waits = worker.task.over, worker.waiting  # before the mailbox is emptied
         frame = worker.mailbox.take()
         if frame is not None and not over:
-            self._emitting = self.phase is Phase.RUNNING and frame.hit is None
             self._show(frame)
-            self._emitting = False
         if over:
             self._finish(worker)
         elif worker.prepared.is_set() and self.phase is not Phase.STOPPING:
@@ -286,17 +260,9 @@ class RunController(QObject):
     def _show(self, frame: IterationFrame) -> None:
         if frame.hit is not None:
             self.record.pauses[frame.iteration.number] = frame.hit.sentence
-            self.following = True
-            self.eased.cancel()
-        if self.following and not self.eased.active:
-            self._preview(frame)
-        self.iterated.emit(frame)
+        self.view.show(frame, self.iterated.emit, alone=self.phase is Phase.RUNNING)
         if frame.hit is not None:
             self.hit.emit(frame)
-
-    def _preview(self, frame: IterationFrame) -> None:
-        self.history.register_state(frame.state, RecordedIteration(self.record, frame.iteration.number))
-        self._document.preview(frame.state)
 
     def _finish(self, worker: Worker) -> None:
         self._timer.stop()
@@ -308,23 +274,13 @@ class RunController(QObject):
         message = worker.task.result.message if error is None else f"Failed: {error}."
         self.history.finish(self.record, reached, last and last.state, message)
         if error is not None:
-            self.eased.cancel()
-            if last is None:
-                self._document.preview(self._before)
-            else:
-                self._document.commit(self._title, last.state)
+            self.view.fail(self._title, last)
             self._set_phase(Phase.IDLE)
             self.failed.emit(error)
         else:
+            self.view.finish(self._title, last)
             if last is not None:
-                eased = self.following and self.eased.active
-                self._document.commit(self._title, last.state, show=self.following and not eased)
-                if eased:  # to the state that is recorded, which is that before the run if no iteration was better
-                    self.eased.finish(last.iteration.number, self._document.recorded)
                 self.iterated.emit(last)
-            elif self.eased.active:
-                self.eased.cancel()
-                self._document.preview(self._before)
             self.advice = self.record.advice = worker.advice
             self._set_phase(Phase.FINISHED)
             self.ended.emit(worker.task.result)

@@ -78,7 +78,7 @@ class Recovery(QObject):
         session.data_changed.connect(self._on_change)
         for signal in (session.run.ended, session.run.failed):
             signal.connect(lambda _: self._on_run())
-        session.run.eased.active_changed.connect(self._on_eased)
+        session.run.view.eased.active_changed.connect(self._on_eased)
         session.opener.began.connect(self._on_began)
         session.opener.ended.connect(lambda _: self._on_opened())
         session.opener.failed.connect(lambda *_: self._cancel_recovering())
@@ -115,14 +115,14 @@ class Recovery(QObject):
 
     def _on_eased(self) -> None:
         """Write what an eased run has put off."""
-        if not self._session.run.eased.active:
+        if not self._session.run.view.eased.active:
             self._soon.start()
 
     def write(self) -> None:
         """Write the session if it has unsaved data and no run is active; if it is being written, write it again."""
         session = self._session
         active = session.run.busy or session.node_sweep.sweep is not None or session.opener.busy
-        active = active or session.time_reader.busy or session.run.eased.active
+        active = active or session.time_reader.busy or session.run.view.eased.active
         if not (self.watching and self._changed and self._has_unsaved_data) or active:
             return
         if self._task is not None:

@@ -14,7 +14,7 @@ def test_a_pace_is_chosen_in_the_menu_and_stored(window, pace):
     action = window.action(f"pace_{pace.value}")
     action.trigger()
     window.refresh()
-    assert window.session.run.pace is pace
+    assert window.session.run.view.pace is pace
     assert [one for one in Pace if window.action(f"pace_{one.value}").isChecked()] == [pace]
     assert Pace(settings.RUN_PACE.get()) is pace
     assert "Iterations in the view" in [one.text().replace("&", "") for one in _menu(window, "Smooth").actions()]
@@ -40,4 +40,4 @@ def test_actions_and_sessions_have_the_result_and_not_what_is_shown_on_the_way(w
         qtbot.waitUntil(lambda: session.document.now is not session.document.recorded, timeout=PATIENCE)
         act()
         assert session.document.now is session.document.recorded
-        assert not session.run.eased.active
+        assert not session.run.view.eased.active

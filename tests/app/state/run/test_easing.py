@@ -56,11 +56,11 @@ def test_the_result_is_recorded_at_once_and_shown_after_all_between(document, ru
     document.points_moved.connect(lambda: shown.append(document.now))
     run_and_wait(qtbot, run)
     assert run.phase is Phase.FINISHED
-    assert run.eased.active
+    assert run.view.eased.active
     result = document.recorded
     assert document.undo_title == "Local steepest descent"
     assert document.now is not result
-    qtbot.waitUntil(lambda: not run.eased.active, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not run.view.eased.active, timeout=PATIENCE)
     assert document.now is result
     assert len(shown) > 10
     before, after = document.start.mesh.points, result.mesh.points
@@ -72,7 +72,7 @@ def test_the_result_is_recorded_at_once_and_shown_after_all_between(document, ru
 
 def test_states_between_are_on_straight_lines_and_name_the_nearest_iteration(document, run, qtbot):
     run_and_wait(qtbot, run)
-    run.skip_easing()
+    run.view.skip_easing()
     history, record, mesh = run.history, run.record, document.now.mesh
     a, b = (history.state_between(record, at, mesh).mesh.points for at in (3, 4))
     between = history.state_between(record, 3.25, mesh)
@@ -85,7 +85,7 @@ def test_states_between_are_on_straight_lines_and_name_the_nearest_iteration(doc
 @pytest.mark.parametrize(
     "act",
     [
-        lambda document, run: run.skip_easing(),
+        lambda document, run: run.view.skip_easing(),
         lambda document, run: run.set_pace(Pace.FASTEST),
         lambda document, run: run.end(lambda: None),
         lambda document, run: run.start(LocalSteepestDescent(), TEN, iterations=0),
@@ -95,19 +95,19 @@ def test_the_result_is_there_for_who_goes_on(document, run, qtbot, act):
     run_and_wait(qtbot, run)
     result = document.recorded
     act(document, run)
-    assert not run.eased.active
+    assert not run.view.eased.active
     assert document.now is result
 
 
 def test_undo_and_other_states_end_it(document, run, qtbot):
     run_and_wait(qtbot, run)
     document.undo()
-    assert not run.eased.active
+    assert not run.view.eased.active
     assert document.now is document.start
     document.redo()
     run_and_wait(qtbot, run)
     document.replace(State.of(grid(3)), None)
-    assert not run.eased.active
+    assert not run.view.eased.active
 
 
 def test_pausing_shows_the_iteration_at_which_it_pauses(document, run, qtbot):
@@ -115,19 +115,19 @@ def test_pausing_shows_the_iteration_at_which_it_pauses(document, run, qtbot):
     qtbot.waitUntil(lambda: run.record.newest > 3, timeout=PATIENCE)
     run.pause()
     qtbot.waitUntil(lambda: run.phase is Phase.PAUSED, timeout=PATIENCE)
-    assert not run.eased.active
+    assert not run.view.eased.active
     assert run.history.iteration_of(document.now).number == run.record.newest
 
 
 def test_steps_and_large_meshes_are_shown_as_they_are(document, run, qtbot, monkeypatch):
     run.start(LocalSteepestDescent(), TEN, iterations=2)
-    assert not run.eased.active
+    assert not run.view.eased.active
     qtbot.waitUntil(lambda: run.phase is Phase.PAUSED, timeout=PATIENCE)
     run.stop()
     qtbot.waitUntil(lambda: not run.busy, timeout=PATIENCE)
     monkeypatch.setattr(eased_view, "LIMIT", 10)
     run_and_wait(qtbot, run)
-    assert not run.eased.active
+    assert not run.view.eased.active
     assert document.now is document.recorded
 
 
@@ -146,8 +146,8 @@ def test_a_run_without_a_better_iteration_ends_on_the_mesh_before_it(document, r
     start = document.now
     run_and_wait(qtbot, run, stop=StoppingCriteria(max_iterations=12, tolerance=0), smoother=Worsening())
     assert run.record.result == 0
-    assert run.eased.active
-    qtbot.waitUntil(lambda: not run.eased.active, timeout=PATIENCE)
+    assert run.view.eased.active
+    qtbot.waitUntil(lambda: not run.view.eased.active, timeout=PATIENCE)
     assert document.now is document.recorded is start
     assert not document.previews
 
@@ -157,6 +157,6 @@ def test_a_run_stopped_while_it_prepares_leaves_the_mesh_alone(document, run, qt
     with qtbot.waitSignal(run.ended, timeout=PATIENCE):
         run.start(LocalSteepestDescent(), TEN)
         run.stop()
-    run.skip_easing()
+    run.view.skip_easing()
     assert document.now is document.recorded
     assert (document.now is start) == (run.record.newest < 1)
