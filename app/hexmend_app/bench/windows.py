@@ -58,7 +58,7 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
 
 def keep_settings() -> None:
     """Let windows of this process use settings of their own, so that a benchmark leaves those of the user alone."""
-    from ..state.settings.settings import store_in
+    from hexmend_app.state.settings.settings import store_in
 
     folder = tempfile.mkdtemp(prefix="hexmend-bench-")
     atexit.register(shutil.rmtree, folder, ignore_errors=True)

@@ -56,7 +56,7 @@ class RunController(QObject):
     history : History
         Records of all runs.
     view : RunView
-        What the document shows of the run.
+        Shows the run in the document.
 
     Signals
     -------

@@ -1,4 +1,4 @@
-"""What the document shows of a run: iterations as they come, eased into one another, or none."""
+"""Iterations of a run in the document: as they come, eased into one another, or none."""
 
 from __future__ import annotations
 
