@@ -65,15 +65,13 @@ def move_mid_nodes(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid
     (n, 3) float64
         Copy of `after` with the mid-nodes moved.
     """
-    answer = after.copy()
-    for corner in range(mid_nodes.shape[1]):
-        chosen = np.flatnonzero(mid_nodes[:, corner] >= 0)
-        nodes = mid_nodes[chosen, corner]
-        nodes, first = np.unique(nodes, return_index=True)  # hexes that share it agree on it
-        used = np.flatnonzero(MID_NODE_WEIGHTS[corner])
-        corners = hexes[chosen[first]][:, used]
-        moves = np.einsum("c,kcx->kx", MID_NODE_WEIGHTS[corner, used], after[corners] - before[corners])
-        answer[nodes] = before[nodes] + moves
+    answer, displacement = after.copy(), after - before
+    for column, weights in enumerate(MID_NODE_WEIGHTS):
+        chosen = np.flatnonzero(mid_nodes[:, column] >= 0)
+        nodes, used = mid_nodes[chosen, column], np.flatnonzero(weights)
+        moves = np.einsum("c,kcx->kx", weights[used], displacement[hexes[chosen][:, used]])
+        # Hexes that share a node agree on it up to rounding; the first of them is written last.
+        answer[nodes[::-1]] = (before[nodes] + moves)[::-1]
     return answer
 
 
