@@ -118,6 +118,9 @@ def add_arguments(
         "others (cells that are not hexes), or an additional layer; separate several by commas",
     )
     parser.add_argument("--no-edges", action="store_true", help="do not draw the edges of the hexes")
+    parser.add_argument(
+        "--flat", action="store_true", help="draw hexes of 20 and 27 nodes by their corners, with flat faces"
+    )
 
 
 def _kinds(key: Option) -> tuple[Any, ...]:
@@ -180,6 +183,8 @@ def with_options(args: argparse.Namespace, scene: Scene, **keys: dict[str, Any])
         keys["lines"]["edges"] = 0.0
     if args.structure:
         replaced["structure"] = _parse_structure(args.structure)
+    if args.flat:
+        replaced["structure"] = replaced.get("structure", scene.structure).without("curved")
     scene = replace(scene, **replaced)
     return replace(scene, **{name: replace(getattr(scene, name), **table) for name, table in keys.items() if table})
 

@@ -33,6 +33,7 @@ from hexmend_app.picture import (
     read_scene,
     write_scene,
 )
+from hexmend_app.picture.appearance import Structure
 from tests.core.grids import grid, scrambled
 
 FILE = Scene(
@@ -104,6 +105,7 @@ def test_a_scene_is_drawn_unchanged(render):
         (["--colour-range", "0.2,0.4"], "colours", Colours("scaled-jacobian", "plasma", (0.2, 0.4))),
         (["--clip", "x:0.25", "--flip"], "cut", Cut((Plane((-1, 0, 0), 0.75),))),
         (["--no-edges"], "lines", LineStyle(0.0)),
+        (["--flat", "--structure", "sharp"], "structure", Structure.of("sharp").without("curved")),
         (["--no-bar"], "bar", ColourBarStyle(TextPlace.NONE)),
         (["--captions", "mended"], "panels", (PicturePanel(caption="mended"),)),
     ],

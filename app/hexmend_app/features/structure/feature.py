@@ -68,11 +68,12 @@ class FeatureStructure(Feature):
         if self._seen.changed("found", session.structure_finder.structure, session.document.start):
             self.panel.set_found(session.structure_finder.structure)
         now = session.document.now
-        of_mesh = now.mesh.cells, now.mesh.materials, now.mesh.target
+        of_mesh = now.mesh.cells, now.mesh.materials, now.mesh.target, now.mesh.mid_nodes
         if self._seen.changed("legends", session.document.start, *of_mesh):
             for layer in ordered_layers():
                 if layer.drawn_by is not None:
                     self.panel.set_legend(layer.name, layer.drawn_by.legend(now.mesh))
+            self.panel.set_curved(now.mesh.mid_nodes)
         summary = now.summary
         counted = now.mesh.pinned, summary.free_nodes, summary.locked_inverted
         if self._seen.changed("counts", session.document.start, *counted):

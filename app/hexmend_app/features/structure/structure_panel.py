@@ -115,6 +115,11 @@ class StructurePanel(QWidget):
         """Show the entries of an optional layer, by its name."""
         self.layers[name].set_entries(entries)
 
+    def set_curved(self, mid_nodes: np.ndarray | None) -> None:
+        """Show the number of hexes with mid-nodes, (m, 19) int32; None if the mesh has none."""
+        count = 0 if mid_nodes is None else np.count_nonzero((mid_nodes >= 0).any(axis=1))
+        self.layers["curved"].set_entries([(None, False, counted(count, "hex"))] if count else [])
+
     def set_classes(self, classes: BoundaryClasses | None, error: BaseException | None = None) -> None:
         """Show the classes of boundary nodes; None while they are being found, with the error if that failed."""
         self._classes = classes

@@ -13,6 +13,7 @@ from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
 from hexmend_app.scene.geometry import plane_sides
+from hexmend_app.scene.geometry.edge_flags import clipped, edge_flags, normals_of, set_edge_flags, set_normals
 from hexmend_app.scene.layers.surface import coloured, colours_of, hexes_of
 
 #: Tolerance for nodes on a plane, as a fraction of the mesh size; larger than the rounding errors of a box cut.
@@ -39,7 +40,7 @@ def sections(
     colours : (m, 3) uint8
     """
     planes = cut.sides
-    touched = plane_sides.touched(points, hexes, *_half_spaces(planes), cut.notch)
+    touched = plane_sides.touched(points, hexes, *half_spaces(planes), cut.notch)
     if keep is not None:
         touched &= keep[:, None]
     parts, owners = [], []
@@ -47,7 +48,7 @@ def sections(
         crossing = np.flatnonzero(touched[:, i])
         if len(crossing):
             section, owner = _section(points, hexes, crossing, plane)
-            visible = section.before(*_half_spaces((*planes[:i], *planes[i + 1 :]), beyond=cut.notch))
+            visible = section.before(*half_spaces((*planes[:i], *planes[i + 1 :]), beyond=cut.notch))
             parts.append(visible.facing(np.array(plane.normal)))
             owners.append(owner[visible.owner])
     if not sum(map(len, parts)):
@@ -73,7 +74,7 @@ def _section(points: np.ndarray, hexes: np.ndarray, crossing: np.ndarray, plane:
     grid.cell_data["hex"] = crossing
     cutter = vtkPlaneCutter()
     cutter.SetInputData(grid)
-    cutter.SetPlane(_vtk(plane))
+    cutter.SetPlane(vtk_plane_of(plane))
     cutter.ComputeNormalsOff()
     cutter.Update()
     found = pv.wrap(cutter.GetOutput())
@@ -89,23 +90,29 @@ def remaining_skin(skin: pv.PolyData, cut: Cut) -> pv.PolyData:
     whole, planes = Polygons.of(skin), cut.sides
     if cut.notch:  # before the first plane; beyond the first and before the second; and so on
         cells = [
-            [np.concatenate(both) for both in zip(_half_spaces(planes[:i], True), _half_spaces((plane,)), strict=True)]
+            [np.concatenate(both) for both in zip(half_spaces(planes[:i], True), half_spaces((plane,)), strict=True)]
             for i, plane in enumerate(planes)
         ]
         left = merge_polygons([whole.before(*half_spaces) for half_spaces in cells])
     else:
-        left = whole.before(*_half_spaces(planes))
-    return coloured(left.data(), colours_of(skin)[left.owner], hexes_of(skin)[left.owner])
+        left = whole.before(*half_spaces(planes))
+    data = coloured(left.data(), colours_of(skin)[left.owner], hexes_of(skin)[left.owner])
+    flags = edge_flags(skin)
+    if flags is not None and len(left):
+        edges, normals = clipped(whole, flags[whole.places], normals_of(skin)[whole.places], left)
+        set_edge_flags(data, edges)
+        set_normals(data, normals)
+    return data
 
 
-def _half_spaces(planes: Sequence[Plane], beyond: bool = False) -> tuple[np.ndarray, np.ndarray]:
+def half_spaces(planes: Sequence[Plane], beyond: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """Return normals, (k, 3), and offsets, (k,), of the half-spaces in front of planes, or beyond them."""
     sign = -1.0 if beyond else 1.0
     normals = np.array([plane.normal for plane in planes]).reshape(-1, 3)
     return sign * normals, sign * np.array([plane.equation[1] for plane in planes])
 
 
-def _vtk(plane: Plane) -> vtkPlane:
+def vtk_plane_of(plane: Plane) -> vtkPlane:
     vtk_plane = vtkPlane()
     vtk_plane.SetNormal(plane.normal)
     vtk_plane.SetOrigin(plane.point)

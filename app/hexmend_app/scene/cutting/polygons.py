@@ -73,6 +73,10 @@ class Polygons:
         places = self.places[np.where(np.repeat(normals @ direction < 0, counts), mirrored, corner)]
         return Polygons(self.points, self.start, places, self.owner)
 
+    def separated(self) -> Polygons:
+        """Return the polygons with points that they do not share."""
+        return Polygons(self.points[self.places], self.start, np.arange(len(self.places)), self.owner)
+
     def data(self) -> pv.PolyData:
         """Return the polygons as a dataset."""
         if not len(self):

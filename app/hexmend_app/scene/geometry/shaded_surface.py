@@ -1,4 +1,4 @@
-"""Polygons of a fine frame, each with one normal and with shading at its corners."""
+"""Polygons of a fine frame, each with one normal or those of a curved face, and with shading at its corners."""
 
 from __future__ import annotations
 
@@ -8,9 +8,8 @@ import pyvista as pv
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.geometry import occlusion
+from hexmend_app.scene.geometry.edge_flags import edge_flags, normals_of, set_edge_flags, set_normals
 from hexmend_app.scene.layers.surface import SHADED, coloured, colours_of, hexes_of
-
-_NORMALS = "normals"
 
 
 def shaded_surface(poly: pv.PolyData, light: np.ndarray | None) -> pv.PolyData:
@@ -29,8 +28,13 @@ def shaded_surface(poly: pv.PolyData, light: np.ndarray | None) -> pv.PolyData:
     separated = pv.PolyData(polygons.points[polygons.places], faces=cells)
     colours = np.repeat(colours_of(poly), counts, axis=0)
     separated.point_data[SHADED] = colours if light is None else shaded(colours, light)
-    separated.point_data[_NORMALS] = np.repeat(occlusion.normals(polygons).astype(np.float32), counts, axis=0)
-    separated.point_data.active_normals_name = _NORMALS
+    normals, flags = normals_of(poly), edge_flags(poly)
+    if normals is None:
+        set_normals(separated, np.repeat(occlusion.normals(polygons).astype(np.float32), counts, axis=0))
+    else:
+        set_normals(separated, normals[polygons.places])
+    if flags is not None:
+        set_edge_flags(separated, flags[polygons.places])
     return coloured(separated, colours_of(poly), hexes_of(poly))
 
 

@@ -40,6 +40,12 @@ class Faces:
     shrink: float = 0.0
     many: bool = False
 
+    @classmethod
+    def of(cls, faces: np.ndarray, hexes: np.ndarray) -> Faces:
+        """Return faces from the nodes of each, (k, 4) int32, and its hex, (k,) int."""
+        nodes, quads = np.unique(faces, return_inverse=True)
+        return cls(nodes, quads.reshape(faces.shape), hexes)
+
     def places(self, points: np.ndarray) -> np.ndarray:
         """Return the drawn positions of the nodes, (u, 3), from the points of the mesh, (n, 3) float64."""
         if not self.shrink:

@@ -26,11 +26,13 @@ vec3 tone = dot(face, vec3(0.30, 0.59, 0.11)) < 0.21 ? face + 0.33 : edgeColor;
 """
 
 
-def tone_edges(actor: vtkActor) -> None:
+def tone_edges(actor: vtkActor, divisions: int = 1) -> None:
     """Draw the edges of an actor lighter on dark polygons, and paler on small ones.
 
+    Polygons may be parts of faces whose edges are divided into `divisions` each; edges fade on small faces, not parts.
     Edges stay unchanged if the shader of this version of VTK has other lines.
     """
     prop = actor.GetShaderProperty()
-    prop.AddFragmentShaderReplacement(_DIFFUSE, False, _FADE + _DIFFUSE, False)
+    fade = _FADE if divisions == 1 else _FADE.replace("height / lineWidth", f"{divisions:.1f} * height / lineWidth")
+    prop.AddFragmentShaderReplacement(_DIFFUSE, False, fade + _DIFFUSE, False)
     prop.AddFragmentShaderReplacement(_AMBIENT, False, _AMBIENT.replace("edgeColor", "tone"), False)

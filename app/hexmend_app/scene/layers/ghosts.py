@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend_app.scene.geometry.skin import Faces, Skin
-from hexmend_app.scene.layers.surface import set_points
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
@@ -19,7 +18,6 @@ class Ghosts(TranslucentSurface):
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         super().__init__(pane, pixel_ratio)
-        self._faces: Faces | None = None
         self.actors[0].GetProperty().BackfaceCullingOn()
 
     def draw(self, frame: Frame, ghosts: np.ndarray | None, keep: np.ndarray | None) -> None:
@@ -38,11 +36,10 @@ class Ghosts(TranslucentSurface):
             return
         faces = Skin(frame.mesh).visible(ghosts | keep)
         outer = ghosts[faces.hexes]
-        self._faces = Faces(faces.nodes, faces.quads[outer], faces.hexes[outer])
-        self.set_quads(self._faces.places(frame.mesh.points), self._faces.quads)
+        self.set_faces(frame, frame.mesh.points, Faces(faces.nodes, faces.quads[outer], faces.hexes[outer]))
         self.show()
 
     def move(self, frame: Frame) -> None:
         """Draw the same ghosts at the current positions of their nodes."""
         if self.shown:
-            set_points(self.poly, self._faces.places(frame.mesh.points))
+            self.move_faces(frame.mesh.points)

@@ -10,6 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.colour.colouring import INVERTED
+from hexmend_app.scene.geometry.edge_flags import edge_flags
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.surface import colours_of
 from hexmend_app.theme.palette import rgb
@@ -22,8 +23,9 @@ _LINES = (("#4a062b", 3.0, -4.0), ("#ffffff", 1.5, -8.0))
 #: Minimum edge length, in widths of a thin line, at which each hex is outlined instead of each region.
 _MIN_EDGE = 8.0
 
-#: Tolerance for merging corners of a cut, as a fraction of the extent.
-_TOLERANCE = 1e-9
+#: Tolerance for merging corners of a cut, and of curved faces, which VTK cuts hex by hex with rounding errors of 1e-8,
+#: as a fraction of the extent.
+_TOLERANCE, _CURVED_TOLERANCE = 1e-9, 1e-6
 
 
 class InvertedOutline:
@@ -44,8 +46,11 @@ class InvertedOutline:
         self._renderer.AddObserver("StartEvent", self._fit)
         self.hide()
 
-    def outline(self, poly: pv.PolyData) -> None:
-        """Outline the polygons that have the colour of inverted hexes; the outlines share the points."""
+    def outline(self, poly: pv.PolyData, divisions: int = 1) -> None:
+        """Outline the polygons that have the colour of inverted hexes; the outlines share the points.
+
+        The edges of faces are divided into `divisions` each.
+        """
         marked = (colours_of(poly) == INVERTED).all(axis=1) if poly.GetNumberOfCells() else np.zeros(0, bool)
         if not marked.any():
             self.hide()
@@ -53,7 +58,7 @@ class InvertedOutline:
         ends, once = outlines(poly, marked)
         self._each, self._regions = _lines(poly, ends), _lines(poly, ends[once])
         points = np.asarray(poly.points)
-        self._edge = float(np.median(np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)))
+        self._edge = divisions * float(np.median(np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)))
         self._centre = points[ends[:, 0]].mean(axis=0)
         for actor in self._actors:
             actor.GetMapper().SetInputData(self._each)
@@ -76,6 +81,8 @@ class InvertedOutline:
 def outlines(poly: pv.PolyData, marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the edges of marked polygons, (k, 2) int64, and True for edges of a single polygon, (k,) bool.
 
+    Edges that divide a curved face are left out.
+
     Parameters
     ----------
     poly : pyvista.PolyData
@@ -89,18 +96,23 @@ def outlines(poly: pv.PolyData, marked: np.ndarray) -> tuple[np.ndarray, np.ndar
     following[offsets[1:] - 1] = nodes[offsets[:-1]]  # the last edge of a polygon ends at its first node
     chosen = np.repeat(marked, np.diff(offsets))
     start, end = nodes[chosen], following[chosen]
+    flags = edge_flags(poly)
     if len(nodes) == poly.GetNumberOfPoints():  # polygons of a cut do not share points: merge them
         used, index = np.unique(start, return_inverse=True)
-        merged = used[_first_at_position(np.asarray(poly.points)[used])]
+        tolerance = _TOLERANCE if flags is None else _CURVED_TOLERANCE
+        merged = used[_first_at_position(np.asarray(poly.points)[used], tolerance)]
         start, end = merged[index], merged[np.searchsorted(used, end)]
+    if flags is not None:
+        drawn = flags[nodes[chosen]]
+        start, end = start[drawn], end[drawn]
     keys = np.minimum(start, end) * poly.GetNumberOfPoints() + np.maximum(start, end)
     keys, count = np.unique(keys, return_counts=True)
     return np.column_stack(np.divmod(keys, poly.GetNumberOfPoints())), count == 1
 
 
-def _first_at_position(points: np.ndarray) -> np.ndarray:
+def _first_at_position(points: np.ndarray, tolerance: float) -> np.ndarray:
     """Return the index of the first point at the position of each point, up to rounding, (n,) int."""
-    step = _TOLERANCE * max(np.ptp(points, axis=0).max(), 1e-300)
+    step = tolerance * max(np.ptp(points, axis=0).max(), 1e-300)
     grid = np.round((points - points.min(axis=0)) / step).astype(np.int64)
     _, first, group = np.unique(grid, axis=0, return_index=True, return_inverse=True)
     return first[group.ravel()]

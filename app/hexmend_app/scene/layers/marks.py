@@ -6,6 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
+from hexmend_app.scene.geometry.curved_edges import CurvedEdges
 from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.surface import set_points
 from hexmend_app.theme.palette import rgb
@@ -26,7 +27,7 @@ class Marks:
     poly : pv.PolyData
         Lines or points, each with a colour.
     nodes : (k,) int
-        Node of the mesh at each point of `poly`.
+        Node of the mesh at each point of `poly`; empty for curved lines.
     filled : vtkActor
         Actor of the marks without their rims.
 
@@ -45,6 +46,7 @@ class Marks:
         self._size, self._rim_width, self._pixel_ratio = size, rim, pixel_ratio
         self.poly = pv.PolyData()
         self.nodes = np.empty(0, np.int64)
+        self._curves: CurvedEdges | None = None
         self._rims = self._actor(renderer, coloured=False)
         self.filled = self._actor(renderer, coloured=True)
         self.scale(1.0)
@@ -76,7 +78,14 @@ class Marks:
         """Number of marks."""
         return self.poly.n_cells
 
-    def show(self, cells: np.ndarray, colours: np.ndarray, points: np.ndarray, opacity: float = 1.0) -> None:
+    def show(
+        self,
+        cells: np.ndarray,
+        colours: np.ndarray,
+        points: np.ndarray,
+        opacity: float = 1.0,
+        curves: CurvedEdges | None = None,
+    ) -> None:
         """Replace the marks.
 
         Parameters
@@ -87,14 +96,20 @@ class Marks:
         points : (n, 3) float64
             Positions of all nodes.
         opacity : float
+        curves : CurvedEdges, optional
+            The edges of `cells`, to draw them curved.
         """
         if not len(cells):
             self.hide()
             return
+        self._curves = curves
         self.nodes, index = np.unique(cells, return_inverse=True)
-        width = cells.shape[1]
-        rows = np.column_stack([np.full(len(cells), width), index.reshape(cells.shape)]).ravel()
-        self.poly = pv.PolyData(points[self.nodes], **{"lines" if width == 2 else "verts": rows})
+        index = index.reshape(cells.shape)
+        if curves is not None:
+            self.nodes, index = np.empty(0, np.int64), curves.chains
+        width = index.shape[1]
+        rows = np.column_stack([np.full(len(cells), width), index]).ravel()
+        self.poly = pv.PolyData(self._places(points), **{"lines" if width > 1 else "verts": rows})
         self.poly.cell_data[_COLOURS] = colours
         for actor in (self._rims, self.filled):
             actor.GetMapper().SetInputData(self.poly)
@@ -109,7 +124,11 @@ class Marks:
     def move(self, points: np.ndarray) -> None:
         """Move the marks to the positions of the nodes, (n, 3) float64."""
         if self.shown:
-            set_points(self.poly, points[self.nodes])
+            set_points(self.poly, self._places(points))
+
+    def _places(self, points: np.ndarray) -> np.ndarray:
+        """Return the drawn points, (k, 3), from the positions of the nodes."""
+        return points[self.nodes] if self._curves is None else self._curves.places(points)
 
     def scale(self, factor: float) -> None:
         """Scale the marks by a factor from 0 to 1, for dense meshes."""

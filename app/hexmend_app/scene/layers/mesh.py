@@ -11,8 +11,10 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.colour.hex_colours import HexColours
 from hexmend_app.scene.cutting.coarse_section import coarse_section
+from hexmend_app.scene.cutting.curved_sections import curved_sections
 from hexmend_app.scene.cutting.cut import remaining_skin, sections
 from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
+from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
 from hexmend_app.scene.geometry.decimated_surface import MANY, decimated
 from hexmend_app.scene.geometry.shaded_surface import shaded, shaded_surface
 from hexmend_app.scene.geometry.skin import Faces, Skin
@@ -33,7 +35,7 @@ class MeshLayer:
     faces : Faces
         Visible faces before a smooth cut.
     whole : pyvista.PolyData
-        Polygons of `faces`.
+        Polygons of `faces`; curved faces are divided into quads.
     skin, section : Surface
         Skin that a smooth cut leaves, and sections of the cut.
     fast : bool
@@ -57,6 +59,7 @@ class MeshLayer:
         self._lit: tuple[Polygons, np.ndarray] | None = None  # polygons, and the ambient light at their corners
         self.fast = False
         self.faces: Faces | None = None
+        self._curved: CurvedFaces | None = None  # curved faces; None for flat ones
 
     def set_mesh(self, mesh: Mesh) -> None:
         """Replace the mesh; `rebuild` draws it."""
@@ -85,13 +88,22 @@ class MeshLayer:
         faces = self.faces = self._visible(frame, keep)
         self._opened = self._skin.opened(faces, keep) if frame.look.colours.neutral else None
         face_colours = colours.of(faces.hexes, self._opened)
-        self.whole = quads(faces.places(frame.mesh.points), faces.quads, face_colours, faces.hexes)
+        divisions = divisions_of(len(faces.quads)) if frame.curved else 1
+        self._curved = CurvedFaces(frame.mesh, faces, divisions) if divisions > 1 else None
+        if self._curved is None:
+            self.whole = quads(faces.places(frame.mesh.points), faces.quads, face_colours, faces.hexes)
+        else:
+            self.whole = self._curved.quads(frame.mesh.points, face_colours)
         self._draw(frame, keep, colours)
 
     def move(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
         """Update positions and colours of the same faces; parameters are those of `rebuild`."""
-        set_points(self.whole, self.faces.places(frame.mesh.points))
-        set_colours(self.whole, colours.of(self.faces.hexes, self._opened))
+        points, face_colours = frame.mesh.points, colours.of(self.faces.hexes, self._opened)
+        if self._curved is None:
+            set_points(self.whole, self.faces.places(points))
+            set_colours(self.whole, face_colours)
+        else:
+            self._curved.move(self.whole, points, face_colours)
         self._draw(frame, keep, colours)
 
     def draw_coarse_cut(
@@ -143,6 +155,7 @@ class MeshLayer:
         for surface in (self.skin, self.section):
             surface.show_proxy(None)
             surface.clip(())
+            surface.divide_edges(self._divisions)
         # Back faces take a third of the frame time, but inverted hexes may turn them towards the viewer.
         self._inverted = frame.figures.n_inverted
         self.skin.cull(self._inverted == 0)
@@ -156,30 +169,43 @@ class MeshLayer:
             self.section.hide()
             return
         self.skin.replace(remaining_skin(self.whole, frame.look.cut))
-        mesh = frame.mesh
-        self.section.replace(sections(mesh.points, mesh.hexes, keep, frame.look.cut, colours.of(slice(None))))
+        mesh, cut, of_hexes = frame.mesh, frame.look.cut, colours.of(slice(None))
+        if self._curved is None:
+            self.section.replace(sections(mesh.points, mesh.hexes, keep, cut, of_hexes))
+        else:
+            self.section.replace(curved_sections(mesh, keep, cut, of_hexes, self._divisions))
 
     def outline_inverted(self) -> None:
         """Outline inverted hexes; many of them only in fine frames, as outlines take half of a fast frame."""
         for surface, outline in self._outlines:
             if surface.shown and 0 < self._inverted <= (_MAX_OUTLINED if self.fast else self._inverted):
-                outline.outline(surface.poly)
+                outline.outline(surface.poly, self._divisions)
             else:
                 outline.hide()
 
     def turn(self, views: int) -> None:
         """Draw a large skin coarsely while only the camera moves; `views` is the number of views in the window."""
-        if self._steady and self.skin.poly is self.whole and len(self.faces.quads) * views > MANY:
-            if self._coarse is None:
-                self._coarse = self._decimated()
-            self.skin.show_proxy(self._coarse)
+        faces = len(self.faces.quads) * views if self.faces is not None else 0
+        if not self._steady or self.skin.poly is not self.whole or faces * self._divisions**2 <= MANY:
+            return
+        if self._coarse is None:
+            lit = self._with_mean_light()
+            self._coarse = decimated(lit) if faces > MANY else self._curved.flat(lit)
+        self.skin.show_proxy(self._coarse, edges=faces <= MANY)
+        self.skin.divide_edges(1)
 
-    def _decimated(self) -> pv.PolyData:
+    def _with_mean_light(self) -> pv.PolyData:
+        """Return the polygons, each in its colour under the mean light at its corners, if that is known."""
         light = self.light
         if light is None:
-            return decimated(self.whole)
+            return self.whole
         face_light = light[: self.skin.corners].reshape(-1, 4).mean(axis=1)
-        return decimated(recoloured(self.whole, shaded(colours_of(self.whole), face_light)))
+        return recoloured(self.whole, shaded(colours_of(self.whole), face_light))
+
+    @property
+    def _divisions(self) -> int:
+        """Number of parts into which the edges of faces are divided."""
+        return 1 if self._curved is None else self._curved.divisions
 
     # Fine frames and their shading
 
@@ -195,6 +221,7 @@ class MeshLayer:
             self._scene = merge_polygons(parts) if parts else Polygons.of(pv.PolyData())
             self._refine()
         for surface in self._shown:
+            surface.divide_edges(self._divisions)
             surface.show_fine()
 
     @property

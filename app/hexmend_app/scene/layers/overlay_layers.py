@@ -102,7 +102,7 @@ class OverlayLayers:
         self._attempt("selection", self.selection.set_mesh, frame.mesh)
 
     def _outline_mesh(self, frame: Frame) -> None:
-        self.outline = Silhouette(self._pane.renderer, frame.mesh, self._pixel_ratio)
+        self.outline = Silhouette(self._pane.renderer, frame.mesh, self._pixel_ratio, frame.curved)
         self.outline.set_dark(self._dark)
 
     def update(self, frame: Frame, moved: bool, pinned: bool, classed: bool) -> None:
@@ -139,6 +139,10 @@ class OverlayLayers:
             Returns the hexes that are drawn as ghosts, (m,) bool, or None.
         """
         look, points = frame.look, frame.mesh.points
+        if self.outline is not None and self.outline.curved != frame.curved:
+            self.outline.close()
+            self._attempt("outline", self._outline_mesh, frame)
+        self._attempt("selection", self.selection.set_curved, frame.curved)
         self._attempt("ghosts", lambda: self.ghosts.draw(frame, ghosts(frame), keep))
         self._attempt("arrows", self.arrows.draw, frame, keep, mesh_layer)
         if self.outline is not None:

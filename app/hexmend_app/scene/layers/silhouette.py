@@ -10,6 +10,7 @@ from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import sharp_edges
 from hexmend_app.picture.appearance import Look
+from hexmend_app.scene.geometry.curved_edges import CurvedEdges, segments, sharp_curved_edges
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
 from hexmend_app.scene.layers.surface import set_points
@@ -42,6 +43,7 @@ class Silhouette:
     ----------
     actor : vtkActor
         Pale lines or shade of the whole mesh.
+    curved : bool
 
     Parameters
     ----------
@@ -50,16 +52,20 @@ class Silhouette:
         Mesh whose boundary is drawn; `move` updates positions of its nodes.
     pixel_ratio : float
         Width of a thin line, in pixels.
+    curved : bool
+        Draw lines curved along the mid-nodes of the mesh; a shade is flat.
     """
 
-    def __init__(self, renderer: vtkRenderer, mesh: Mesh, pixel_ratio: float = 1.0):
+    def __init__(self, renderer: vtkRenderer, mesh: Mesh, pixel_ratio: float = 1.0, curved: bool = False):
         self._mesh, faces = mesh, mesh.topology.boundary_faces
-        self._edges = edges = sharp_edges(mesh.points, faces)
+        self.curved = curved
+        self._edges = edges = sharp_curved_edges(mesh) if curved else sharp_edges(mesh.points, faces)
         self._lines = lines = form_lines(edges)
+        self._curves = CurvedEdges(mesh, edges) if curved and lines else None
         cells = edges if lines else faces
         self._nodes, index = np.unique(cells, return_inverse=True)
-        self._cells = cells = index.reshape(cells.shape)
-        points = mesh.points[self._nodes]
+        self._cells = cells = index.reshape(cells.shape) if self._curves is None else self._curves.chains
+        points = self._places(mesh.points)
         self._poly = _lines(points, cells) if lines else pv.PolyData.from_regular_faces(points, cells)
         self._renderer = renderer
         self.actor, self._sharp = flat_actor(renderer, pixel_ratio), flat_actor(renderer, _BOLD * pixel_ratio)
@@ -111,9 +117,13 @@ class Silhouette:
 
     def move(self, points: np.ndarray) -> None:
         """Move to the positions of the nodes, (n, 3) float64; a fixed boundary is not uploaded again."""
-        moved = points[self._nodes]
+        moved = self._places(points)
         if not np.array_equal(moved, self._poly.points):
             set_points(self._poly, moved)
+
+    def _places(self, points: np.ndarray) -> np.ndarray:
+        """Return the drawn points, (k, 3), from the positions of the nodes."""
+        return points[self._nodes] if self._curves is None else self._curves.places(points)
 
     def close(self) -> None:
         """Remove the actors from the renderer."""
@@ -121,6 +131,7 @@ class Silhouette:
             self._renderer.RemoveActor(actor)
 
 
-def _lines(points: np.ndarray, ends: np.ndarray) -> pv.PolyData:
-    """Build lines from points, (k, 3), and point numbers of their ends, (e, 2)."""
+def _lines(points: np.ndarray, chains: np.ndarray) -> pv.PolyData:
+    """Build lines from points, (k, 3), and the point numbers of lines or chains of lines, (e, 2) or more columns."""
+    ends = chains if chains.shape[1] == 2 else segments(chains)
     return pv.PolyData(points, lines=np.column_stack([np.full(len(ends), 2), ends]).ravel())

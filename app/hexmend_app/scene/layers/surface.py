@@ -33,7 +33,7 @@ class Surface:
 
     def __init__(self, renderer: vtkRenderer, pixel_ratio: float = 1.0):
         self.poly = pv.PolyData()
-        self._edges, self._without_edges = True, False
+        self._edges, self._without_edges, self._divisions = True, False, 1
         self.actor = vtkActor()
         self.actor.PickableOff()
         prop = self.actor.GetProperty()
@@ -61,11 +61,11 @@ class Surface:
         self.actor.SetMapper(self._flat)
         self.actor.SetVisibility(poly.GetNumberOfCells() > 0)
 
-    def show_proxy(self, poly: pv.PolyData | None) -> None:
-        """Draw other polygons instead, without edges; None draws the polygons themselves again."""
+    def show_proxy(self, poly: pv.PolyData | None, edges: bool = False) -> None:
+        """Draw other polygons instead, optionally with edges; None draws the polygons themselves again."""
         self._flat.SetInputData(self.poly if poly is None else poly)
         self.actor.SetMapper(self._flat)
-        self._without_edges = poly is not None
+        self._without_edges = poly is not None and not edges
         self._update_edges()
 
     def clip(self, planes: Sequence[Plane]) -> None:
@@ -109,6 +109,12 @@ class Surface:
         """Show or hide the edges of the polygons."""
         self._edges = on
         self._update_edges()
+
+    def divide_edges(self, divisions: int) -> None:
+        """Set the number of parts into which the edges of faces are divided; edges fade on small faces."""
+        if divisions != self._divisions:
+            self._divisions = divisions
+            tone_edges(self.actor, divisions)
 
     def _update_edges(self) -> None:
         self.actor.GetProperty().SetEdgeVisibility(self._edges and not self._without_edges)

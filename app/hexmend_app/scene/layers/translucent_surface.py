@@ -6,7 +6,12 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor
 
+from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
+from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.flat_actor import flat_actor
+from hexmend_app.scene.layers.inverted_outline import outlines
+from hexmend_app.scene.layers.surface import set_points
+from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import Role, rgb
 
@@ -35,6 +40,8 @@ class TranslucentSurface:
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         self.poly = pv.PolyData()
+        self._faces: Faces | None = None
+        self._curved: CurvedFaces | None = None
         self.actors: tuple[vtkActor, vtkActor] = (
             flat_actor(pane.renderer, opacity=self.face_opacity),
             flat_actor(pane.renderer, pixel_ratio, self.edge_opacity),
@@ -70,6 +77,31 @@ class TranslucentSurface:
         poly, lines = pv.PolyData.from_regular_faces(points, quads), pv.PolyData()
         lines.SetPoints(poly.GetPoints())
         lines.lines = with_lengths(edges_of(quads))
+        self.set_data(poly, lines)
+
+    def set_faces(self, frame: Frame, points: np.ndarray, faces: Faces) -> None:
+        """Replace the surface by faces of the hexes of a frame, curved if faces are, at points (n, 3) float64."""
+        divisions = divisions_of(len(faces.quads)) if frame.curved else 1
+        self._faces, self._curved = faces, None
+        if divisions == 1:
+            self.set_quads(faces.places(points), faces.quads)
+        else:
+            self._curved = CurvedFaces(frame.mesh, faces, divisions)
+            self._set_curved(points, self._curved)
+
+    def move_faces(self, points: np.ndarray) -> None:
+        """Move the faces that `set_faces` set to their positions in a mesh with points (n, 3) float64."""
+        if self._curved is None:
+            set_points(self.poly, self._faces.places(points))
+        else:
+            self._curved.move(self.poly, points)
+
+    def _set_curved(self, points: np.ndarray, curved: CurvedFaces) -> None:
+        """Replace the surface by curved faces of a mesh with points (n, 3), with lines along their edges."""
+        poly, lines = curved.quads(points, np.zeros((curved.count, 3), dtype=np.uint8)), pv.PolyData()
+        if curved.count:
+            lines.SetPoints(poly.GetPoints())
+            lines.lines = with_lengths(outlines(poly, np.ones(poly.n_cells, dtype=bool))[0])
         self.set_data(poly, lines)
 
     def show(self) -> None:

@@ -43,9 +43,16 @@ class Frame:
     kinds: np.ndarray | None = None
     original_kinds: np.ndarray | None = None
 
+    @property
+    def curved(self) -> bool:
+        """True if faces and edges are drawn curved along the mid-nodes of the mesh."""
+        return self.mesh.mid_nodes is not None and self.look.structure.is_on("curved")
+
     def is_of(self, other: Frame | None) -> bool:
-        """Return True if both frames share their array of hexes; positions of nodes may differ."""
-        return other is not None and self.mesh.hexes is other.mesh.hexes
+        """Return True if both frames share their hexes with their mid-nodes; positions of nodes may differ."""
+        if other is None:
+            return False
+        return self.mesh.hexes is other.mesh.hexes and self.mesh.mid_nodes is other.mesh.mid_nodes
 
     def matching(self, first: Frame) -> Frame:
         """Return a frame of this mesh with the look and the reference state of movement of the first view's frame."""

@@ -44,6 +44,7 @@ UNTOLD = {
     "unmark_*": "is tested with curves",
     "slide_on_*": "is tested with target surfaces",
     "show_target": "is tested with target surfaces",
+    "show_curved": "is tested with hexes of second order",
     "cameras": "shows a dialog, from which a camera is looked through",
     "console": "shows a panel",
     "doctor": "shows a panel",

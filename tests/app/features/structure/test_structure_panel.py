@@ -77,6 +77,22 @@ def test_no_count_is_cut_off_in_a_narrow_column(panel, qtbot):
             assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
 
 
+def test_curved_faces_are_offered_for_hexes_with_mid_nodes_alone(panel):
+    panel.set_curved(None)
+    assert not panel.layers["curved"].box.isVisible()
+    assert not panel.offered()["curved"]
+    mid_nodes = np.full((5, 19), -1)
+    mid_nodes[:3, :12] = 8
+    panel.set_curved(mid_nodes)
+    assert panel.layers["curved"].box.isVisible()
+    assert panel.layers["curved"].box.isChecked()
+    assert texts(panel, "curved") == ["3 hexes"]
+    heard = []
+    panel.structure_changed.connect(heard.append)
+    press(panel.layers["curved"].box)
+    assert heard == [Structure().without("curved")]
+
+
 def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     panel.set_found(find_structure(grid(2)))
     panel.set_nodes(26, 0, 1, 0)
@@ -84,7 +100,7 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     assert panel.offered() == {
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
         "kinds": False, "others": False, "original": True, "target": False, "interfaces": False,
-        "shadow": True,
+        "shadow": True, "curved": False,
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]
     assert "shared by four hexes" in panel.layers["irregular"].box.toolTip()

@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.scene.geometry.filters import same_mask
+from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
@@ -40,7 +41,7 @@ class InterfaceLayer(TranslucentSurface, OptionalLayer):
         for actor in self.actors:
             mapper = actor.GetMapper()
             offset_depth(mapper, polygons=_IN_FRONT, lines=_EDGES_IN_FRONT)
-        self._drawn: tuple[object, object] = (None, None)
+        self._drawn: tuple[object, ...] = (None, None, None)
         self._keep: np.ndarray | None = None
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
@@ -49,20 +50,21 @@ class InterfaceLayer(TranslucentSurface, OptionalLayer):
         if mesh.materials is None:
             self.hide()
             return
-        drawn = mesh.points, mesh.materials
+        drawn = mesh.points, mesh.materials, frame.curved
         if any(one is not other for one, other in zip(drawn, self._drawn, strict=True)) or not same_mask(
             keep, self._keep
         ):
             self._drawn, self._keep = drawn, keep
-            self._rebuild(mesh, keep)
+            self._rebuild(frame, keep)
         self.show()
 
-    def _rebuild(self, mesh: Mesh, keep: np.ndarray | None) -> None:
-        faces = mesh.materials.interface_faces
+    def _rebuild(self, frame: Frame, keep: np.ndarray | None) -> None:
+        materials = frame.mesh.materials
+        faces, sides = materials.interface_faces, materials.interface_sides
         if keep is not None:
-            faces = faces[keep[mesh.materials.interface_sides[:, [0, 2]]].any(axis=1)]
-        nodes, quads = np.unique(faces, return_inverse=True)
-        self.set_quads(mesh.points[nodes], quads.reshape(faces.shape))
+            shown = keep[sides[:, [0, 2]]].any(axis=1)
+            faces, sides = faces[shown], sides[shown]
+        self.set_faces(frame, frame.mesh.points, Faces.of(faces, sides[:, 0]))
 
     @classmethod
     def legend(cls, mesh: Mesh) -> list[LegendEntry]:

@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.scene.geometry.filters import same_mask
+from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
@@ -34,7 +35,7 @@ class OriginalSurface(TranslucentSurface, OptionalLayer):
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         super().__init__(pane, pixel_ratio)
-        self._points: np.ndarray | None = None
+        self._drawn: tuple[np.ndarray | None, bool] = (None, False)  # points, and whether faces are curved
         self._keep: np.ndarray | None = None
         for actor in self.actors:
             mapper = actor.GetMapper()
@@ -45,13 +46,13 @@ class OriginalSurface(TranslucentSurface, OptionalLayer):
         if frame.original is None:
             self.hide()
             return
-        if frame.original is not self._points or not same_mask(keep, self._keep):
-            self._points, self._keep = frame.original, keep
+        drawn = frame.original, frame.curved
+        if drawn[0] is not self._drawn[0] or drawn[1] != self._drawn[1] or not same_mask(keep, self._keep):
+            self._drawn, self._keep = drawn, keep
             topology = frame.mesh.topology
             hexes = np.nonzero(topology.face_neighbours < 0)[0]
-            faces = topology.boundary_faces[slice(None) if keep is None else keep[hexes]]
-            nodes, quads = np.unique(faces, return_inverse=True)
-            self.set_quads(frame.original[nodes], quads.reshape(faces.shape))
+            shown = slice(None) if keep is None else keep[hexes]
+            self.set_faces(frame, frame.original, Faces.of(topology.boundary_faces[shown], hexes[shown]))
         self.show()
 
     @classmethod

@@ -15,6 +15,7 @@ from hexmend.quality import ElementQuality, locked_hexes
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.camera.fitting import pixels
+from hexmend_app.scene.geometry.curved_edges import CurvedEdges
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.marks import Marks
 from hexmend_app.scene.views.pane import Pane
@@ -166,16 +167,23 @@ class StructureLayers:
             nodes = np.intersect1d(structure.nodes, edges)[:, None]
             ends = _rgb(IRREGULAR_NODE).repeat(len(nodes), axis=0)
             opacity = min(1.0, (_MANY / max(1, len(edges))) ** 0.5)
-            self.irregular.show(edges, colours, points)
-            self.irregular_inside.show(edges, colours, points, opacity)
+            curves = self._curves(edges)
+            self.irregular.show(edges, colours, points, curves=curves)
+            self.irregular_inside.show(edges, colours, points, opacity, curves)
             self._ends.show(nodes, ends, points)
             self._ends_inside.show(nodes, ends, points, opacity)
         if switches.is_on("boundary"):
             shown = self._shown(structure.boundary, points)
-            self._boundary.show(structure.boundary[shown], valence_colours(structure.boundary_valence[shown]), points)
+            edges, colours = structure.boundary[shown], valence_colours(structure.boundary_valence[shown])
+            self._boundary.show(edges, colours, points, curves=self._curves(edges))
         if switches.is_on("sharp"):
             edges = structure.sharp[self._shown(structure.sharp, points)]
-            self.sharp.show(edges, _rgb(SHARP).repeat(len(edges), axis=0), points)
+            self.sharp.show(edges, _rgb(SHARP).repeat(len(edges), axis=0), points, curves=self._curves(edges))
+
+    def _curves(self, edges: np.ndarray) -> CurvedEdges | None:
+        """Return the curves of edges, (k, 2); None if edges are drawn straight."""
+        curved = self._mesh.mid_nodes is not None and self._look.structure.is_on("curved")
+        return CurvedEdges(self._mesh, edges) if curved else None
 
     def _shown(self, edges: np.ndarray, points: np.ndarray) -> np.ndarray:
         """Return True for edges, (k, 2), of shown hexes that a smooth cut leaves, (k,) bool."""

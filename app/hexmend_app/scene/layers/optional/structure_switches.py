@@ -84,5 +84,15 @@ for _switch in (
         order=70,
         offered_early=True,
     ),
+    LayerSwitch(
+        "curved",
+        "Curved faces",
+        "Faces and edges of hexes with 20 or 27 nodes, curved along their mid-nodes; off: flat between the corners.",
+        "None: the hexes of this mesh have eight nodes.",
+        action="&Curved faces",
+        action_help="Draw faces and edges of hexes with 20 or 27 nodes curved along their mid-nodes, else flat.",
+        order=98,
+        hidden_when_empty=True,
+    ),
 ):
     LAYERS.add(_switch.name, _switch)

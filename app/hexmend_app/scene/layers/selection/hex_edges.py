@@ -8,6 +8,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES
 from hexmend_app.scene.camera.fitting import pixels
+from hexmend_app.scene.geometry.curved_edges import DIVISIONS, divided, segments
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.theme.palette import rgb
 
@@ -32,7 +33,7 @@ class HexEdges:
     Attributes
     ----------
     lines : pyvista.PolyData
-        All edges; each hex has eight points of its own.
+        All edges; each hex has points of its own: its eight corners, or the points along its curved edges.
     dashes : pyvista.PolyData
         Dashes of all edges, fitted to the size of the edges in the picture.
 
@@ -46,6 +47,7 @@ class HexEdges:
     def __init__(self, renderer: vtkRenderer, pixel_ratio: float = 1.0):
         self._renderer, self._pixel_ratio = renderer, pixel_ratio
         self.lines, self.dashes = pv.PolyData(), pv.PolyData()
+        self._middles: np.ndarray | None = None
         self._counts = np.empty(0, dtype=np.int64)  # of dashes, by edge
         self._dash_actors = [self._actor(*style) for style in _DASHES]
         self._front_actors = [self._actor(*style) for style in _FRONT]
@@ -59,11 +61,24 @@ class HexEdges:
         offset_depth(mapper, lines=depth, slope=-2.0)
         return actor
 
-    def show(self, corners: np.ndarray) -> None:
-        """Draw the edges of hexes with these corners, (k, 8, 3) float64."""
-        ends = (EDGES[None] + 8 * np.arange(len(corners))[:, None, None]).reshape(-1, 2)
-        self.lines = _segments(corners.reshape(-1, 3), ends)
+    def show(self, corners: np.ndarray, middles: np.ndarray | None = None) -> None:
+        """Draw the edges of hexes.
+
+        Parameters
+        ----------
+        corners : (k, 8, 3) float64
+        middles : (k, 12, 3) float64, optional
+            Points halfway along the edges, in the order of `EDGES`; None for straight edges.
+        """
         self._ends = corners[:, EDGES].reshape(-1, 2, 3)
+        self._middles = None if middles is None else middles.reshape(-1, 3)
+        if self._middles is None:
+            ends = (EDGES[None] + 8 * np.arange(len(corners))[:, None, None]).reshape(-1, 2)
+            self.lines = _segments(corners.reshape(-1, 3), ends)
+        else:
+            points = divided(self._ends, self._middles)
+            chains = np.arange(len(points) * (DIVISIONS + 1)).reshape(len(points), -1)
+            self.lines = _segments(points.reshape(-1, 3), segments(chains))
         self._counts = np.empty(0, dtype=np.int64)
         for actor in self._front_actors:
             actor.GetMapper().SetInputData(self.lines)
@@ -94,12 +109,12 @@ class HexEdges:
         if np.array_equal(counts, self._counts):
             return
         self._counts = counts
-        self.dashes = dashed(start, end, counts)
+        self.dashes = dashed(start, end, counts, self._middles)
         for actor in self._dash_actors:
             actor.GetMapper().SetInputData(self.dashes)
 
 
-def dashed(start: np.ndarray, end: np.ndarray, counts: np.ndarray) -> pv.PolyData:
+def dashed(start: np.ndarray, end: np.ndarray, counts: np.ndarray, middles: np.ndarray | None = None) -> pv.PolyData:
     """Build dashes along edges; each edge begins and ends with half a dash, so that its ends are visible.
 
     Parameters
@@ -107,6 +122,8 @@ def dashed(start: np.ndarray, end: np.ndarray, counts: np.ndarray) -> pv.PolyDat
     start, end : (e, 3) float64
     counts : (e,) int64
         Number of periods of an edge, at least 1.
+    middles : (e, 3) float64, optional
+        Points halfway along curved edges.
     """
     edge = np.repeat(np.arange(len(counts)), counts + 1)
     first = np.cumsum(counts + 1) - (counts + 1)
@@ -114,6 +131,8 @@ def dashed(start: np.ndarray, end: np.ndarray, counts: np.ndarray) -> pv.PolyDat
     half = _DRAWN / 2 / counts[edge]
     shares = np.clip(np.stack([middle - half, middle + half], axis=1), 0.0, 1.0)[..., None]
     points = start[edge][:, None] * (1 - shares) + end[edge][:, None] * shares
+    if middles is not None:
+        points += 4 * shares * (1 - shares) * (middles - (start + end) / 2)[edge][:, None]
     return _segments(points.reshape(-1, 3), np.arange(2 * len(edge)).reshape(-1, 2))
 
 

@@ -61,7 +61,7 @@ class Highlight:
         self._layer.AddActor(actor)
         return actor
 
-    def show(self, corners: np.ndarray, values: np.ndarray | None = None) -> None:
+    def show(self, corners: np.ndarray, values: np.ndarray | None = None, middles: np.ndarray | None = None) -> None:
         """Highlight hexes with these corners.
 
         Parameters
@@ -69,9 +69,11 @@ class Highlight:
         corners : (k, 8, 3) float64
         values : (8,) float64, optional
             Values shown at the corners of the first hex.
+        middles : (k, 12, 3) float64, optional
+            Mid-nodes of curved edges, see `HexEdges.show`.
         """
         self._corners = corners
-        self.edges.show(corners)
+        self.edges.show(corners, middles)
         self._with_values = values is not None
         self._layer.DrawOn()
         outside = corners[0] + 0.15 * (corners[0] - corners[0].mean(axis=0))

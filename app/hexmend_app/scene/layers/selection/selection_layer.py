@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order.curved_geometry import edge_middles
+from hexmend.mesh.second_order.mid_node_lookup import EDGE_COLUMNS
 from hexmend.node_step import NodeStep
 from hexmend.quality import NodeDetails, corner_qualities
 from hexmend_app.scene.layers.selection.highlight import Highlight
@@ -13,6 +16,9 @@ from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
 from hexmend_app.scene.views.pane import Pane
 
 _NONE = np.empty(0, dtype=np.int64)
+
+#: Columns of `Mesh.mid_nodes` of the mid-nodes of `EDGES`, (12,).
+_MID_COLUMNS = EDGE_COLUMNS[EDGES[:, 0], EDGES[:, 1]]
 
 
 class SelectionLayer:
@@ -35,7 +41,7 @@ class SelectionLayer:
         self.highlight = Highlight(pane, pixel_ratio)
         self._node_step = NodeStepMarks(pane, pixel_ratio)
         self.hexes = _NONE
-        self._with_corners = False
+        self._with_corners = self._curved = False
         self._mesh: Mesh | None = None
 
     @property
@@ -68,6 +74,13 @@ class SelectionLayer:
         self._node_step.hide()
         self.highlight.hide()
         self.highlight.show_node(None)
+
+    def set_curved(self, curved: bool) -> None:
+        """Draw edges curved along the mid-nodes of the mesh, or straight."""
+        if curved != self._curved:
+            self._curved = curved
+            if self._mesh is not None:
+                self._show_hexes()
 
     def move(self, mesh: Mesh) -> None:
         """Move the marks with the nodes of the same mesh."""
@@ -116,4 +129,7 @@ class SelectionLayer:
             return
         nodes, points = self._mesh.hexes[self.hexes], self._mesh.points
         values = corner_qualities(points, nodes)[0] if self._with_corners else None
-        self.highlight.show(points[nodes], values)
+        middles = None
+        if self._curved:
+            middles = edge_middles(points, nodes[:, EDGES], self._mesh.mid_nodes[self.hexes[:, None], _MID_COLUMNS])
+        self.highlight.show(points[nodes], values, middles)
