@@ -122,6 +122,10 @@ def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) ->
     if format.place:
         write(path, mesh, encoding)
         return
+    if format.remove:
+        with file_operation(path, FileAction.WRITING):
+            write(path, mesh, encoding)
+        return
     with file_operation(path, FileAction.WRITING), atomic_write(path) as temporary:
         try:
             write(temporary, mesh, encoding)
@@ -283,6 +287,16 @@ def writer_for(
     if not format.place:
         check_writable(path)
     return write
+
+
+def remove(path: str | os.PathLike[str]) -> None:
+    """Remove a mesh file that Hexmend has written, with the other files that it names."""
+    path = Path(path)
+    own = writable_format(path).remove
+    if own is None:
+        path.unlink(missing_ok=True)
+    else:
+        own(path)
 
 
 def unsupported_data(

@@ -107,6 +107,7 @@ class Format:
     locate: Callable[[Path], LocatedCoordinates] | None = None
     included: Callable[[Path], set[Path]] | None = None
     place: FolderPlace | None = None
+    remove: Callable[[Path], None] | None = None
 
 
 FORMATS: Registry[Format] = Registry("format")

@@ -11,6 +11,7 @@ from time import monotonic
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.io import write
+from hexmend.io.files import remove
 from hexmend.io.format_lookup import format_by_place
 from hexmend.mesh.mesh import Mesh
 
@@ -61,7 +62,7 @@ class Checkpoints:
     def remove(self) -> None:
         """Remove the file of this run once its result is written."""
         if self._written:
-            self.path.unlink(missing_ok=True)
+            remove(self.path)
 
 
 def _free_path(output: Path) -> Path:

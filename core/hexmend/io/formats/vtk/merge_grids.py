@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from hexmend.arrays import index_of
 from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.vtk.grid import Grid
+from hexmend.io.formats.vtk.piece_names import CELL_ID, NODE_ID
 
 #: Arrays that mark cells and nodes of other pieces, and the bits that do.
 _GHOSTS = {"vtkGhostType": 1, "vtkGhostLevels": 255}
@@ -16,16 +18,19 @@ _GHOSTS = {"vtkGhostType": 1, "vtkGhostLevels": 255}
 _GLOBAL_IDS = ("GlobalNodeIds", "GlobalNodeId", "GlobalPointIds")
 
 
-def merge_grids(grids: Sequence[Grid]) -> Grid:
+def merge_grids(grids: Sequence[Grid], in_files: bool = False) -> Grid:
     """Merge the pieces of a grid; its notes say how.
 
-    Ghost cells are removed. Nodes are merged if the pieces have global ids, in an array such as "GlobalNodeIds"; else
-    duplicate nodes between pieces stay, as in VTK.
+    Ghost cells are removed. Nodes are merged if the pieces have global ids, in an array such as "GlobalNodeIds".
 
     Parameters
     ----------
     grids : sequence of Grid
         At least one.
+    in_files : bool
+        Pieces are files of their own. Without global ids, nodes of different pieces at exactly the same place are
+        merged then; else duplicate nodes between pieces stay, as in VTK. Nodes and cells are put into the order of the
+        numbers that Hexmend has written.
 
     Returns
     -------
@@ -40,7 +45,8 @@ def merge_grids(grids: Sequence[Grid]) -> Grid:
         if dropped:
             notes.append(f"{dropped:,} ghost cells, which repeat cells of other pieces, are left out.")
     if len(grids) == 1:
-        return replace(grids[0], notes=tuple(notes))
+        grid = replace(grids[0], notes=tuple(notes))
+        return (_in_written_order(grid) or grid) if in_files else grid
     grids = [grid for grid in grids if len(grid.points) or len(grid.types)] or list(grids[:1])
     counts = np.array([len(grid.points) for grid in grids])
     first = np.concatenate([[0], np.cumsum(counts)])
@@ -53,8 +59,42 @@ def merge_grids(grids: Sequence[Grid]) -> Grid:
     start = np.concatenate([[0], *(grid.start[1:] + begin for grid, begin in zip(grids, starts, strict=False))])
     nodes = np.concatenate([_shift_nodes(grid, int(begin)) for grid, begin in zip(grids, first, strict=False)])
     fields = {name: values for grid in reversed(grids) for name, values in grid.field_data.items()}
-    merged, phrase = _merge_nodes(Grid(points, types, start, nodes, node_data, cell_data, fields))
+    whole = Grid(points, types, start, nodes, node_data, cell_data, fields)
+    merged, phrase = _merge_nodes(whole, np.repeat(np.arange(len(grids)), counts) if in_files else None)
+    ordered = _in_written_order(merged) if in_files else None
+    if ordered is not None:
+        return replace(ordered, notes=tuple(notes))
     return replace(merged, notes=(f"Its {len(grids)} pieces are merged{phrase}.", *notes))
+
+
+def _in_written_order(grid: Grid) -> Grid | None:
+    """Put nodes and cells into the order of their numbers, without these; None unless they have all from 0 on."""
+    numbers = grid.node_data.get(NODE_ID), grid.cell_data.get(CELL_ID)
+    counts = len(grid.points), len(grid.types)
+    if not all(_is_numbering(ids, count) for ids, count in zip(numbers, counts, strict=True)):
+        return None
+    order, cells = (np.argsort(ids) for ids in numbers)
+    widths = np.diff(grid.start)[cells]
+    start = np.concatenate([[0], np.cumsum(widths)])
+    of_cells = np.arange(start[-1]) + np.repeat(grid.start[:-1][cells] - start[:-1], widths)
+    new_number = np.append(index_of(order, counts[0]), -1)  # nodes that no piece has stay -1
+    return Grid(
+        grid.points[order],
+        np.asarray(grid.types)[cells],
+        start,
+        new_number[grid.nodes[of_cells]],
+        {name: np.asarray(values)[order] for name, values in grid.node_data.items() if name != NODE_ID},
+        {name: np.asarray(values)[cells] for name, values in grid.cell_data.items() if name != CELL_ID},
+        grid.field_data,
+        grid.notes,
+    )
+
+
+def _is_numbering(ids: np.ndarray | None, count: int) -> bool:
+    """Return True for the numbers from 0 to `count` - 1 in any order."""
+    if ids is None or np.shape(ids) != (count,) or np.asarray(ids).dtype.kind not in "iu" or not count:
+        return False
+    return int(ids.min()) == 0 and int(ids.max()) == count - 1 and bool((np.bincount(ids, minlength=count) == 1).all())
 
 
 def _shift_nodes(grid: Grid, by: int) -> np.ndarray:
@@ -97,14 +137,21 @@ def _without_ghosts(grid: Grid) -> Grid:
     return Grid(grid.points[~dropped], types, start, nodes, node_data, data, grid.field_data)
 
 
-def _merge_nodes(grid: Grid) -> tuple[Grid, str]:
-    """Merge nodes with the same global id; returns the grid and a phrase about nodes for a note."""
+def _merge_nodes(grid: Grid, piece: np.ndarray | None) -> tuple[Grid, str]:
+    """Merge nodes with the same global id, else those of different pieces (n,) at the same place.
+
+    Returns the grid and a phrase about nodes for a note. Without `piece`, places do not count.
+    """
     name = next((name for name in _GLOBAL_IDS if name in grid.node_data), None)
-    if name is None or np.ndim(grid.node_data[name]) != 1:
-        x, y, z = grid.points.T
-        duplicates = len(x) - len(np.unique(x + np.e * y + np.pi * z))  # a rare collision only changes the note
-        return grid, f"; {duplicates:,} duplicate nodes remain where they meet" if duplicates else ""
-    _, first, which = np.unique(np.asarray(grid.node_data[name]), return_index=True, return_inverse=True)
+    if name is not None and np.ndim(grid.node_data[name]) == 1:
+        keys, phrase = np.asarray(grid.node_data[name]), f" where their {name} agree"
+    else:
+        keys = _keys_of_places(grid.points, piece)
+        duplicates = len(keys) - len(np.unique(keys))
+        if piece is None or not duplicates:
+            return grid, f"; {duplicates:,} duplicate nodes remain where they meet" if duplicates else ""
+        phrase = f"; {duplicates:,} nodes are merged with others at the same place"
+    _, first, which = np.unique(keys, return_index=True, return_inverse=True)
     if len(first) == len(grid.points) or not np.array_equal(grid.points[first][which], grid.points):
         return grid, ""
     order = np.argsort(first)
@@ -112,5 +159,18 @@ def _merge_nodes(grid: Grid) -> tuple[Grid, str]:
     chosen = first[order]
     nodes = np.where(grid.nodes >= 0, new_index[grid.nodes], -1)
     node_data = {name: values[chosen] for name, values in grid.node_data.items()}
-    merged = replace(grid, points=grid.points[chosen], nodes=nodes, node_data=node_data)
-    return merged, f" where their {name} agree"
+    return replace(grid, points=grid.points[chosen], nodes=nodes, node_data=node_data), phrase
+
+
+def _keys_of_places(points: np.ndarray, piece: np.ndarray | None) -> np.ndarray:
+    """Number the places of nodes (n, 3), (n,) int64; nodes of a place where one piece has several have their own."""
+    order = np.lexsort(points.T)
+    ordered = points[order]
+    begins = np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))
+    keys = np.empty(len(points), np.int64)
+    keys[order] = np.cumsum(begins) - 1
+    if piece is not None and len(points):
+        pairs, counts = np.unique(keys * (piece.max() + 1) + piece, return_counts=True)
+        several = np.isin(keys, pairs[counts > 1] // (piece.max() + 1))
+        keys[several] = len(points) + np.arange(np.count_nonzero(several))
+    return keys

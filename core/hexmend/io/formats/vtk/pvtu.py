@@ -1,4 +1,4 @@
-"""VTK's XML format for unstructured grids in several files (.pvtu), read only."""
+"""VTK's XML format for unstructured grids in several files (.pvtu)."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from hexmend.errors import FileError
-from hexmend.io.base.format import register
+from hexmend.io.base.format import Capability, register
 from hexmend.io.files import check_readable
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.merge_grids import merge_grids
+from hexmend.io.formats.vtk.piece_names import piece_names
+from hexmend.io.formats.vtk.pvtu_writer import names_not_kept, remove, write
 from hexmend.io.formats.vtk.vtu import read_grids
-from hexmend.io.formats.vtk.xml_document import Document
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import printable
 
@@ -21,12 +22,12 @@ _ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']PUnstructuredGrid[\"']")
 
 def read(path: Path) -> Mesh:
     """Read a PVTU file and merge its pieces without their ghost cells."""
-    names = _piece_names(path)
+    names = piece_names(path)
     if len(set(names)) < len(names):
         raise FileError(path, "names a piece twice", "Write it again with the program that made it.")
     grids = [grid for name in names for grid in _read_piece(path, name)]
     fields = {name: values for grid in reversed(grids) for name, values in grid.field_data.items()}
-    return to_mesh(path, replace(merge_grids(grids), field_data=fields))
+    return to_mesh(path, replace(merge_grids(grids, in_files=True), field_data=fields))
 
 
 def piece_paths(path: Path) -> list[Path]:
@@ -37,15 +38,7 @@ def piece_paths(path: Path) -> list[Path]:
     FileError
         For another file, and for pieces outside the folder of the file.
     """
-    return [_piece_path(path, name) for name in _piece_names(path)]
-
-
-def _piece_names(path: Path) -> list[str]:
-    with Document(path, "PUnstructuredGrid") as document:
-        names = [piece.get("Source") for piece in document.root.first("PUnstructuredGrid").all("Piece")]
-        if not names:
-            raise document.error("names no pieces")
-    return names
+    return [_piece_path(path, name) for name in piece_names(path)]
 
 
 def _read_piece(path: Path, name: str) -> list[Grid]:
@@ -71,4 +64,15 @@ def _matches(head: bytes) -> bool:
     return _ROOT.search(head) is not None
 
 
-register(name="pvtu", title="PVTU", suffixes=(".pvtu",), encodings=(), read=read, matches=_matches)
+register(
+    name="pvtu",
+    title="PVTU",
+    suffixes=(".pvtu",),
+    encodings=("binary", "ascii"),
+    read=read,
+    write=write,
+    capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
+    limitations=names_not_kept,
+    matches=_matches,
+    remove=remove,
+)

@@ -36,14 +36,18 @@ _ENTITIES = {ord(c): f"&#{ord(c)};" for c in f"&<>\"'{_SPACE}"}
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write a VTU file, read it again and compare checksums.
+    """Write a mesh; see `write_grid`."""
+    write_grid(path, from_mesh(mesh), encoding)
+
+
+def write_grid(path: Path, grid: Grid, encoding: str) -> None:
+    """Write a VTU file of one piece, read it again and compare checksums.
 
     Raises
     ------
     FileError
         For an array of a type that VTK does not have, and where the file differs from the data.
     """
-    grid = from_mesh(mesh)
     checksums: list[tuple[str, int]] = []
     appended = None if encoding == "ascii" else _Appended()
     with open(path, "wb") as file, stage(0.0, _WRITING_SHARE):
@@ -96,6 +100,15 @@ def writable(path: Path, name: str, values: object) -> np.ndarray | list[str]:
     return np.atleast_1d(array)
 
 
+def array_attributes(values: np.ndarray | None = None, **words: str) -> str:
+    """Return attributes of an element: words, and the type and width of an array if one is given."""
+    named = {key: word.translate(_REPLACEMENTS).translate(_ENTITIES) for key, word in words.items()}
+    if values is not None:
+        named = {"type": _NAMES[values.dtype.str[1:]]} | named
+        named["NumberOfComponents"] = str(int(np.prod(values.shape[1:])))
+    return " ".join(f'{key}="{word}"' for key, word in named.items())
+
+
 class _Appended:
     """Arrays behind the XML: each is a header and blocks compressed by zlib, of `_BLOCK` bytes each but the last.
 
@@ -138,9 +151,7 @@ def _write_array(
         numbers = np.frombuffer(data, np.uint8)
     else:
         numbers = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
-        rows, width = len(numbers), int(np.prod(numbers.shape[1:]))
-        head = f'<DataArray type="{_NAMES[numbers.dtype.str[1:]]}" Name="{title.translate(_ENTITIES)}"'
-        head += f' NumberOfComponents="{width}" NumberOfTuples="{rows}"'
+        head = f'<DataArray {array_attributes(numbers, Name=name)} NumberOfTuples="{len(numbers)}"'
         numbers = numbers.reshape(-1)
     file.write(head.encode("utf-8", "replace"))
     if appended is not None:

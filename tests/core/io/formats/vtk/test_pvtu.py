@@ -1,10 +1,14 @@
-"""PVTU: the pieces in its folder, merged without ghost cells."""
+"""PVTU: the pieces in its folder, merged without ghost cells, and written again."""
 
 import numpy as np
 import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
+from hexmend.io.files import remove
+from hexmend.io.formats.vtk.grid import Grid, from_mesh
+from hexmend.io.formats.vtk.pvtu_writer import PieceFiles, numbered
+from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
@@ -36,11 +40,11 @@ def pvtu(folder, pieces):
 def test_pieces_are_merged(numbered, ghosts, tmp_path):
     path, mesh = halves(tmp_path, numbered, ghosts)
     back = io.read(path)
-    assert back.n_nodes == (12 if numbered else 16)
+    assert back.n_nodes == 12
     np.testing.assert_array_equal(back.points[back.hexes], mesh.points[mesh.hexes])
     np.testing.assert_array_equal(back.hex_data["part"], [0, 1])
     assert back.field_data["title"] == ["x"]
-    assert ("duplicate nodes" in back.notes[0]) is not numbered
+    assert ("4 nodes are merged with others at the same place" in back.notes[0]) is not numbered
     assert any("2 ghost cells" in note for note in back.notes) is ghosts
 
 
@@ -73,3 +77,144 @@ def test_what_is_wrong_is_named(pieces, words, tmp_path):
     halves(tmp_path)
     with pytest.raises(FileError, match=words):
         io.read(pvtu(tmp_path, pieces))
+
+
+def test_nodes_of_one_piece_at_the_same_place_stay_apart(tmp_path):
+    mesh = grid(2, 1, 1)
+    apart = Mesh(mesh.points[mesh.hexes].reshape(-1, 3), np.arange(16).reshape(2, 8))
+    io.write(tmp_path / "both.vtu", apart)
+    assert io.read(pvtu(tmp_path, '<Piece Source="both.vtu"/>')).n_nodes == 16
+    io.write(tmp_path / "one.vtu", Mesh(mesh.points + [0, 0, 1], mesh.hexes))
+    back = io.read(pvtu(tmp_path, '<Piece Source="both.vtu"/><Piece Source="one.vtu"/>'))
+    assert back.n_nodes == 16 + 12 - 4  # of the six places where they meet, two have two nodes of the first piece
+
+
+def rich():
+    """A mesh with data, sets, fixed nodes and quads, and a node of no hex, as a file has it."""
+    mesh, rng = grid(3, 2, 2), np.random.default_rng(5)
+    points = np.concatenate([mesh.points + rng.normal(0, 1e-2, mesh.points.shape), [[9.0, 0.1, -0.0]]])
+    quads = Cells("quad", mesh.hexes[:3, :4].copy(), {"ref": np.arange(3)}, {"low": np.array([0, 2])})
+    return Mesh(
+        points,
+        mesh.hexes,
+        pinned=np.arange(len(points)) % 5 == 0,
+        node_data={"t": rng.random((len(points), 3)), "fixed": (np.arange(len(points)) % 5 == 0).astype(np.uint8)},
+        hex_data={"ref": np.arange(12) // 2, "w": rng.random(12).astype(np.float32)},
+        node_sets={"a b": np.array([1, 5])},
+        hex_sets={"in": np.array([0, 7])},
+        cells=(quads,),
+        field_data={"title": ["x"]},
+    )
+
+
+def assert_same(a, b):
+    for name in ("points", "hexes", "pinned"):
+        x, y = getattr(a, name), getattr(b, name)
+        assert x.dtype == y.dtype
+        assert x.tobytes() == y.tobytes()
+    for name in ("node_data", "hex_data", "node_sets", "hex_sets"):
+        x, y = getattr(a, name), getattr(b, name)
+        assert list(x) == list(y)
+        for key in x:
+            assert np.asarray(x[key]).dtype == np.asarray(y[key]).dtype or "sets" in name
+            np.testing.assert_array_equal(x[key], y[key])
+    for x, y in zip(a.cells, b.cells, strict=True):
+        assert x.kind == y.kind
+        np.testing.assert_array_equal(x.nodes, y.nodes)
+        np.testing.assert_array_equal(x.data["ref"], y.data["ref"])
+        np.testing.assert_array_equal(x.sets["low"], y.sets["low"])
+    assert dict(a.field_data) == dict(b.field_data)
+
+
+def write_in_pieces(path, mesh, count, seed=0):
+    """Deal the cells of a mesh to pieces at random; returns the numbers of cells of each."""
+    whole, files = from_mesh(mesh), PieceFiles.new(path)
+    rng = np.random.default_rng(seed)
+    of_cell, of_node = rng.integers(0, count, len(whole.types)), rng.integers(0, count, len(whole.points))
+    files.make_folder()
+    for k in range(count):
+        cells = np.flatnonzero(of_cell == k)
+        rows = [whole.nodes[whole.start[cell] : whole.start[cell + 1]] for cell in cells]
+        nodes = np.union1d(np.flatnonzero(of_node == k), np.concatenate([np.empty(0, int), *rows])).astype(int)
+        piece = Grid(
+            whole.points[nodes],
+            whole.types[cells],
+            np.concatenate([[0], np.cumsum([len(row) for row in rows])]).astype(int),
+            np.searchsorted(nodes, np.concatenate([np.empty(0, int), *rows])),
+            {name: np.asarray(values)[nodes] for name, values in whole.node_data.items()},
+            {name: np.asarray(values)[cells] for name, values in whole.cell_data.items()},
+            whole.field_data if k == 0 else {},
+        )
+        piece = numbered(piece, nodes, cells)
+        files.write_piece(k, piece)
+    files.finish(count, piece)
+    return of_cell
+
+
+@pytest.mark.parametrize("encoding", ["binary", "ascii"])
+def test_a_mesh_is_written_in_one_piece(tmp_path, encoding):
+    mesh = rich()
+    io.write(tmp_path / "a.pvtu", mesh, encoding=encoding)
+    back = io.read(tmp_path / "a.pvtu")
+    assert_same(back, mesh)
+    assert back.notes == ()
+    assert [file.name for file in (tmp_path / "a").iterdir()] == ["a_0.vtu"]
+
+
+def test_many_pieces_are_the_mesh_again_bit_for_bit(tmp_path):
+    mesh = rich()
+    write_in_pieces(tmp_path / "a.pvtu", mesh, 4)
+    assert_same(io.read(tmp_path / "a.pvtu"), mesh)
+
+
+def test_vtk_reads_the_pieces(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    mesh = rich()
+    of_cell = write_in_pieces(tmp_path / "a.pvtu", mesh, 3)
+    found = pyvista.read(tmp_path / "a.pvtu")
+    assert type(pyvista.get_reader(tmp_path / "a.pvtu").reader).__name__ == "vtkXMLPUnstructuredGridReader"
+    assert found.n_cells == len(of_cell) == 15
+    order = np.argsort(found.cell_data["GlobalElementId"])
+    np.testing.assert_array_equal(found.cell_data["ref"][order][:12], mesh.hex_data["ref"])
+    places = {int(k): tuple(x) for k, x in zip(found.point_data["GlobalNodeId"], found.points, strict=True)}
+    np.testing.assert_array_equal([places[k] for k in range(mesh.n_nodes)], mesh.points)
+
+
+def test_a_new_file_leaves_the_pieces_of_the_old_one_until_it_is_whole(tmp_path, monkeypatch):
+    path, old, new = tmp_path / "a.pvtu", grid(2), grid(3)
+    io.write(path, old)
+    monkeypatch.setattr(PieceFiles, "finish", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+    with pytest.raises(KeyboardInterrupt):
+        io.write(path, new)
+    monkeypatch.undo()
+    assert io.read(path).n_hexes == old.n_hexes
+    for mesh in (new, old):
+        io.write(path, mesh)
+        assert io.read(path).n_hexes == mesh.n_hexes
+        assert len(list((tmp_path / "a").iterdir())) == 1
+
+
+def test_files_of_others_in_the_folder_of_the_pieces_stay(tmp_path):
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / "notes.txt").write_text("x")
+    write_in_pieces(tmp_path / "a.pvtu", grid(2), 3)
+    io.write(tmp_path / "a.pvtu", grid(2))
+    assert sorted(file.name for file in (tmp_path / "a").iterdir()) == ["a-2_0.vtu", "notes.txt"]
+    remove(tmp_path / "a.pvtu")
+    assert [file.name for file in tmp_path.rglob("*")] == ["a", "notes.txt"]
+    (tmp_path / "a" / "notes.txt").unlink()
+    write_in_pieces(tmp_path / "a.pvtu", grid(2), 2)
+    remove(tmp_path / "a.pvtu")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_in_place_of_the_folder_is_an_error(tmp_path):
+    (tmp_path / "a").write_text("x")
+    with pytest.raises(FileError, match=r"its pieces need the folder .*a \("):
+        io.write(tmp_path / "a.pvtu", grid(2))
+    assert not (tmp_path / "a.pvtu").exists()
+
+
+def test_data_with_the_names_of_its_numbers_are_reported(tmp_path):
+    mesh = grid(2).replace(node_data={"GlobalNodeId": np.arange(27) + 1})
+    assert io.unsupported_data(tmp_path / "a.pvtu", mesh) == ["point data (GlobalNodeId), a name that it uses itself"]

@@ -1,0 +1,154 @@
+"""Writing of PVTU: pieces in a folder of their own, and then the file that names them.
+
+A new file has other pieces than the one that it replaces, so that one of the two is whole at any time. Pieces number
+their nodes and cells by `NODE_ID` and `CELL_ID`, from which the order of the mesh is restored.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Set
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.errors import FileError
+from hexmend.io.base.capabilities import non_numeric_data
+from hexmend.io.formats.vtk.grid import Grid, from_mesh
+from hexmend.io.formats.vtk.piece_names import CELL_ID, NODE_ID, piece_names
+from hexmend.io.formats.vtk.vtu_writer import array_attributes, writable, write_grid
+from hexmend.io.storage.atomic import atomic_write, check_writable
+from hexmend.io.storage.temporary_files import flush_folder
+from hexmend.mesh.mesh import Mesh
+
+
+@dataclass(frozen=True)
+class PieceFiles:
+    """Names of the files of a PVTU file that is to be written.
+
+    Parameters
+    ----------
+    path : Path
+        The PVTU file.
+    folder, prefix : str
+        Piece k is the file `folder`/`prefix`k.vtu beside it.
+    """
+
+    path: Path
+    folder: str
+    prefix: str
+
+    @classmethod
+    def new(cls, path: Path) -> PieceFiles:
+        """Choose names that the pieces of an existing file do not have."""
+        stem = re.sub(r"[:\\]", "_", path.stem)
+        stem = stem if stem.strip(".") else "mesh"
+        used: list[str] = []
+        with suppress(FileError, OSError):  # a file that names no pieces has none that are to be kept
+            used = piece_names(path)
+        first = f"{stem}_"
+        taken = any(re.fullmatch(re.escape(f"{stem}/{first}") + r"\d+\.vtu", name) for name in used)
+        return cls(path, stem, f"{stem}-2_" if taken else first)
+
+    def name(self, k: int) -> str:
+        """Return the name of a piece in the file."""
+        return f"{self.folder}/{self.prefix}{k}.vtu"
+
+    def piece(self, k: int) -> Path:
+        """Return the path of a piece."""
+        return self.path.parent / self.folder / f"{self.prefix}{k}.vtu"
+
+    def make_folder(self) -> None:
+        """Make the folder of the pieces.
+
+        Raises
+        ------
+        FileError
+            Where it cannot be made.
+        """
+        check_writable(self.path)
+        folder = self.path.parent / self.folder
+        try:
+            folder.mkdir(exist_ok=True)
+        except OSError as error:
+            problem = f"cannot be written: its pieces need the folder {folder} ({error.strerror or error})"
+            raise FileError(self.path, problem, "Free the place or choose another name.") from None
+        flush_folder(self.path.parent)
+
+    def write_piece(self, k: int, grid: Grid, encoding: str = "binary") -> None:
+        """Write a piece, whose node data and cell data have `NODE_ID` and `CELL_ID`."""
+        with atomic_write(self.piece(k)) as temporary:
+            write_grid(temporary, grid, encoding)
+
+    def finish(self, count: int, grid: Grid) -> None:
+        """Write the file that names the pieces, whose arrays are those of one piece, and remove those of an old one."""
+        with atomic_write(self.path) as temporary:
+            temporary.write_bytes(self._header(count, grid).encode("utf-8", "replace"))
+        self.remove_pieces({self.piece(k) for k in range(count)})
+
+    def remove_pieces(self, kept: Set[Path] = frozenset()) -> None:
+        """Remove the files of pieces, old and new ones, that are not to be kept."""
+        ours = re.compile(re.escape(self.folder) + r"(-2)?_\d+\.vtu")
+        folder = self.path.parent / self.folder
+        for file in list(folder.iterdir()) if folder.is_dir() else ():
+            if file not in kept and ours.fullmatch(file.name):
+                file.unlink(missing_ok=True)
+
+    def _header(self, count: int, grid: Grid) -> str:
+        root = 'VTKFile type="PUnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"'
+        lines = ['<?xml version="1.0" encoding="utf-8"?>', f"<{root}>", '<PUnstructuredGrid GhostLevel="0">']
+        sections = ("PPoints", {"Points": grid.points}), ("PPointData", grid.node_data), ("PCellData", grid.cell_data)
+        for section, arrays in sections:
+            lines += [f"<{section}>", *_declarations(self.path, arrays), f"</{section}>"]
+        sources = (array_attributes(Source=self.name(k)) for k in range(count))
+        lines += [f"<Piece {source}/>" for source in sources]
+        return "\n".join([*lines, "</PUnstructuredGrid>", "</VTKFile>", ""])
+
+
+def _declarations(path: Path, arrays: Mapping[str, np.ndarray]) -> list[str]:
+    """Declarations of the arrays that every piece has, without those of width 0 and those of strings."""
+    found = []
+    for name, values in arrays.items():
+        array = writable(path, name, values)
+        if np.size(array) and not isinstance(array, list):
+            found.append(f"<PDataArray {array_attributes(array, Name=name)}/>")
+    return found
+
+
+def numbered(grid: Grid, nodes: np.ndarray, cells: np.ndarray) -> Grid:
+    """Return a grid with the numbers of its nodes (n,) and cells (c,) in the whole mesh, int64."""
+    node_data, cell_data = {**grid.node_data, NODE_ID: nodes}, {**grid.cell_data, CELL_ID: cells}
+    return replace(grid, node_data=node_data, cell_data=cell_data)
+
+
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write a mesh as one piece.
+
+    Raises
+    ------
+    FileError
+        For an array of a type that VTK does not have, and where the files cannot be written.
+    """
+    grid, files = from_mesh(mesh), PieceFiles.new(path)
+    grid = numbered(grid, np.arange(len(grid.points)), np.arange(len(grid.types)))
+    files.make_folder()
+    files.write_piece(0, grid, encoding)
+    files.finish(1, grid)
+
+
+def remove(path: Path) -> None:
+    """Remove a file, then its pieces, and their folder if nothing else is in it."""
+    files = PieceFiles.new(path)
+    path.unlink(missing_ok=True)
+    files.remove_pieces()
+    with suppress(OSError):
+        (path.parent / files.folder).rmdir()
+
+
+def names_not_kept(mesh: Mesh) -> list[str]:
+    """Describe what the file cannot hold: data that are no numbers, and those with the names of its own numbers."""
+    cells = any(CELL_ID in data for data in (mesh.hex_data, *(cells.data for cells in mesh.cells)))
+    taken = [f"point data ({NODE_ID})"] * (NODE_ID in mesh.node_data) + [f"cell data ({CELL_ID})"] * cells
+    return [*non_numeric_data(mesh), *(f"{one}, a name that it uses itself" for one in taken)]
