@@ -72,6 +72,11 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def cores_for(tasks: int) -> int:
+    """Return the share of these processors, at least 1, of each of some tasks at a time."""
+    return max(1, cores() // max(1, tasks))
+
+
 def _positive(word: str) -> int | None:
     word = word.strip()
     number = int(word) if word.isascii() and word.isdecimal() and len(word) < 7 else 0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from hexmend.layers.columns import Columns, Lengths, lateral_lengths, walk_columns
@@ -76,6 +78,21 @@ def find_layers(mesh: Mesh, quality: ElementQuality | None = None) -> Layers:
 
 def _may_be_thin(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray, distorted: bool) -> np.ndarray:
     """Mark faces on which the shortest edge of the height is short against the longest beside it, (k,) bool."""
+    thin = short_faces(mesh, hexes, faces)
+    if np.count_nonzero(thin) < MIN_FACES:
+        return thin
+    thin &= thin_in_volume(mesh, hexes, faces)
+    quads = mesh.hexes[hexes[:, None], FACES[faces]]
+    return thin & _in_large_groups(quads, thin, mesh.n_nodes, least_faces(len(faces), distorted))
+
+
+def least_faces(count: int, distorted: bool) -> int:
+    """Return the least number of thin faces of a wall, of `count` faces of the boundary."""
+    return max(MIN_FACES, count // MAX_WALLS_DISTORTED if distorted else 0)
+
+
+def short_faces(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Mark faces of hexes, both (k,) int, whose height has an edge that is short against the longest of the others."""
     ends = mesh.hexes[hexes][:, EDGES]
     along = mesh.points[ends[..., 1]] - mesh.points[ends[..., 0]]
     squares = np.einsum("kei,kei->ke", along, along).reshape(-1, 3, 4)
@@ -83,12 +100,7 @@ def _may_be_thin(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray, distorted: bo
     height = squares.min(axis=2)[rows, faces // 2]
     longest = squares.max(axis=2)
     longest[rows, faces // 2] = 0
-    thin = height * THIN**2 < longest.max(axis=1)
-    if np.count_nonzero(thin) < MIN_FACES:
-        return thin
-    thin &= _thin_in_volume(mesh, hexes, faces)
-    least = max(MIN_FACES, len(faces) // MAX_WALLS_DISTORTED if distorted else 0)
-    return thin & _in_large_groups(mesh.hexes[hexes[:, None], FACES[faces]], thin, mesh.n_nodes, least)
+    return height * THIN**2 < longest.max(axis=1)
 
 
 def _in_large_groups(quads: np.ndarray, marked: np.ndarray, n: int, least: int) -> np.ndarray:
@@ -99,10 +111,22 @@ def _in_large_groups(quads: np.ndarray, marked: np.ndarray, n: int, least: int) 
     return large
 
 
-def _thin_in_volume(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:
+def thin_in_volume(
+    mesh: Mesh,
+    hexes: np.ndarray,
+    faces: np.ndarray,
+    complete: Callable[[np.ndarray], np.ndarray] = lambda rows: rows,
+) -> np.ndarray:
     """Mark faces whose hexes, with those around them, have small volumes for the faces, (k,) bool.
 
     Single edges of a scrambled mesh may be short anywhere; the volume over several faces tells a layer from that.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    hexes, faces : (k,) int
+    complete : callable
+        Completes sums at the nodes of a part of a mesh, (n,); see `hexmend.energy.ranks.Ranks`.
     """
     sigma = corner_determinants(mesh.points, mesh.hexes, hexes).mean(axis=1)
     quads = mesh.hexes[hexes[:, None], FACES[faces]]
@@ -110,7 +134,7 @@ def _thin_in_volume(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndar
     area = np.linalg.norm(np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]), axis=1) / 2
     side = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
     nodes = quads.ravel()
-    volume, areas = (np.bincount(nodes, np.repeat(of, 4), mesh.n_nodes) for of in (sigma, area))
+    volume, areas = (complete(np.bincount(nodes, np.repeat(of, 4), mesh.n_nodes)) for of in (sigma, area))
     return volume[quads].sum(axis=1) * THIN_IN_VOLUME < side * areas[quads].sum(axis=1)
 
 

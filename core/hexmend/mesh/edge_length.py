@@ -46,8 +46,26 @@ def mean_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
     hexes = as_hexes(hexes, len(points))
     if not len(hexes):
         return 0.0
-    mean = elements.mean_edge_length(points, hexes)
-    trimmed = _trimmed_mean(points, hexes)
+    sample = edge_lengths(points, hexes[:: sample_stride(len(hexes))])
+    return robust_mean(elements.mean_edge_length(points, hexes), sample)
+
+
+def sample_stride(m: int) -> int:
+    """Return the distance between the hexes, of m, that are the sample of `robust_mean`."""
+    return m // _SAMPLE_HEXES + 1
+
+
+def edge_lengths(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Compute the lengths of the edges of hexes (k, 8), (12 k,) float64."""
+    ends = points[hexes][:, EDGES]
+    with np.errstate(over="ignore"):
+        return np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).ravel()
+
+
+def robust_mean(mean: float, sample: np.ndarray) -> float:
+    """Return the mean of lengths, or that of all but the longest tenth of a sample where outliers raise it much."""
+    kept = sample.size - sample.size // 10
+    trimmed = float(np.partition(sample, kept - 1)[:kept].mean())
     return trimmed if mean > OUTLIER_FACTOR * trimmed > 0 else mean
 
 
@@ -86,12 +104,3 @@ def hex_lengths(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
         along -= points[hexes[:, b]]
         lengths[:, number // 4] += np.sqrt(np.einsum("ij,ij->i", along, along))
     return lengths / 4
-
-
-def _trimmed_mean(points: np.ndarray, hexes: np.ndarray) -> float:
-    """Mean length of all but the longest tenth of the edges, over a sample of the hexes."""
-    ends = points[hexes[:: len(hexes) // _SAMPLE_HEXES + 1]][:, EDGES]
-    with np.errstate(over="ignore"):
-        lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).ravel()
-    kept = lengths.size - lengths.size // 10
-    return float(np.partition(lengths, kept - 1)[:kept].mean())

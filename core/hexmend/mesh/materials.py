@@ -123,9 +123,18 @@ def find_materials(
     return None if found is None else Materials(found[0], as_immutable(found[1]), topology)
 
 
+def is_name_of_materials(name: str) -> bool:
+    """Return True if data of this name may number materials."""
+    return _key(name) in _DATA_NAMES
+
+
+def _key(name: str) -> str:
+    return "".join(filter(str.isalnum, name.lower()))
+
+
 def _by_data(hex_data: Mapping[str, np.ndarray], m: int) -> tuple[tuple[str, ...], np.ndarray] | None:
     """Materials by the first data with a usual name and two or more whole numbers, fewer than half the hexes."""
-    names = {"".join(filter(str.isalnum, name.lower())): name for name in reversed(list(hex_data))}
+    names = {_key(name): name for name in reversed(list(hex_data))}
     for name in _DATA_NAMES:
         if name not in names:
             continue

@@ -93,6 +93,14 @@ def mirrored_parts(mesh: Mesh, report: Callable[[float], object] = lambda share:
     return of_part[part]
 
 
+def handedness(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Mark hexes (m, 8) of negative and of positive volume, both (m,) bool; flat ones are neither."""
+    bound, chunks = _rounding_bound(points), range(0, len(hexes), _CHUNK)
+    marks = [_handedness(points, hexes[begin : begin + _CHUNK], bound) for begin in chunks]
+    wrong, right = (np.concatenate([np.empty(0, bool), *(pair[side] for pair in marks)]) for side in (0, 1))
+    return wrong, right
+
+
 def _handedness(points: np.ndarray, hexes: np.ndarray, bound: float) -> tuple[np.ndarray, np.ndarray]:
     """Mark hexes (k, 8) of negative and of positive volume, both (k,) bool; flat ones are neither.
 

@@ -15,6 +15,14 @@ _VARIABLES = {
     "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
 }
 
+#: Variables in which launchers tell each process the number of processes on its machine.
+_LOCAL_SIZES = "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"
+
+
+def local_ranks() -> int:
+    """Return the number of ranks on this machine, as the launcher of this process says; 1 without one."""
+    return next((int(os.environ[name]) for name in _LOCAL_SIZES if os.environ.get(name, "").isdecimal()), 1)
+
 
 def launcher() -> str | None:
     """Return the path of mpiexec: that of this Python environment, or else of PATH; None if there is none."""

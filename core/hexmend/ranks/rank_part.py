@@ -128,15 +128,18 @@ def distribute(comm: MPI.Comm, mesh: Mesh | None) -> RankPart:
     owner, own = owners_of_nodes(mesh, divide(mesh, comm.size)), None
     idle = comm.size - np.unique(owner[mesh.hexes]).size
     if idle:
-        raise ParameterError(
-            f"{comm.size} ranks are too many for {mesh.n_hexes:,} hexes: {idle} of them would own no node. Use fewer."
-        )
+        raise ParameterError(too_many_ranks(comm.size, mesh.n_hexes, idle))
     for rank, rows in enumerate(arrays_of_parts(mesh, owner, comm.size)):
         if rank == 0:
             own = rows
         else:
             _send(comm, rows, rank)
     return make_part(comm, own)
+
+
+def too_many_ranks(count: int, n_hexes: int, idle: int) -> str:
+    """Return the message on ranks of which some would have nothing to do."""
+    return f"{count} ranks are too many for {n_hexes:,} hexes: {idle} of them would own no node. Use fewer."
 
 
 def _send(comm: MPI.Comm, rows: dict[str, np.ndarray], rank: int) -> None:

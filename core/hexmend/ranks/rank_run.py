@@ -114,12 +114,22 @@ class RankRun(Iterator[RankFigures]):
         self._take(step)
         return self.last
 
+    def close(self) -> None:
+        """End the run after the newest iteration; it keeps its result."""
+        self._end(self.outcome or Outcome.STOPPED)
+
+    def _end(self, outcome: Outcome | None) -> None:
+        """End the run unless the outcome is None, and free what the method holds."""
+        self.outcome = outcome
+        if outcome is not None:
+            self._steps.close()
+
     def _take(self, step: Step) -> None:
         energy, points = self._energy, np.asarray(step.points)
         moved = largest_norm(points - self.points) / energy.unit
         self.move = energy.ranks.greatest(moved if np.isfinite(moved) else np.inf)
         if not np.isfinite(self.move):
-            self.outcome = Outcome.NOT_FINITE
+            self._end(Outcome.NOT_FINITE)
             return
         self.points = points
         quality = step.quality if step.quality is not None else measure(points, energy.mesh.hexes)
@@ -130,9 +140,9 @@ class RankRun(Iterator[RankFigures]):
         if self.stop.keep_last or (rank <= self._best_rank and not step.infeasible):
             self.best_points, self.kept, self._best_rank = points, self.number, rank
         if self.move < self.stop.tolerance and not step.intermediate:
-            self.outcome = Outcome.CONVERGED
+            self._end(Outcome.CONVERGED)
         else:  # the clocks of ranks differ
-            self.outcome = self.stop.reached(self.smoother, self.number, energy.ranks.greatest(self.seconds))
+            self._end(self.stop.reached(self.smoother, self.number, energy.ranks.greatest(self.seconds)))
 
     def _figures(self, quality: ElementQuality, points: np.ndarray) -> RankFigures:
         return RankFigures.of(self._energy, quality, points, self.smoother.norm)

@@ -25,17 +25,22 @@ from hexmend.smoothers.mend.mend import Mend
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum
 from hexmend.smoothers.mend.stages import Stages, keeping
 
+_REMEDY = "run it in one process, without mpiexec"
 
-def check_distributed(smoother: Smoother, mesh: Mesh) -> None:
-    """Raise `ParameterError` for what several ranks cannot do."""
-    remedy = "run it in one process, without mpiexec"
+
+def check_method(smoother: Smoother) -> None:
+    """Raise `ParameterError` for a method that several ranks cannot run."""
     if not isinstance(smoother, Mend):
-        raise ParameterError(f"{smoother.title} does not run on several MPI ranks yet, mend does: {remedy}")
+        raise ParameterError(f"{smoother.title} does not run on several MPI ranks yet, mend does: {_REMEDY}")
     if smoother.goal not in ("shape", "balanced") or smoother.guard:
         which = "guard = true" if smoother.guard else f"goal = {smoother.goal}"
-        raise ParameterError(f"{which} does not run on several MPI ranks yet, goals shape and balanced do: {remedy}")
+        raise ParameterError(f"{which} does not run on several MPI ranks yet, goals shape and balanced do: {_REMEDY}")
+
+
+def check_mesh(mesh: Mesh) -> None:
+    """Raise `ParameterError` for a mesh that several ranks cannot smooth."""
     if mesh.linear_motion is not None:
-        raise ParameterError(f"nodes with a linear motion do not run on several MPI ranks yet: {remedy}")
+        raise ParameterError(f"nodes with a linear motion do not run on several MPI ranks yet: {_REMEDY}")
 
 
 class RankStages(Stages):

@@ -211,16 +211,18 @@ class ExitAfterIteration(CleanExit):
     ----------
     unit : str
         The word for one pass of the loop, for the message.
+    quiet : bool
+        Write no message: another process does.
     """
 
-    def __init__(self, unit: str = "iteration"):
+    def __init__(self, unit: str = "iteration", quiet: bool = False):
         super().__init__()
-        self._unit = unit
+        self._unit, self._quiet = unit, quiet
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
-        if count == 1:
+        if count == 1 and not self._quiet:
             write_line(f"Ending after this {self._unit}; a second Ctrl-C ends at once.")
-        else:
+        elif count > 1:
             super()._answer(count - 1, number, frame)
 
 

@@ -8,7 +8,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from itertools import islice
 from typing import Any
 
-from hexmend.kernels import cores
+from hexmend.kernels import cores, cores_for
 from hexmend.run.memory import available
 from hexmend.study.batch.process import run_task
 from hexmend.study.batch.task import Task
@@ -33,9 +33,8 @@ class Local:
 
         Unless their number is set, tasks share the cores as threads: a single task has all of them.
         """
-        count = cores()
-        jobs = max(1, min(self._jobs or count, len(tasks)))
-        threads = self._threads or max(1, count // jobs)
+        jobs = max(1, min(self._jobs or cores(), len(tasks)))
+        threads = self._threads or cores_for(jobs)
         memory_mb, ending = (available() or 0) // jobs >> 20, threading.Event()
         remaining = iter(tasks)
         running: dict[Future[dict[str, Any]], Task] = {}

@@ -54,8 +54,17 @@ class Checkpoints:
         """Write the mesh that a function makes; where that fails, a warning says so and the run goes on."""
         try:
             write(self.path, make())
-            self._written = True
+            self.note_written()
         except (FileError, OSError) as error:
+            self.note_failure(error)
+
+    def note_written(self) -> None:
+        """Take note that the checkpoint has been written, by this object or by several ranks."""
+        self._written, self._last = True, monotonic()
+
+    def note_failure(self, error: Exception, quiet: bool = False) -> None:
+        """Print a warning that it could not be written, unless another process does."""
+        if not quiet:
             print(f"hexmend: no checkpoint was written, and the run goes on: {error}", file=sys.stderr, flush=True)
         self._last = monotonic()
 

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
-from hexmend.boundary import Departures, SurfaceChange, departures, surface_change
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import Summary, describe_regressions, summarise
+from hexmend.boundary import Departures, SurfaceChange
+from hexmend.quality import Summary, describe_regressions
 from hexmend.ranks.rank_run import RankRun
 from hexmend.run.memory import format_bytes
 from hexmend.run.stage_run import StageRun
@@ -24,8 +22,12 @@ class RankResult:
     run : RankRun
     alone : StageRun or None
         With which rank 0 went on alone, if it did.
-    given, mesh : Mesh
-        Before and after the run.
+    summaries : (Summary, Summary)
+        Figures of the mesh before and after.
+    boundary : (SurfaceChange, Departures) or None
+        Change of the boundary, and the nodes that have left it; None where it was fixed.
+    written : str
+        Sentence about the file of the mesh.
     peaks_mb : sequence of float
         Largest memory of each rank, MiB.
     threads : sequence of int
@@ -34,24 +36,11 @@ class RankResult:
 
     run: RankRun
     alone: StageRun | None
-    given: Mesh
-    mesh: Mesh
-    peaks_mb: Sequence[float]
-    threads: Sequence[int]
-
-    @cached_property
-    def summaries(self) -> tuple[Summary, Summary]:
-        """Figures of the mesh before and after."""
-        return summarise(self.given), summarise(self.mesh)
-
-    @cached_property
-    def _of_boundary(self) -> tuple[SurfaceChange, Departures] | None:
-        """Change of the boundary, and the nodes that have left it; None where it was fixed."""
-        method = self.run.smoother
-        if not method.slides_on(self.given):
-            return None
-        change = surface_change(self.given, self.mesh, method.feature_angle)
-        return change, departures(self.given, self.mesh, method.feature_angle, method.slides)
+    summaries: tuple[Summary, Summary]
+    boundary: tuple[SurfaceChange, Departures] | None
+    written: str
+    peaks_mb: Sequence[float] = ()
+    threads: Sequence[int] = ()
 
     @property
     def message(self) -> str:
@@ -78,7 +67,7 @@ class RankResult:
     @property
     def surface_sentence(self) -> str:
         """Change of the boundary, in sentences; "" where it was fixed."""
-        return " ".join(filter(None, (one.sentence for one in self._of_boundary or ())))
+        return " ".join(filter(None, (one.sentence for one in self.boundary or ())))
 
     def record(self) -> dict[str, object]:
         """Return the report of --json, with the peak of memory, MiB, and the threads of each rank."""
@@ -100,7 +89,7 @@ class RankResult:
                 "iterations_alone": 0 if alone is None else alone.n_iterations,
             },
         }
-        if self._of_boundary is not None:
-            change, left = self._of_boundary
+        if self.boundary is not None:
+            change, left = self.boundary
             report["surface"] = change.to_dict() | {"left": left.to_dict()}
         return report

@@ -38,10 +38,10 @@ def content(path: Path) -> Content:
     """Read the content of a VTKHDF file; for the subprocess."""
     try:
         with hdf5.open_file(path) as file:
-            root = _group(file, "VTKHDF")
+            root = group_of(file, "VTKHDF")
             if root is None:
                 raise FileError(path, "has no group VTKHDF", "Is it a VTKHDF file? Check its suffix.")
-            grids = _VTKHDFReader(path, root).read_grids()
+            grids = VTKHDFReader(path, root).read_grids()
     except (FileError, MemoryError):
         raise
     except Exception as error:  # h5py raises many types
@@ -50,7 +50,7 @@ def content(path: Path) -> Content:
     return to_content(path, merge_grids(grids))
 
 
-class _VTKHDFReader:
+class VTKHDFReader:
     """Reader of the group VTKHDF, an h5py.Group."""
 
     def __init__(self, path: Path, root):
@@ -67,7 +67,7 @@ class _VTKHDFReader:
         counts = {name: self._read(self.root, f"NumberOf{name}") for name in ("Points", "Cells", "ConnectivityIds")}
         parts = len(counts["Points"])
         begins, first = dict.fromkeys(counts, 0), 0
-        steps = _group(self.root, "Steps")
+        steps = group_of(self.root, "Steps")
         if steps is not None:
             count = int(steps.attrs.get("NSteps", 1))
             if count > 1:
@@ -84,7 +84,7 @@ class _VTKHDFReader:
             sizes = {name: int(rows[part]) for name, rows in counts.items()}
             grids.append(self._read_grid(sizes, begins, part - first))
             begins = {name: begins[name] + size for name, size in sizes.items()}
-        grids[0] = replace(grids[0], field_data=self._read_field_data(), notes=tuple(self.notes))
+        grids[0] = replace(grids[0], field_data=self.read_field_data(), notes=tuple(self.notes))
         return grids
 
     def _read_grid(self, sizes: dict[str, int], begins: dict[str, int], part: int) -> Grid:
@@ -98,7 +98,7 @@ class _VTKHDFReader:
         if coordinates.ndim != 2 or coordinates.shape[1] != 3:
             raise FileError(self.path, f"its Points have the shape {coordinates.shape}: expected (n, 3)", DAMAGED)
         types, nodes = self._read_integers("Types", cells), self._read_integers("Connectivity", ids)
-        data = self._read_data("PointData", points), self._read_data("CellData", cells)
+        data = self.read_data("PointData", points), self.read_data("CellData", cells)
         return Grid(coordinates.astype(np.float64, copy=False), types, start, nodes, *data)
 
     def _first_value(self, steps, name: str, default: int) -> int:
@@ -112,8 +112,13 @@ class _VTKHDFReader:
             return found[rows]
         return gather_integers((rows.stop - rows.start,), hdf5.dataset_blocks(found, rows))
 
-    def _read_data(self, section: str, rows: slice) -> dict[str, np.ndarray]:
-        group = _group(self.root, section)
+    def read_rows(self, name: str, rows: slice) -> np.ndarray:
+        """Read rows of an array of the grid, in the machine's byte order."""
+        return self._read(self.root, name, rows)
+
+    def read_data(self, section: str, rows: slice) -> dict[str, np.ndarray]:
+        """Read rows of the arrays of a section that are of numbers."""
+        group = group_of(self.root, section)
         found = {}
         for name in group or ():
             if group[name].dtype.kind in "biuf":
@@ -123,8 +128,9 @@ class _VTKHDFReader:
                 self.notes += [note] if note not in self.notes else []
         return found
 
-    def _read_field_data(self) -> dict[str, object]:
-        group = _group(self.root, "FieldData") or {}
+    def read_field_data(self) -> dict[str, object]:
+        """Read the values of the grid as a whole."""
+        group = group_of(self.root, "FieldData") or {}
         readers = {name: self._read if group[name].dtype.kind in "biuf" else self._read_strings for name in group}
         return {name: read(group, name) for name, read in readers.items()}
 
@@ -174,7 +180,7 @@ class _VTKHDFReader:
         return found
 
 
-def _group(parent, name: str):
+def group_of(parent, name: str):
     """Return a subgroup, or None."""
     import h5py
 

@@ -55,7 +55,7 @@ def read_grids(path: Path) -> list[Grid]:
         fields: dict[str, object] = {}
         for section in (top.first("FieldData"), *(piece.first("FieldData") for piece in pieces)):
             for array in section.arrays():
-                fields[array.get("Name") or f"array {len(fields)}"] = _read_field(document, array)
+                fields[array.get("Name") or f"array {len(fields)}"] = read_field(document, array)
     notes = (unread_note(f"arrays of strings, one for each node or cell ({', '.join(skipped)})"),) if skipped else ()
     return [replace(grids[0], field_data=fields, notes=notes), *grids[1:]]
 
@@ -125,7 +125,8 @@ def _read_data(document: Document, section: XMLElement, rows: int, skipped: dict
     return data
 
 
-def _read_field(document: Document, array: XMLElement) -> np.ndarray | list[str]:
+def read_field(document: Document, array: XMLElement) -> np.ndarray | list[str]:
+    """Read an array of field data."""
     if array.get("type") == "String":
         return read_strings(document, array)
     width = _width(document, array)

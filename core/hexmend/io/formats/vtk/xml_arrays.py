@@ -62,6 +62,70 @@ def read_values(document: Document, array: XMLElement, count: int | None = None)
     return values.astype(dtype.newbyteorder("="), copy=False)
 
 
+def read_range(document: Document, array: XMLElement, begin: int, end: int) -> np.ndarray:
+    """Read the numbers from `begin` to `end` of an array that is raw bytes behind the XML.
+
+    Of a compressed array, only the blocks with these numbers are read.
+
+    Parameters
+    ----------
+    document : Document
+    array : XMLElement
+        Its format is "appended", its type neither "String" nor "Bit".
+    begin, end : int
+
+    Returns
+    -------
+    (end - begin,) array
+        In the machine's byte order.
+
+    Raises
+    ------
+    FileError
+        Where the array ends before.
+    """
+    dtype, header_type = document.dtype(array), _header_type(document)
+    low, high = begin * dtype.itemsize, end * dtype.itemsize
+    stream = _RawStream(document, document.appended()[0] + document.count(array, "offset"))
+    kind = COMPRESSORS.get(document.root.get("compressor"))
+    length = blocks = _read_header(document, array, stream, 1)[0]
+    if kind is None:
+        at = header_type.itemsize + low
+    elif blocks:
+        _, whole, last, *packed = _read_header(document, array, stream, 3 + blocks)
+        whole = whole or last  # of a single block
+        length = whole * (blocks - 1) + (last or whole)
+    if end < begin or high > length:
+        raise document.error(f"{array_title(array)} has {length} bytes: expected {high} at least")
+    if begin == end:
+        return np.empty(0, dtype.newbyteorder("="))
+    if kind is None:
+        data = _take(document, array, stream, at, high - low)
+    else:
+        first, title = low // whole, array_title(array)
+        begins = (3 + blocks) * header_type.itemsize + np.concatenate([[0], np.cumsum(packed, dtype=np.int64)])
+        parts = []
+        for k in range(first, (high - 1) // whole + 1):
+            block = _take(document, array, stream, int(begins[k]), packed[k])
+            parts.append(_unpack(document, title, kind, block, last or whole if k == blocks - 1 else whole))
+        data = b"".join(parts)[low - first * whole : high - first * whole]
+    return np.frombuffer(data, dtype).astype(dtype.newbyteorder("="), copy=False)
+
+
+def _unpack(document: Document, title: str, kind: str, data: bytes | memoryview, size: int) -> bytes:
+    """Decompress a block of an array to its size."""
+    try:
+        block = _decompressor(kind)(data, size)
+    except MemoryError:
+        raise
+    except Exception as error:  # each of the three libraries raises its own type
+        detail = " ".join(str(error).split())[:80]
+        raise document.error(f"{title} is no {kind} ({detail})") from None
+    if len(block) != size:
+        raise document.error(f"{title} has not the {size} bytes announced")
+    return block
+
+
 def read_strings(document: Document, array: XMLElement) -> list[str]:
     """Read an array of strings, each of which ends with a zero."""
     data = read_values(document, array).astype(np.uint8).tobytes()
@@ -180,21 +244,13 @@ def _read_compressed(document: Document, array: XMLElement, stream: _Stream, siz
     _check_size(document, array, length, size)
     begin = stream.after((3 + blocks) * _header_type(document).itemsize)
     data = memoryview(_take(document, array, stream, begin, sum(packed)))
-    answer, decompress = np.empty(length, np.uint8), _decompressor(kind)
+    answer = np.empty(length, np.uint8)
     begins = np.concatenate([[0], np.cumsum(packed, dtype=np.int64)]).tolist()
 
     def unpack(k: int) -> None:
         expected = whole if k < blocks - 1 else last or whole
-        block_title = f"block {k + 1} of {blocks} of {array_title(array)}"
-        try:
-            block = decompress(data[begins[k] : begins[k + 1]], expected)
-        except MemoryError:
-            raise
-        except Exception as error:  # each of the three libraries raises its own type
-            detail = " ".join(str(error).split())[:80]
-            raise document.error(f"{block_title} is no {kind} ({detail})") from None
-        if len(block) != expected:
-            raise document.error(f"{block_title} has not the {expected} bytes announced")
+        title = f"block {k + 1} of {blocks} of {array_title(array)}"
+        block = _unpack(document, title, kind, data[begins[k] : begins[k + 1]], expected)
         answer[k * whole : k * whole + expected] = np.frombuffer(block, np.uint8)
 
     for k, _ in enumerate(parallel_map(unpack, range(blocks))):

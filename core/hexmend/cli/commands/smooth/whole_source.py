@@ -1,0 +1,120 @@
+"""Mesh that rank 0 reads, divides, gathers again and writes."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hexmend.arrays import as_immutable
+from hexmend.boundary import departures, surface_change
+from hexmend.cli.arguments.checks import check_memory
+from hexmend.cli.arguments.run_arguments import motion_rules
+from hexmend.cli.commands.smooth.agreement import agreed
+from hexmend.cli.commands.smooth.checkpoint import Checkpoints
+from hexmend.cli.commands.smooth.rank_result import RankResult
+from hexmend.cli.output.mesh_messages import print_notes, print_problems
+from hexmend.cli.output.mesh_output import MeshOutput
+from hexmend.io import read
+from hexmend.iteration import Iteration
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules.resolution import with_rules
+from hexmend.quality import measure, measure_against_target, summarise
+from hexmend.ranks.launching import local_ranks
+from hexmend.ranks.rank_part import distribute
+from hexmend.ranks.rank_run import RankRun, gather_points
+from hexmend.ranks.rank_sliding import distribute_sliding
+from hexmend.ranks.rank_stages import check_mesh
+from hexmend.run.recipe import Stage
+from hexmend.run.shape_watch import ShapeWatch
+from hexmend.run.stage_run import StageRun
+from hexmend.smoothers import Smoother
+from hexmend.smoothers.mend.stages import Stages
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+
+class WholeSource:
+    """Mesh that rank 0 reads, divides and keeps as it was read; all ranks call the methods together.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        Of the command.
+    method : Smoother
+    comm : mpi4py.MPI.Comm
+    checkpoints : Checkpoints
+
+    Attributes
+    ----------
+    part : RankPart
+    sliding : RankSliding or None
+        The boundary if it slides.
+    """
+
+    def __init__(self, args: argparse.Namespace, method: Smoother, comm: MPI.Comm, checkpoints: Checkpoints):
+        self._args, self.checkpoints = args, checkpoints
+        mesh = agreed(comm, lambda: None if comm.rank else self._read(method, comm.size))
+        self.part = distribute(comm, mesh)
+        slides = comm.bcast(mesh is not None and method.slides_on(mesh))
+        boundary = Stages(method).sliding_boundary(mesh) if slides and mesh is not None else None
+        self.sliding = distribute_sliding(self.part, boundary) if slides else None
+
+    def _read(self, method: Smoother, ranks: int) -> Mesh:
+        """Read the mesh and check everything before the run; returns it with its rules of motion and its target."""
+        args = self._args
+        mesh = read(args.mesh, as_is=args.as_is)
+        print_notes(mesh)
+        print_problems(args.mesh, mesh)
+        self._given = mesh.rebuilt()  # as read, without what is derived from it
+        self._output = MeshOutput(args.output, args.mesh, self._given, args.rewrite)
+        self._output.warn_of_losses(mesh)
+        mesh = with_rules(mesh, motion_rules(args))
+        check_mesh(mesh)
+        check_memory(args, [method], mesh.n_hexes * local_ranks() // ranks, "use more machines")
+        return with_target(mesh, method)
+
+    def checkpoint(self, points: np.ndarray) -> None:
+        """Write the mesh with points (n, 3) of the nodes of the part."""
+        whole = self._gather(points)
+        if whole is not None:
+            self.checkpoints.write(lambda: self._given.with_points(whole))
+
+    def finish(self, run: RankRun) -> RankResult | None:
+        """Gather the result on rank 0, which writes it; returns it there."""
+        points = self._gather(run.best_points)
+        if points is None:
+            return None
+        given = with_rules(self._given, motion_rules(self._args))
+        alone = finish_alone(with_target(given, run.smoother), points, run) if run.unsound else None
+        mesh = given.with_points(points if alone is None else alone.best.points)
+        boundary = None
+        if run.smoother.slides_on(given):
+            angle, slides = run.smoother.feature_angle, run.smoother.slides
+            boundary = surface_change(given, mesh, angle), departures(given, mesh, angle, slides)
+        written = self._output.write(self._given.with_points(mesh.points))
+        return RankResult(run, alone, (summarise(given), summarise(mesh)), boundary, written)
+
+    def _gather(self, points: np.ndarray) -> np.ndarray | None:
+        whole = None if self.part.ranks.number else self._given.points
+        return gather_points(self.part, points, whole)
+
+
+def with_target(mesh: Mesh, method: Smoother) -> Mesh:
+    """Return a mesh with the target that a method has for its hexes, such as those of boundary layers."""
+    return ShapeWatch(mesh, measure(mesh.points, mesh.hexes)).with_target(method)
+
+
+def finish_alone(mesh: Mesh, points: np.ndarray, run: RankRun) -> StageRun:
+    """Go on in one process from points (n, 3), where the ranks have left the least scaled Jacobian unsound."""
+    print("hexmend: the least scaled Jacobian is not sound: rank 0 raises it alone", file=sys.stderr, flush=True)
+    quality = measure(points, mesh.hexes)
+    judged = measure_against_target(mesh, points, quality)
+    start = Iteration(run.number, as_immutable(points), quality, run.seconds, 0.0, {}, run.smoother.norm, judged)
+    alone = StageRun(mesh, Stage(run.smoother, run.stop), 1, start, start)
+    while alone.outcome is None:
+        alone.advance()
+    return alone

@@ -1,0 +1,123 @@
+"""Slice of a grid, and files of which slices can be read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from hexmend.io.formats.vtk.grid import Grid
+
+
+@dataclass(frozen=True, eq=False)
+class GridSlice:
+    """Some cells and some nodes of a grid, not necessarily the nodes of these cells.
+
+    Parameters
+    ----------
+    node_ids, cell_ids : (k,) or (c,) int64
+        Their numbers in the whole grid.
+    points : (k, 3) float64
+    types : (c,) uint8
+    start : (c + 1,) int64
+        Cell i has the nodes nodes[start[i]:start[i + 1]].
+    nodes : (start[-1],) int64
+        Numbers in the whole grid.
+    node_data, cell_data : mapping of str to (k, ...) or (c, ...) array
+        The same arrays in all slices of a file.
+    """
+
+    node_ids: np.ndarray
+    points: np.ndarray
+    node_data: Mapping[str, np.ndarray]
+    cell_ids: np.ndarray
+    types: np.ndarray
+    start: np.ndarray
+    nodes: np.ndarray
+    cell_data: Mapping[str, np.ndarray]
+
+
+class SlicedFile(Protocol):
+    """Grid in a file of which slices can be read.
+
+    Attributes
+    ----------
+    n_nodes, n_cells : int
+    field_data : mapping of str to object
+    """
+
+    n_nodes: int
+    n_cells: int
+    field_data: Mapping[str, object]
+
+    def read(self, nodes: slice, cells: slice) -> Grid:
+        """Read rows of nodes and of cells; numbers of nodes in cells are those of the file."""
+
+    def ids(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """Return the numbers of all nodes and cells of the file in a larger grid; None if it is no piece of one."""
+
+
+def slice_of(files: Sequence[SlicedFile], part: int, count: int) -> GridSlice:
+    """Read one of `count` parts of about the same size of the grids of some files, counted from 0."""
+    sizes = {"nodes": [file.n_nodes for file in files], "cells": [file.n_cells for file in files]}
+    ranges = {name: _ranges(of, part, count) for name, of in sizes.items()}
+    found = []
+    for k, file in enumerate(files):
+        nodes, cells = ranges["nodes"][k], ranges["cells"][k]
+        if nodes.stop == nodes.start and cells.stop == cells.start and (found or k + 1 < len(files)):
+            continue
+        grid, ids = file.read(nodes, cells), file.ids()
+        node_ids, cell_ids = (np.arange(rows.start, rows.stop) for rows in (nodes, cells))
+        numbers = np.asarray(grid.nodes, np.int64)
+        if ids is not None:
+            node_ids, cell_ids, numbers = ids[0][nodes], ids[1][cells], ids[0][numbers]
+        found.append(
+            GridSlice(
+                node_ids,
+                grid.points,
+                grid.node_data,
+                cell_ids,
+                np.asarray(grid.types).astype(np.uint8),
+                np.asarray(grid.start, np.int64),
+                numbers,
+                grid.cell_data,
+            )
+        )
+    return found[0] if len(found) == 1 else _joined(found)
+
+
+def _ranges(sizes: Sequence[int], part: int, count: int) -> list[slice]:
+    """Rows of each file that are in a part, if all rows are counted through."""
+    begins = np.concatenate([[0], np.cumsum(sizes)])
+    low, high = (int(begins[-1]) * which // count for which in (part, part + 1))
+    return [
+        slice(max(low - begin, 0), max(min(high - begin, size), max(low - begin, 0), 0))
+        if low < begin + size and high > begin
+        else slice(0, 0)
+        for begin, size in zip(begins[:-1].tolist(), sizes, strict=True)
+    ]
+
+
+def _joined(parts: Sequence[GridSlice]) -> GridSlice:
+    starts = np.concatenate([[0], np.cumsum([part.start[-1] for part in parts])])
+
+    def data(which: str) -> dict[str, np.ndarray]:
+        names = getattr(parts[0], which)
+        return {name: np.concatenate([getattr(part, which)[name] for part in parts]) for name in names}
+
+    def rows(name: str) -> np.ndarray:
+        return np.concatenate([getattr(part, name) for part in parts])
+
+    start = np.concatenate([[0], *(part.start[1:] + begin for part, begin in zip(parts, starts, strict=False))])
+    return GridSlice(
+        rows("node_ids"),
+        rows("points"),
+        data("node_data"),
+        rows("cell_ids"),
+        rows("types"),
+        start,
+        rows("nodes"),
+        data("cell_data"),
+    )
