@@ -7,10 +7,21 @@ from hexmend.boundary import SkinSurface, SlidingBoundary
 from hexmend.gallery import make
 
 
-@pytest.fixture(scope="module")
-def sliding():
+def on_itself():
     mesh = make("five-side", size=400, scramble=0.1)
     return SlidingBoundary(mesh, max_deviation=0.01 * mesh.mean_edge_length)
+
+
+def on_a_target():
+    """The boundary of a coarse mesh on that of a finer one."""
+    mesh, fine = make("five-side", size=400, scramble=0.1), make("five-side", size=3000)
+    skin = SkinSurface(fine.points, fine.topology.boundary_faces)
+    return SlidingBoundary(mesh.sliding_on(skin), max_deviation=0.01 * mesh.mean_edge_length)
+
+
+@pytest.fixture(scope="module", params=[on_itself, on_a_target])
+def sliding(request):
+    return request.param()
 
 
 def test_places_directions_and_rejected_nodes_are_the_same(sliding):
@@ -33,10 +44,3 @@ def test_only_nodes_of_the_boundary_are_kept(sliding):
     assert numbers.size < sliding.mesh.n_nodes
     assert set(numbers) == set(sliding.boundary.faces.ravel()) | set(sliding.boundary.segments.ravel())
     assert alone.max_deviation == sliding.max_deviation
-
-
-def test_a_target_surface_has_no_such_form():
-    mesh = make("cube", size=27)
-    skin = SkinSurface(mesh.points, mesh.topology.boundary_faces)
-    with pytest.raises(ValueError, match="target surface"):
-        SlidingBoundary(mesh.sliding_on(skin)).on_boundary()

@@ -100,6 +100,44 @@ def test_a_curved_boundary_slides_as_in_one_process(tangled, tmp_path):
     reaches_the_optimum_of_one_process(tangled, tmp_path, 3, "balanced", 5e-3, "--boundary", "slide")
 
 
+def write_surface(path, mesh):
+    """Write the boundary of a mesh as OBJ."""
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.points.tolist()]
+    lines += [f"f {a} {b} {c} {d}" for a, b, c, d in (mesh.topology.boundary_faces + 1).tolist()]
+    path.write_text("\n".join(lines))
+
+
+@needs_mpi
+@pytest.mark.slow
+@pytest.mark.parametrize("ranks", [2, 5])
+def test_a_boundary_slides_on_a_flat_surface_of_a_file_as_in_one_process(tmp_path, ranks):
+    given, surface = tmp_path / "given.vtu", tmp_path / "box.obj"
+    mesh, box = make("kershaw", size=1728), make("cube", size=27)
+    corners = np.isin(mesh.points, (0, 1)).all(axis=1)
+    moved = mesh.topology.boundary & ~corners
+    points = mesh.points.copy()  # off the surface, onto which the run puts all nodes but corners
+    points[moved] += 1e-3 * np.random.default_rng(2).standard_normal((np.count_nonzero(moved), 3))
+    write(given, mesh.with_points(points))
+    write_surface(surface, box.with_points(box.points / np.ptp(box.points)))
+    out, report = tmp_path / "out.vtu", tmp_path / "report.json"
+    words = "--surface", surface, "--goal", "shape", "--layers", "off", "--tolerance", "1e-10", "--json", report
+    run = on_ranks(ranks, given, "-o", out, *words)
+    assert run.returncode == 0, run.stderr
+    x = 12 * read(out).points
+    np.testing.assert_allclose(x, np.round(x), atol=1e-5)
+    subprocess.run(command(1, given, "-o", tmp_path / "one.vtu", *words), check=True, capture_output=True)
+    np.testing.assert_allclose(read(out).points, read(tmp_path / "one.vtu").points, atol=1e-6)
+
+
+@needs_mpi
+@pytest.mark.slow
+def test_a_boundary_slides_on_a_curved_surface_of_a_file_as_in_one_process(tangled, tmp_path):
+    write_surface(tmp_path / "fine.obj", make("five-side", size=6000))
+    reaches_the_optimum_of_one_process(
+        tangled, tmp_path, 3, "shape", 5e-3, "--surface", tmp_path / "fine.obj", "--layers", "off"
+    )
+
+
 @needs_mpi
 @pytest.mark.slow
 def test_rank_0_goes_on_alone_where_untangling_leaves_hexes_unsound(tmp_path):

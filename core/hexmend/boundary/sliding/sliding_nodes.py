@@ -65,15 +65,7 @@ class SlidingNodes(Band):
         super().__init__(points, boundary.faces, start, target, max_deviation)
 
     def on_boundary(self) -> tuple[SlidingNodes, np.ndarray]:
-        """Return the sliding nodes among those of the boundary alone, and the numbers of these, (b,) int64, ascending.
-
-        Raises
-        ------
-        ValueError
-            For a target surface.
-        """
-        if self._given is not None:
-            raise ValueError("a boundary on a target surface has no form of its own yet")
+        """Return the sliding nodes of the boundary alone, and the numbers (b,) int64 of all its nodes, ascending."""
         has = mask(self.boundary.faces, len(self.points))
         has[self.boundary.segments] = True
         has[self.nodes] = True
@@ -81,7 +73,7 @@ class SlidingNodes(Band):
         number = index_of(at, has.size)
         boundary, surface = self.boundary.on_nodes(at), self.surface.on_nodes(at)
         return SlidingNodes(
-            boundary, surface, number[self.nodes].astype(np.int64), self.points[at], None, self.max_deviation
+            boundary, surface, number[self.nodes].astype(np.int64), self.points[at], self._given, self.max_deviation
         ), at
 
     def with_band(self, max_deviation: float) -> Self:

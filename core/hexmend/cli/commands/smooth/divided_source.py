@@ -114,7 +114,7 @@ class DividedSource:
 def _suits(args: argparse.Namespace, method: Smoother) -> bool:
     """Return True if the options need no more than the parts of the mesh."""
     default_target = getattr(method, "target", AUTO) == AUTO and not named_walls(getattr(method, "layers", ""))
-    fixed = not method.slides and motion_rules(args) == MotionRules()
+    fixed = not method.slides and args.surface is None and motion_rules(args) == MotionRules()
     return default_target and fixed and writable_format(Path(args.output), Path(args.mesh)).name == "pvtu"
 
 

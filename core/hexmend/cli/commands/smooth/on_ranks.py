@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from mpi4py import MPI
 
 #: Options that need the whole run in one process.
-_SINGLE = "recipe", "surface", "ridges", "only", "rings", "save_recipe", "history"
+_SINGLE = "recipe", "ridges", "only", "rings", "save_recipe", "history"
 
 
 def run(args: argparse.Namespace) -> int:

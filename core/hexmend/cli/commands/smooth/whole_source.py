@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.arrays import as_immutable
 from hexmend.boundary import departures, surface_change
 from hexmend.cli.arguments.checks import check_memory
-from hexmend.cli.arguments.run_arguments import motion_rules
+from hexmend.cli.arguments.run_arguments import motion_rules, with_surface
 from hexmend.cli.commands.smooth.agreement import agreed
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.commands.smooth.rank_result import RankResult
@@ -72,10 +72,17 @@ class WholeSource:
         self._given = mesh.rebuilt()  # as read, without what is derived from it
         self._output = MeshOutput(args.output, args.mesh, self._given, args.rewrite)
         self._output.warn_of_losses(mesh)
-        mesh = with_rules(mesh, motion_rules(args))
+        mesh = self._with_motion(self._given, method)
         check_mesh(mesh)
         check_memory(args, [method], mesh.n_hexes * local_ranks() // ranks, "use more machines")
-        return with_target(mesh, method)
+        mesh = with_target(mesh, method)
+        if mesh.target is None:
+            return mesh
+        return mesh.keeping_surface().with_points(method.sliding(mesh).mesh.points)  # the boundary begins on it
+
+    def _with_motion(self, mesh: Mesh, method: Smoother) -> Mesh:
+        """Return the mesh with the rules of motion and the surface that the options name."""
+        return with_surface(self._args, with_rules(mesh, motion_rules(self._args)), method)
 
     def checkpoint(self, points: np.ndarray) -> None:
         """Write the mesh with points (n, 3) of the nodes of the part."""
@@ -88,7 +95,7 @@ class WholeSource:
         points = self._gather(run.best_points)
         if points is None:
             return None
-        given = with_rules(self._given, motion_rules(self._args))
+        given = self._with_motion(self._given, run.smoother)
         alone = finish_alone(with_target(given, run.smoother), points, run) if run.unsound else None
         mesh = given.with_points(points if alone is None else alone.best.points)
         boundary = None
