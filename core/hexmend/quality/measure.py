@@ -49,6 +49,11 @@ class ElementQuality:
         """Number of hexes that are marked in `inverted`; the figure `inverted` of summaries and iterations."""
         return int(np.count_nonzero(self.inverted))
 
+    def of(self, which: np.ndarray) -> ElementQuality:
+        """Return the quality of some hexes, (m,) bool or (k,) int."""
+        values = (values[which] for values in (self.q, self.sigma, self.scaled_jacobian, self.eta))
+        return ElementQuality(*values, self.against_target)
+
     def __repr__(self) -> str:
         least = f"q min {format_quality(self.q.min())}" if len(self.q) else "no values"
         hexes = count_phrase(len(self.q), "hex", "hexes")

@@ -9,43 +9,28 @@ from time import perf_counter
 import numpy as np
 
 from hexmend.arrays import largest_norm
-from hexmend.energy import ObjectiveNorm
 from hexmend.iteration import Outcome, Step, StoppingCriteria
 from hexmend.quality import ElementQuality, measure, measure_against_target
 from hexmend.ranks.rank_energy import RankEnergy
 from hexmend.ranks.rank_part import RankPart
 from hexmend.ranks.rank_sliding import RankSliding
 from hexmend.ranks.rank_stages import RankStages
-from hexmend.smoothers.base import objective_of_sound
-from hexmend.smoothers.mend.balance import BALANCE
 from hexmend.smoothers.mend.mend import Mend
 
 
 @dataclass(frozen=True)
 class RankFigures:
-    """Figures of all hexes of an iterate, and of those by which it is judged, against a target if there is one."""
+    """Figures of all hexes of an iterate."""
 
     inverted: int
     q_min: float
     q_mean: float
-    jacobian_min: float
-    judged_q_min: float
-    objective: float
 
     @classmethod
-    def of(cls, energy: RankEnergy, quality: ElementQuality, points: np.ndarray, norm: ObjectiveNorm) -> RankFigures:
-        """Measure a mesh with these points (n, 3), whose hexes have this quality."""
-        ranks, own = energy.ranks, energy.counted
-        judged = measure_against_target(energy.mesh, points, quality)
-        counted = ElementQuality(judged.q[own], judged.sigma[own], judged.scaled_jacobian[own], judged.eta[own])
-        return cls(
-            energy.count(quality.inverted),
-            ranks.least(float(quality.q.min(initial=np.inf))),
-            energy.mean(quality.q),
-            ranks.least(float(quality.scaled_jacobian.min(initial=np.inf))),
-            ranks.least(float(judged.q.min(initial=np.inf))),
-            ranks.sum(objective_of_sound(counted, norm)),
-        )
+    def of(cls, energy: RankEnergy, quality: ElementQuality) -> RankFigures:
+        """Take them together from the quality of the hexes of the part of each rank."""
+        least = energy.ranks.least(float(quality.q.min(initial=np.inf)))
+        return cls(energy.count(quality.inverted), least, energy.mean(quality.q))
 
 
 @dataclass
@@ -89,8 +74,9 @@ class RankRun(Iterator[RankFigures]):
         self._steps = self._stages.steps(mesh)
         next(self._steps)
         self.points = self.best_points = mesh.points
-        self.start = self.last = self._figures(measure(mesh.points, mesh.hexes), mesh.points)
-        self._best_rank = self._rank(self.start)
+        quality = measure(mesh.points, mesh.hexes)
+        self.last, self._start = RankFigures.of(self._energy, quality), self._judged(quality)
+        self._best_rank = self._rank(self._start)
         moving = self._energy.nodes if self.sliding is None else self.sliding.nodes
         if not self._energy.ranks.any(moving.size + self._energy.nodes.size > 0):
             self.outcome = Outcome.NOTHING_FREE
@@ -133,10 +119,10 @@ class RankRun(Iterator[RankFigures]):
             return
         self.points = points
         quality = step.quality if step.quality is not None else measure(points, energy.mesh.hexes)
-        self.last = self._figures(quality, points)
+        self.last = RankFigures.of(energy, quality)
         if step.decision:
             self.decisions.append(step.decision)
-        rank = self._rank(self.last)
+        rank = self._rank(self._judged(quality))
         if self.stop.keep_last or (rank <= self._best_rank and not step.infeasible):
             self.best_points, self.kept, self._best_rank = points, self.number, rank
         if self.move < self.stop.tolerance and not step.intermediate:
@@ -144,17 +130,12 @@ class RankRun(Iterator[RankFigures]):
         else:  # the clocks of ranks differ
             self._end(self.stop.reached(self.smoother, self.number, energy.ranks.greatest(self.seconds)))
 
-    def _figures(self, quality: ElementQuality, points: np.ndarray) -> RankFigures:
-        return RankFigures.of(self._energy, quality, points, self.smoother.norm)
+    def _judged(self, quality: ElementQuality) -> ElementQuality:
+        """Quality by which the present points are judged, of the hexes that this rank counts."""
+        return measure_against_target(self.part.mesh, self.points, quality).of(self.part.counted)
 
-    def _rank(self, now: RankFigures) -> tuple[float, ...]:
-        """Sort key of an iterate, as of `Mend.rank`, for sound meshes; of others the inverted hexes come first."""
-        start, share = self.start, 1.0 if self.part.mesh.element_target is None else 1 - BALANCE.target_fall
-        lower = (now.judged_q_min < share * start.judged_q_min, now.jacobian_min < share * start.jacobian_min)
-        if self.smoother.balances:
-            falls = start.inverted == 0 and (any(lower) or now.q_mean < start.q_mean)
-            return now.inverted, falls
-        return now.inverted, all(lower), now.objective > start.objective
+    def _rank(self, now: ElementQuality) -> tuple[float, ...]:
+        return self.smoother.rank_on(self._energy.ranks, self._start, now)
 
 
 def gather_points(part: RankPart, points: np.ndarray, whole: np.ndarray | None) -> np.ndarray | None:

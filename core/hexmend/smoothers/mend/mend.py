@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend.quality.corner_heights import least_heights
@@ -35,6 +36,10 @@ class Mend(MendSettings):
         return Stages(self).steps(mesh)
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
+        """Sort key of an iterate in one process; see `rank_on`."""
+        return self.rank_on(ONE_RANK, start, now)
+
+    def rank_on(self, ranks: Ranks, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
         Inverted hexes come first, then whether a guarded figure is lower than at the start, then whether the objective
@@ -42,35 +47,51 @@ class Mend(MendSettings):
         `BalanceConfig.target_fall` on: as given, a mesh may have better corners than hexes of the lengths that are
         asked for. The goal balanced guards the figures of all hexes but those that are inverted at the start and still
         are.
+
+        Parameters
+        ----------
+        ranks : Ranks
+            They call it together, each with its share of the hexes.
+        start, now : ElementQuality
+            See `Smoother.rank`.
+
+        Returns
+        -------
+        tuple of float
+            The same on all ranks.
         """
+        inverted = ranks.sum(now.n_inverted)
         if self.balances:
-            return now.n_inverted, self._lowers(start, now)
+            return inverted, self._lowers(ranks, start, now)
         share = 1 - BALANCE.target_fall if now.against_target and not self.guard else 1.0
+        least = ranks.least(_least(now.scaled_jacobian))
         fallen = (
-            now.q.min() < share * start.q.min(),
-            now.scaled_jacobian.min() < share * start.scaled_jacobian.min(),
+            ranks.least(_least(now.q)) < share * ranks.least(_least(start.q)),
+            least < share * ranks.least(_least(start.scaled_jacobian)),
         )
         harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
-            return now.n_inverted, harmed, -now.scaled_jacobian.min()
+            return inverted, harmed, -least
         if self.goal == "time-step":  # the time step itself comes last, see `rank_by_points`
-            return now.n_inverted, harmed if self.guard else False
-        before, after = (objective_of_sound(of, self.norm) for of in (start, now))
-        return now.n_inverted, harmed, after > before
+            return inverted, harmed if self.guard else False
+        before, after = (ranks.sum(objective_of_sound(of, self.norm)) for of in (start, now))
+        return inverted, harmed, after > before
 
-    def _lowers(self, start: ElementQuality, now: ElementQuality) -> bool:
+    def _lowers(self, ranks: Ranks, start: ElementQuality, now: ElementQuality) -> bool:
         """Return True if q min, the least scaled Jacobian or, of a sound mesh, q mean is lower than at the start."""
         share = 1 - BALANCE.target_fall if now.against_target else 1.0
         judged = ~(start.inverted & now.inverted)
-        if not judged.any():
+        count = ranks.sum(int(np.count_nonzero(judged)))
+        if not count:
             return False
         pairs = [(one.q[judged], one.scaled_jacobian[judged]) for one in (start, now)]
-        (q, jacobian), (new_q, new_jacobian) = pairs
-        mean_counts = not start.inverted[judged].any()
+        (q, jacobian), (new_q, new_jacobian) = ([ranks.least(_least(values)) for values in pair] for pair in pairs)
+        mean, new_mean = (ranks.sum(float(pair[0].sum())) / count for pair in pairs)
+        mean_counts = not ranks.any(start.inverted[judged])
         return (
-            new_q.min() < share * q.min() - WORSE_BY
-            or new_jacobian.min() < share * jacobian.min() - WORSE_BY
-            or (mean_counts and new_q.mean() < q.mean() - WORSE_BY)
+            new_q < share * q - WORSE_BY
+            or new_jacobian < share * jacobian - WORSE_BY
+            or (mean_counts and new_mean < mean - WORSE_BY)
         )
 
     def rank_by_points(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
@@ -82,3 +103,7 @@ class Mend(MendSettings):
         if "scaled_jacobian" in worse:
             return "With goal=scaled-jacobian the least scaled Jacobian rises instead; with guard=true neither falls."
         return "With guard=true it does not fall." if worse else ""
+
+
+def _least(values: np.ndarray) -> float:
+    return float(values.min(initial=np.inf))
