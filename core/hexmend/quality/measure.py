@@ -51,8 +51,9 @@ class ElementQuality:
 
     def of(self, which: np.ndarray) -> ElementQuality:
         """Return the quality of some hexes, (m,) bool or (k,) int."""
-        values = (values[which] for values in (self.q, self.sigma, self.scaled_jacobian, self.eta))
-        return ElementQuality(*values, self.against_target)
+        return ElementQuality(
+            self.q[which], self.sigma[which], self.scaled_jacobian[which], self.eta[which], self.against_target
+        )
 
     def __repr__(self) -> str:
         least = f"q min {format_quality(self.q.min())}" if len(self.q) else "no values"
