@@ -60,7 +60,7 @@ class MaxMinConfig:
     detour_programs, programs_between : int
         Linear programs outside the band, at most, and within it before the next detour.
     trial_iterations : int
-        Iterations from the more promising of two starts, before the better of them goes on alone.
+        Iterations in which the more promising of two starts has to come as high as the other, at most.
     untangling_iterations : int
         Iterations by which programs untangle a mesh whose boundary slides, before the barrier does.
     """

@@ -1,0 +1,63 @@
+"""Choice between two starts, on stand-ins whose least values are given step by step."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from hexmend.iteration import Step
+from hexmend.smoothers.mend.starts import raise_from_better
+from tests.core.smoothers.mend.walks import walked
+
+
+def optimiser(least):
+    return SimpleNamespace(corners=SimpleNamespace(movable_minimum=least))
+
+
+def chosen(promising, reached, trial=10):
+    """The result, and the number of steps from each start, of optimisers that take over their last value at the end."""
+    starts = [optimiser(values[0]) for values in (promising, reached)]
+    taken = {id(start): 0 for start in starts}
+
+    def raise_least(start):
+        for value in promising[1:] if start is starts[0] else reached[1:]:
+            taken[id(start)] += 1
+            yield Step(np.zeros((8, 3)), {"least": value})
+        start.corners.movable_minimum = (promising if start is starts[0] else reached)[-1]
+        return None
+
+    _, result = walked(raise_from_better(*starts, raise_least, trial))
+    return starts.index(result.optimiser), [taken[id(start)] for start in starts]
+
+
+def test_a_start_that_overtakes_the_other_on_its_way_goes_on_though_its_optimiser_has_not_moved_yet():
+    assert chosen([0.1, 0.2, 0.3, 0.35, 0.4, 0.42], [0.25, 0.5]) == (0, [5, 0])
+
+
+def test_a_start_whose_last_gains_do_not_lead_to_the_other_is_left_at_once():
+    rising = [0.1, 0.11, 0.12, 0.121, 0.122, 0.123, 0.124, 0.125, 0.126, 0.127, 0.128, 0.129]
+    assert chosen(rising, [0.4, 0.5]) == (1, [4, 1])
+
+
+def test_a_start_that_comes_nearer_has_all_iterations():
+    rising = [0.1, *(0.1 + 0.03 * np.arange(1, 14))]
+    assert chosen(rising, [0.35, 0.5]) == (0, [13, 0])
+    assert chosen(rising, [0.35, 0.5], trial=5) == (1, [4, 1])
+
+
+@pytest.mark.parametrize("end", [0.2, 0.3])
+def test_a_start_that_falls_again_ends_no_lower_than_the_other(end):
+    which, _ = chosen([0.1, 0.2, 0.4, end], [0.3, 0.35])
+    assert which == (0 if end >= 0.3 else 1)
+
+
+def test_without_a_second_start_the_first_goes_to_its_end():
+    start = optimiser(0.1)
+
+    def raise_least(_):
+        yield from (Step(np.zeros((8, 3)), {"least": 0.1}) for _ in range(20))
+        return None
+
+    steps, result = walked(raise_from_better(start, None, raise_least, 3))
+    assert len(steps) == 20
+    assert result.optimiser is start
