@@ -63,6 +63,7 @@ class LinearMotionEnergy(MeshEnergy):
     def __init__(self, energy: MeshEnergy):
         super().__init__(energy.mesh, energy.norm, energy.omitted)
         self.unit, self._lengths, self.target = energy.unit, energy._lengths, energy.target
+        self._weight = energy._weight
         self.surface = energy.surface
         self.energy, self.reduction = energy, Reduction(energy.mesh)
         self.nodes, self.faceted = self.reduction.nodes, energy.faceted

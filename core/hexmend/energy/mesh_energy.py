@@ -106,8 +106,8 @@ class MeshEnergy:
     def _set_target(self, mesh: Mesh) -> None:
         """Take over the target of a mesh with the same hexes."""
         self._lengths = wanted_lengths(mesh)
-        weight = 0.0 if mesh.element_target is None else mesh.element_target.size_weight
-        self.target = None if self._lengths is None else TargetMatrices(self.unit / self._lengths, weight)
+        self._weight = 0.0 if mesh.element_target is None else mesh.element_target.size_weight
+        self.target = None if self._lengths is None else TargetMatrices(self.unit / self._lengths, self._weight)
         for name in ("hex_sizes", "node_lengths", "precision"):  # they follow from the lengths
             self.__dict__.pop(name, None)
 
@@ -196,8 +196,14 @@ class MeshEnergy:
         energy.unit = self.unit
         energy.barrier = None if self.barrier is None else self.barrier.on_part(hexes)
         if self._lengths is not None:
-            lengths, weight = self._lengths[hexes], self.mesh.element_target.size_weight
-            energy._lengths, energy.target = lengths, TargetMatrices(self.unit / lengths, weight)
+            energy._lengths, energy._weight = self._lengths[hexes], self._weight
+            energy.target = self._target_of(hexes)
+
+    def _target_of(self, hexes: np.ndarray) -> TargetMatrices | None:
+        """The target of some hexes (k,), None if there is none."""
+        if self._lengths is None:
+            return None
+        return TargetMatrices(self.unit / self._lengths[hexes], self._weight)
 
     def with_objective(self, norm: ObjectiveNorm, omitted: np.ndarray) -> MeshEnergy:
         """Return a copy with another norm and other omitted corners; the data that depend on the mesh alone are shared.
@@ -251,6 +257,16 @@ class MeshEnergy:
         if self.barrier is None:
             return 0.0
         return self.barrier.hex_values(self.as_points(x), self.mesh.hexes, self.omitted, self.target)
+
+    def with_barriers(self, x: np.ndarray, delta: float, among: np.ndarray | None = None) -> np.ndarray:
+        """Compute eta(H) plus the barrier at points x (n, 3), (k,) float64, of some hexes (k,) int or of all."""
+        if among is None:
+            return self.hex_energies(x, delta) + self.barriers(x)
+        hexes, omitted, target = self.mesh.hexes[among], self.omitted[among], self._target_of(among)
+        values = energies(x, hexes, delta, omitted, 1.0, target)
+        if self.barrier is not None:
+            values += self.barrier.on_part(among).hex_values(x, hexes, omitted, target)
+        return values
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Compute the sum of eta(H)^p at points x (n, 3); +inf at delta = 0 if any hex is inverted."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.arrays import differing_rows
+from hexmend.arrays import any_of_rows, differing_rows
 from hexmend.energy import MeshEnergy
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels.line_search import LineSearch
@@ -187,12 +187,14 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
         Of the free nodes, in mean edge lengths; changed.
     """
     hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
-    limit = DESCENT.growth_factor * (energy.hex_energies(x, delta) + energy.barriers(x)) + DESCENT.growth_summand
-    moved = None
+    limit = DESCENT.growth_factor * energy.with_barriers(x, delta) + DESCENT.growth_summand
+    worsened, moved = np.zeros(len(hexes), dtype=bool), None
     for _ in range(DESCENT.halvings):
         before, moved = moved, energy.moved(x, share[energy.nodes, None] * step)
         changed = None if before is None else differing_rows(before, moved)
-        worsened = ~(energy.hex_energies(moved, delta) + energy.barriers(moved) <= limit)
+        at = None if changed is None else np.flatnonzero(any_of_rows(changed, hexes))
+        some = slice(None) if at is None else at
+        worsened[some] = ~(energy.with_barriers(moved, delta, at) <= limit[some])
         infeasible = energy.infeasible_nodes(x, moved, changed)
         halved = np.zeros(len(x), dtype=bool) if infeasible is None else infeasible.copy()
         share[halved & (share <= DESCENT.stay_below)] = 0.0

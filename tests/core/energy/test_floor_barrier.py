@@ -159,3 +159,13 @@ def test_the_barrier_of_a_part_has_the_values_of_its_hexes(seed, weight):
     part = Mesh(energy.mesh.points, energy.mesh.hexes[hexes]).with_fixed(energy.mesh.fixed)
     values = energy.on_part(part, hexes, np.arange(part.n_nodes)).barriers(x)
     np.testing.assert_allclose(values, expected[hexes], rtol=1e-9, atol=1e-12)
+
+
+@settings(max_examples=5)
+@given(seeds, weights)
+def test_the_energy_of_some_hexes_with_their_barrier_is_that_in_the_whole_mesh(seed, weight):
+    energy, x, expected = case_of(seed, weight)
+    hexes = np.arange(3, energy.mesh.n_hexes, 2)
+    whole = energy.with_barriers(x, 0.0)
+    np.testing.assert_allclose(whole, energy.hex_energies(x) + expected, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(energy.with_barriers(x, 0.0, hexes), whole[hexes], rtol=1e-12)
