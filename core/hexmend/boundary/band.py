@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.arrays import any_of_rows, differing_rows, mask, row_norms
+from hexmend.arrays import any_of_rows, mask, row_norms
+from hexmend.boundary.cell_extremes import extremes_in_cells
 from hexmend.boundary.closest_point import NearPoints, means
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
 
@@ -83,6 +84,7 @@ class Band:
         self, points: np.ndarray, faces: np.ndarray, start: np.ndarray, target: SkinSurface | None, max_deviation: float
     ):
         self.points, self._faces, self._start, self._given = points, faces, start, target
+        self._first_pieces: np.ndarray | None = None  # piece of the boundary next to each of `target_samples` at first
         corners = points[faces.ravel()]
         size = float(np.linalg.norm(np.ptp(corners, axis=0))) if corners.size else 0.0
         self.max_deviation = max(max_deviation, _ROUNDING * size)
@@ -238,8 +240,11 @@ class Band:
             return means(self._start, self.samples)
         start = self.skin.with_points(self._start)
         cell = SAMPLE_DISTANCE * float(row_norms(np.diff(self._start[self.skin.edges.nodes], axis=1)[:, 0]).mean())
-        x = self._given.samples(cell)
-        return x[extremes_in_cells(x, start.distances(x), cell)] if cell > 0 else x
+        x, near = self._given.samples(cell), NearPoints(0)
+        distances = row_norms(start.closest(x, near=near) - x)
+        kept = extremes_in_cells(x, distances, cell) if cell > 0 else np.arange(len(x))
+        self._first_pieces = near.pieces[kept]
+        return x[kept]
 
     @cached_property
     def _initial_boundary_deviation(self) -> np.ndarray:
@@ -254,36 +259,9 @@ class Band:
         if self._given is None:
             return InitialDistances(np.zeros(len(self.samples)), self.samples, np.full(self.samples.shape, 0.25))
         x = self.target_samples
-        closest, nodes, weights = self.skin.with_points(self._start).closest_on(x, near=self._near_boundary)
+        start, known = self.skin.with_points(self._start), self._first_pieces
+        closest, nodes, weights = start.closest_on(x, near=self._near_boundary, known=known)
         return InitialDistances(np.linalg.norm(x - closest, axis=1), nodes, weights)
-
-
-def extremes_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.ndarray:
-    """Find the points with the largest and with the least distance in each cell of a cubic lattice.
-
-    Parameters
-    ----------
-    x : (k, 3) float64
-    distances : (k,) float64
-    cell : float
-        Edge of a cell.
-
-    Returns
-    -------
-    (j,) int64
-        Numbers of these points, ascending.
-
-    Examples
-    --------
-    >>> x = np.array([[0.1, 0, 0], [0.2, 0, 0], [0.3, 0, 0], [1.5, 0, 0]])
-    >>> extremes_in_cells(x, np.array([1.0, 2.0, 3.0, 0.0]), 1.0).tolist()
-    [0, 2, 3]
-    """
-    place = np.floor((x - x.min(axis=0, initial=np.inf)) / cell)
-    order = np.lexsort((distances, *place.T))
-    changes = np.ones(order.size + 1, dtype=bool)
-    changes[1:-1] = differing_rows(place[order[1:]], place[order[:-1]])
-    return np.sort(order[changes[1:] | changes[:-1]])
 
 
 def _deviations_above(

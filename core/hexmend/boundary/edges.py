@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.kernels import incidence
 from hexmend.mesh.topology.components import components
 
 
@@ -39,9 +40,8 @@ class SurfaceEdges:
         sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2)
         self._sides = np.flatnonzero(sides[:, 0] != sides[:, 1])
         sides = sides[self._sides]
-        key = self.keys_of(sides)
-        self._order = np.argsort(key, kind="stable")
-        key = key[self._order]
+        self._order = _order_of_pairs(sides, n)
+        key = self.keys_of(sides[self._order])
         self._first = np.flatnonzero(np.append(True, key[1:] != key[:-1])[: key.size])
         self.key, self.count = key[self._first], np.diff(self._first, append=key.size)
         pair = self._order[self._first], self._order[self._first + (self.count > 1)]
@@ -65,7 +65,7 @@ class SurfaceEdges:
         after = side - side % width + (side + 1) % width
         ends = np.stack([side, after], axis=1)
         node = self.faces.ravel()[ends]
-        ends = np.take_along_axis(ends, np.argsort(node, axis=1, kind="stable"), axis=1)  # lower node first
+        ends = np.where((node[:, 0] <= node[:, 1])[:, None], ends, ends[:, ::-1])  # lower node first
         same = np.ones(len(side), dtype=bool)
         same[self._first] = False
         follows = np.flatnonzero(same)
@@ -74,8 +74,17 @@ class SurfaceEdges:
         repeated = np.flatnonzero(self.faces.ravel() == np.roll(self.faces, -1, axis=1).ravel())
         ring = np.stack([repeated, repeated - repeated % width + (repeated + 1) % width], axis=1)
         group = components(self.faces.size, np.concatenate([links[:, [0, 2]], links[:, [1, 3]], ring]))
-        _, representative = np.unique(group, return_index=True)
-        return np.bincount(self.faces.ravel()[representative], minlength=self.n)
+        first = np.ones(group.size, dtype=bool)  # components are numbered in the order of their first items
+        first[1:] = group[1:] > np.maximum.accumulate(group)[:-1]
+        return np.bincount(self.faces.ravel()[first], minlength=self.n)
+
+
+def _order_of_pairs(pairs: np.ndarray, n: int) -> np.ndarray:
+    """Order pairs (k, 2) of n nodes by the lower node, then by the higher one, equal ones as given; (k,) int32."""
+    order = np.arange(len(pairs), dtype=np.int32)
+    for node in (pairs.max(axis=1), pairs.min(axis=1)):
+        order = order[incidence.grouped(np.ascontiguousarray(node[order], np.int32), n)[1]]
+    return order
 
 
 def edge_keys(edges: np.ndarray, n: int) -> np.ndarray:

@@ -2,11 +2,47 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from hexmend.arrays import cross_products, row_norms
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.edges import segment_pairs
+
+
+class PieceDirections:
+    """Directions of the triangles and segments of a surface, triangles first; each kind is computed when it is needed.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    triangles : (t, 3) int32
+    patch : (t,) int
+        Patch number of each triangle.
+    points : (n, 3) float64
+        Nodes of the boundary.
+    boundary : Boundary
+        Its segments follow the triangles.
+    """
+
+    def __init__(
+        self, vertices: np.ndarray, triangles: np.ndarray, patch: np.ndarray, points: np.ndarray, boundary: Boundary
+    ):
+        self.triangles = triangles
+        self._vertices, self._patch, self._points, self._boundary = vertices, patch, points, boundary
+
+    @cached_property
+    def flat(self) -> np.ndarray:
+        """Unit normal of each triangle and unit tangent of each segment, (t + s, 3); 0 where it has no extent."""
+        tangents = segment_tangents(self._points, self._boundary.segments)
+        return np.concatenate([triangle_normals(self._vertices, self.triangles), tangents])
+
+    @cached_property
+    def smooth(self) -> np.ndarray:
+        """Unit normals and tangents at the corners of each triangle (a, b, c) and segment (a, b, b), (t + s, 3, 3)."""
+        tangents = curve_tangents(self._points, self._boundary)[:, [0, 1, 1]]
+        return np.concatenate([vertex_normals(self._vertices, self.triangles, self._patch), tangents])
 
 
 def triangle_normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -35,6 +35,8 @@ class SkinSurface:
     nodes : (b,) int64
         Nodes of the faces, ascending.
     edges : SurfaceEdges
+    trees : ClosestPointTrees
+        All faces as one group, divided by `triangulate`.
     derived : dict
         Curves and patches by feature angle, for those who slide on the surface.
 
@@ -49,14 +51,14 @@ class SkinSurface:
         faces = as_faces(faces, len(points))
         self.points, self.faces, self.name = points, faces, name
         self.derived: dict[float | str, PartitionedSurface] = {}
-        self.nodes, self.edges = np.unique(faces), SurfaceEdges(faces, len(points))
+        self.nodes, self.edges = np.flatnonzero(mask(faces, len(points))), SurfaceEdges(faces, len(points))
         vertices, triangles, _ = triangulate(points, faces)
-        self._trees = ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
+        self.trees = ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
 
     def with_points(self, points: np.ndarray) -> SkinSurface:
         """Return a surface of the same faces with other node positions (n, 3) float64."""
         other, points = copy.copy(self), points_like(points, self.points.shape)
-        other.points, other._trees = points, self._trees.with_points(vertices_of(points, self.faces))
+        other.points, other.trees = points, self.trees.with_points(vertices_of(points, self.faces))
         other.derived = {}
         return other
 
@@ -106,7 +108,7 @@ class SkinSurface:
         found = self._found(x, stop_distance, known)
         if near is not None:
             near.store(found)
-        pieces, width = self._trees.pieces[found.pieces], self.faces.shape[1]
+        pieces, width = self.trees.pieces[found.pieces], self.faces.shape[1]
         if width == 3:
             return found.points, pieces, found.weights
         nodes = self.faces[pieces[:, 2] - len(self.points)]
@@ -115,9 +117,18 @@ class SkinSurface:
             weights += np.where(nodes == pieces[:, end, None], found.weights[:, end, None], 0.0)
         return found.points, nodes, weights
 
-    def closest(self, x: np.ndarray, stop_distance: float = 0.0, known: np.ndarray | None = None) -> np.ndarray:
-        """Return the points of the surface closest to x (k, 3), or any within `stop_distance`, (k, 3)."""
-        return self._found(x, stop_distance, known).points
+    def closest(
+        self,
+        x: np.ndarray,
+        stop_distance: float = 0.0,
+        known: np.ndarray | None = None,
+        near: NearPoints | None = None,
+    ) -> np.ndarray:
+        """Return the points of the surface closest to x (k, 3), or any within `stop_distance`; see `closest_on`."""
+        found = self._found(x, stop_distance, known)
+        if near is not None:
+            near.store(found)
+        return found.points
 
     def beyond(
         self,
@@ -136,16 +147,16 @@ class SkinSurface:
         points : (n, 3) float64, optional
             Positions of the surface's nodes; its own by default.
         """
-        vertices = self._trees.points if points is None else vertices_of(points, self.faces)
-        return near.beyond(self._trees, vertices, x, limits, samples)
+        vertices = self.trees.points if points is None else vertices_of(points, self.faces)
+        return near.beyond(self.trees, vertices, x, limits, samples)
 
     def nodes_of_pieces(self, pieces: np.ndarray) -> np.ndarray:
         """Return the nodes of the faces on which pieces (k,), such as `NearPoints.pieces`, lie, (k, 4) or (k, 3)."""
-        pieces = self._trees.pieces[pieces]
+        pieces = self.trees.pieces[pieces]
         return pieces if self.faces.shape[1] == 3 else self.faces[pieces[:, 2] - len(self.points)]
 
     def _found(self, x: np.ndarray, stop_distance: float, known: np.ndarray | None) -> ClosestPoints:
-        return self._trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance, known)
+        return self.trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance, known)
 
     def check_near(self, mesh: Mesh) -> None:
         """Raise `MeshError` unless the boundary of a mesh lies near the surface."""
@@ -163,7 +174,7 @@ class SkinSurface:
 
     def volume(self) -> float:
         """Return the enclosed volume of a closed surface."""
-        x, triangles = self._trees.points - self.points[self.nodes].mean(axis=0), self._trees.pieces
+        x, triangles = self.trees.points - self.points[self.nodes].mean(axis=0), self.trees.pieces
         a, b, c = (x[triangles[:, k]] for k in range(3))
         return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
 

@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate
-from hexmend.boundary.normals import curve_tangents, segment_tangents, triangle_normals, vertex_normals
+from hexmend.boundary.normals import PieceDirections
 from hexmend.errors import MeshError
 
 #: Interpolated normals shorter than this have no direction: the vertex normals are opposed.
@@ -29,6 +29,8 @@ class PartitionedSurface:
         Node positions of the boundary.
     boundary : Boundary
         Boundary of quads, or of triangles such as a surface file has.
+    whole : ClosestPointTrees, optional
+        Trees of all faces as one group, as `triangulate` divides them, where they are built already.
 
     Attributes
     ----------
@@ -50,34 +52,44 @@ class PartitionedSurface:
     [1.0]
     """
 
-    def __init__(self, points: np.ndarray, boundary: Boundary):
+    def __init__(self, points: np.ndarray, boundary: Boundary, whole: ClosestPointTrees | None = None):
         self.node_class, self.component = boundary.node_class, boundary.component
         self.n_patches, self.n_curves = boundary.n_patches, boundary.n_curves
         vertices, triangles, face = triangulate(points, boundary.faces)
         patch, segments = boundary.patch_of_face[face], boundary.segments
         pieces = np.concatenate([triangles, segments[:, [0, 1, 1]]])
-        group = np.concatenate([patch, self.n_patches + boundary.curve_of_segment])
-        self.trees = ClosestPointTrees(vertices, pieces, group)
-        flat = triangle_normals(vertices, triangles), segment_tangents(points, segments)
-        smooth = vertex_normals(vertices, triangles, patch), curve_tangents(points, boundary)[:, [0, 1, 1]]
-        self._flat, self._smooth = (np.concatenate(both)[self.trees.order] for both in (flat, smooth))
-        self._group = group[self.trees.order]
+        self._group_of_given = np.concatenate([patch, self.n_patches + boundary.curve_of_segment])
+        self.trees = ClosestPointTrees(vertices, pieces, self._group_of_given)
+        self._given = self.trees.order  # number of each piece among the triangles and segments as given
+        self._directions = PieceDirections(vertices, triangles, patch, points, boundary)
+        self._whole = whole
+
+    @property
+    def _group(self) -> np.ndarray:
+        """Curve or patch of each piece, as a group of `trees`, (k,) int."""
+        return self._group_of_given[self._given]
 
     @cached_property
-    def _patches_and_curves(self) -> ClosestPointTrees:
-        """Trees of all patches, group 0, and of all curves, group 1."""
-        curve = self._group >= self.n_patches
-        return ClosestPointTrees(self.trees.points, self.trees.pieces, curve.astype(np.int32))
+    def _all_patches(self) -> tuple[ClosestPointTrees, np.ndarray]:
+        """Trees of all patches as one group, and the group in `trees` of each of their pieces."""
+        triangles = self._directions.triangles
+        whole = self._whole or ClosestPointTrees(self.trees.points, triangles, np.zeros(len(triangles), np.int64))
+        return whole, self._group_of_given[whole.order]
+
+    @cached_property
+    def _all_curves(self) -> tuple[ClosestPointTrees, np.ndarray]:
+        """Trees of all curves as one group, and the group in `trees` of each of their pieces."""
+        curves = np.flatnonzero(self._group >= self.n_patches)
+        trees = ClosestPointTrees(self.trees.points, self.trees.pieces[curves], np.zeros(curves.size, np.int64))
+        return trees, self._group[curves[trees.order]]
 
     def with_union(self, patches: np.ndarray) -> PartitionedSurface:
         """Return this surface with one more group of `trees`, the last: that of some patches, (n_patches,) bool."""
-        other, trees, last = copy.copy(self), self.trees, self.n_patches + self.n_curves
-        vars(other).pop("_patches_and_curves", None)
-        again = np.flatnonzero(mask(np.flatnonzero(patches), last)[self._group])
-        group = np.concatenate([self._group, np.full(again.size, last, dtype=self._group.dtype)])
+        other, trees, last, own = copy.copy(self), self.trees, self.n_patches + self.n_curves, self._group
+        again = np.flatnonzero(mask(np.flatnonzero(patches), last)[own])
+        group = np.concatenate([own, np.full(again.size, last, dtype=own.dtype)])
         other.trees = ClosestPointTrees(trees.points, np.concatenate([trees.pieces, trees.pieces[again]]), group)
-        own = np.concatenate([np.arange(len(self._group)), again])[other.trees.order]
-        other._flat, other._smooth, other._group = self._flat[own], self._smooth[own], group[other.trees.order]
+        other._given = np.concatenate([self._given, self._given[again]])[other.trees.order]
         return other
 
     def group_of(self, nodes: np.ndarray) -> np.ndarray:
@@ -106,7 +118,6 @@ class PartitionedSurface:
     def on_nodes(self, nodes: np.ndarray) -> PartitionedSurface:
         """Return this surface for nodes that are numbered by their places among some (k,) int."""
         other = copy.copy(self)
-        vars(other).pop("_patches_and_curves", None)
         other.node_class, other.component = self.node_class[nodes], self.component[nodes]
         return other
 
@@ -125,10 +136,11 @@ class PartitionedSurface:
         (k, 3) float64
             Unit vectors: outward normals, tangents in either direction; 0 on a degenerate triangle or segment.
         """
-        flat = self._flat[found.pieces]
+        given = self._given[found.pieces]
+        flat = self._directions.flat[given]
         if not smooth:
             return flat
-        mean = np.einsum("ki,kij->kj", found.weights, self._smooth[found.pieces])
+        mean = np.einsum("ki,kij->kj", found.weights, self._directions.smooth[given])
         size = np.linalg.norm(mean, axis=1, keepdims=True)
         return np.where(size > _MIN_MEAN_NORMAL, mean / np.maximum(size, _MIN_MEAN_NORMAL), flat)
 
@@ -152,7 +164,6 @@ class PartitionedSurface:
         Surface
         """
         node_class, part = boundary.node_class.copy(), np.full(len(boundary.node_class), -1, dtype=np.int32)
-        nearest = self._patches_and_curves
         if not self.n_curves:
             node_class[node_class == NodeClass.CURVE] = NodeClass.PATCH
         steps = (NodeClass.CURVE, NodeClass.PATCH, reach / 4), (NodeClass.PATCH, NodeClass.CORNER, reach)
@@ -160,11 +171,11 @@ class PartitionedSurface:
             nodes = np.flatnonzero(node_class == of)
             if not nodes.size:
                 continue
-            found = nearest.closest(points[nodes], np.full(len(nodes), int(of == NodeClass.CURVE)))
+            trees, group = self._all_curves if of == NodeClass.CURVE else self._all_patches
+            found = trees.closest(points[nodes], np.zeros(nodes.size, np.int64))
             near = np.linalg.norm(found.points - points[nodes], axis=1) <= most
             node_class[nodes[~near]] = other
-            group = self._group[nearest.order[found.pieces[near]]]
-            part[nodes[near]] = group - (self.n_patches if of == NodeClass.CURVE else 0)
+            part[nodes[near]] = group[found.pieces[near]] - (self.n_patches if of == NodeClass.CURVE else 0)
         other = copy.copy(self)
         other.node_class, other.component = node_class, part
         return other

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from hexmend.boundary import NodeClass, PartitionedSurface, boundary_of
+from hexmend.boundary import NodeClass, PartitionedSurface, SkinSurface, boundary_of
 from hexmend.boundary.normals import triangle_normals, vertex_normals
 from hexmend.boundary.sliding.unlocking import freed_by_sliding
 from tests.core.grids import grid
@@ -76,3 +78,23 @@ def test_of_locked_hexes_those_are_freed_whose_inverted_corners_may_leave_their_
     assert boundary.n_patches == 6
     assert freed.tolist() == [True] + [False] * 26
     assert freed_by_sliding(mesh, np.zeros(27, bool)).tolist() == [False] * 27
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_nodes_slide_on_the_patch_of_the_nearest_face(seed):
+    """Nodes displaced at random in a cube whose side is 4: the nearest side is known without a search."""
+    mesh = grid(4)
+    surface = SkinSurface(mesh.points, mesh.topology.boundary_faces)
+    boundary = boundary_of(mesh)
+    patch = np.flatnonzero(boundary.node_class == NodeClass.PATCH)
+    points = mesh.points.copy()
+    points[patch] = np.random.default_rng(seed).uniform(0, 4, (patch.size, 3))
+    distances = np.concatenate([points[patch], 4 - points[patch]], axis=1)  # from x, y, z = 0 and 4
+    nearest = distances.argmin(axis=1)
+    of_side = np.empty(6, dtype=int)
+    for side in range(6):
+        inside = mesh.points[patch, side % 3] == (0 if side < 3 else 4)
+        (of_side[side],) = set(boundary.part[patch[inside]].tolist())
+    for whole in (None, surface.trees):
+        attached = PartitionedSurface(mesh.points, boundary, whole).attached(points, boundary, 10.0)
+        np.testing.assert_array_equal(attached.component[patch], of_side[nearest])

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import any_of_rows, mask
 from hexmend.boundary.edges import SurfaceEdges, segment_pairs
 
 #: Dihedral angle, in degrees, above which an edge may stand out, and turn above which a node of a curve may.
@@ -39,9 +40,12 @@ def surrounding_angles(edges: SurfaceEdges, angle: np.ndarray, chosen: np.ndarra
         Quantile of the dihedral angles of the edges at the nodes of each chosen edge and at their neighbours, without
         the edge itself and without edges beyond `CERTAIN_ANGLE`; 0 where no edge is left.
     """
-    ends = edges.nodes.ravel()
-    order = np.argsort(ends, kind="stable")
-    start, number = np.searchsorted(ends[order], np.arange(edges.n + 1)), order // 2
+    near = edges.nodes[chosen].ravel()
+    for _ in range(2):  # the edges at these nodes, then those at their neighbours
+        which = np.flatnonzero(any_of_rows(mask(near, edges.n), edges.nodes))
+        near = edges.nodes[which].ravel()
+    order = np.argsort(near, kind="stable")
+    start, number = np.searchsorted(near[order], np.arange(edges.n + 1)), which[order // 2]
     row, node = np.repeat(np.arange(chosen.size), 2), edges.nodes[chosen].ravel()
     row, first = _joined(row, node, start, number)
     row, node = _unique_pairs(np.repeat(row, 2), edges.nodes[first].ravel(), edges.n)

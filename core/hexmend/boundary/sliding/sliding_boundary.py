@@ -197,5 +197,5 @@ def _partitioned(target: SkinSurface, feature_angle: FeatureAngle) -> Partitione
     known = target.derived.get(feature_angle)
     if known is None:
         boundary = classify(target.points, target.faces, feature_angle, edges=target.edges)
-        known = target.derived[feature_angle] = PartitionedSurface(target.points, boundary)
+        known = target.derived[feature_angle] = PartitionedSurface(target.points, boundary, target.trees)
     return known

@@ -43,7 +43,8 @@ def _equal_points(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
     Two that are equal may both be returned.
     """
-    order = np.argsort(points @ LATTICE_FREE_DIRECTION, kind="stable")
+    points = points + 0.0  # 0 and -0 are one
+    order = np.argsort(points @ LATTICE_FREE_DIRECTION)  # twice as fast as a stable order, and equal points are one
     sorted_points = points[order]
     first = np.append(True, differing_rows(sorted_points[1:], sorted_points[:-1]))
     number = np.empty(len(points), dtype=np.int64)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.arrays import cross_products, mask, row_norms
 from hexmend.boundary import SkinSurface
 from hexmend.errors import FileError
 from hexmend.io.base.numbering import first_out_of_range
@@ -61,22 +62,30 @@ def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
     faces = _with_equal_width([nodes for nodes in polygons.faces if nodes.size and nodes.shape[1] > 2])
     points, faces = merge_points(polygons.points, faces)
     # Drop faces with fewer than three different corners.
-    distinct = np.sort(faces, axis=1)
-    faces = faces[(distinct[:, 1:] != distinct[:, :-1]).sum(axis=1) >= 2]
+    faces = faces[_count_distinct(faces) >= 3]
     if not _relative_area(points, faces) > _MIN_AREA:
         problem = "holds no surface: it has no triangle or quad with an area"
         raise FileError(path, problem, "Name a file of the surface of the body.")
     return SkinSurface(points, np.ascontiguousarray(faces, dtype=np.int32), path.name)
 
 
+def _count_distinct(rows: np.ndarray) -> np.ndarray:
+    """Count the different numbers in each row (k, w), (k,) int."""
+    count = np.ones(len(rows), dtype=np.int64)
+    for column in range(1, rows.shape[1]):
+        count += (rows[:, :column] != rows[:, column, None]).all(axis=1)
+    return count
+
+
 def _relative_area(points: np.ndarray, faces: np.ndarray) -> float:
     """Twice the area of all faces, divided by the square of the longest side of their bounding box."""
     if not len(faces):
         return 0.0
-    x = points[faces]
-    x = (x - x[0, 0]) / np.ptp(x.reshape(-1, 3), axis=0).max()  # (k, width, 3)
+    points = points - points[faces[0, 0]]
+    x = points / np.ptp(points[mask(faces, len(points))], axis=0).max()
+    x = x[faces]  # (k, width, 3)
     sides = x[:, 1:] - x[:, :1]
-    return float(np.linalg.norm(np.cross(sides[:, :-1], sides[:, 1:]), axis=2).sum())
+    return float(row_norms(cross_products(sides[:, :-1].reshape(-1, 3), sides[:, 1:].reshape(-1, 3))).sum())
 
 
 def _with_equal_width(faces: list[np.ndarray]) -> np.ndarray:
