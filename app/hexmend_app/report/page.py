@@ -32,6 +32,9 @@ _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-
 #: Parts of the figure set in the page, by format.
 _PICTURES = {"png": ("surface", "cut"), "svg": ("distributions", "convergence")}
 
+#: Names of the figures in the order in which they are drawn; the last needs a run.
+FIGURES = ("opposite side", "surface", "cut", "distributions", "convergence")
+
 #: Width of a plot in mm, at which its text has the size of the page's text.
 _PLOT = 120.0
 
@@ -57,6 +60,11 @@ class Chapter:
     row: Sequence[str]
     preface: str
     sections: Sequence[tuple[str, str]]
+
+
+def figures_of(case: Case) -> tuple[str, ...]:
+    """Return the names of the figures of a chapter in the order in which they are drawn."""
+    return FIGURES if any(version.history for version in case.versions) else FIGURES[:-1]
 
 
 def chapter(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from hexmend.cli.arguments.checks import check_memory
-from hexmend.cli.output.progress import Progress
+from hexmend.cli.output.progress import Progress, show_count
 from hexmend.cli.process.interrupts import CleanExit, FinishWriting
 from hexmend.io.storage.atomic import check_writable
 from hexmend.io.storage.suffixes import suffix_for
@@ -20,7 +21,7 @@ from hexmend.terminal_text import printable
 from hexmend_app.cli import run_options
 from hexmend_app.report import case, page
 from hexmend_app.report.case import command_line
-from hexmend_app.report.figure_set import Style, check_pages
+from hexmend_app.report.figure_set import Figure, Style, check_pages
 from hexmend_app.report.page import Chapter, write_page
 from hexmend_app.report.pdf import check_pdf, write_pdf
 
@@ -98,7 +99,13 @@ class _ChapterWriter:
         self.folders.append(_unique_name(self.folders, done.name, printable(Path(path).resolve().parent.name)))
         commands = _commands(path, self.folders[-1], self.options, run_options.method_words(self.args))
         place = f"mesh-{len(self.chapters) + 1}"
-        self.chapters.append(page.chapter(done, self.style, commands, interactive=self.interactive, place=place))
+        steps = page.draw_chapter(done, self.style, commands, interactive=self.interactive, place=place)
+        for _ in show_count(self._drawn(steps), len(page.figures_of(done)), f"drawing figures of {done.name}"):
+            pass
+
+    def _drawn(self, steps: Generator[Figure, None, Chapter]) -> Iterator[Figure]:
+        """Yield the figures of a chapter one by one, and add the chapter."""
+        self.chapters.append((yield from steps))
 
 
 def _unique_name(used: list[str], name: str, folder: str) -> str:

@@ -6,11 +6,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from hexmend_app.features.figures.drawing import draw, prepare, write_set
-from hexmend_app.features.figures.report_file import FIGURES, draw_report, prepare_report, write_report
+from hexmend_app.features.figures.drawing import NamedVersion, draw, prepare, write_set
+from hexmend_app.features.figures.report_file import draw_report, prepare_report, write_report
 from hexmend_app.features.figures.versions import recipes_of, versions_of
 from hexmend_app.picture import Scene
 from hexmend_app.report.figure_set import PARTS, Figure, stationary
+from hexmend_app.report.page import FIGURES
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.translation import tr
@@ -27,16 +28,21 @@ class Export:
     steps : iterator of Figure
     figures : sequence of str
         Names of the figures, in order.
+    file : str
+        Name of the file or folder.
     """
 
     event: FileExported
     steps: Iterator[Figure]
     figures: Sequence[str]
+    file: str
 
     def progress_text(self, drawn: int) -> str:
         """Return the progress text after a number of figures."""
-        at = min(drawn, len(self.figures) - 1)
-        return tr("Drawing figure {at} of {count}: {part}…", at=at + 1, count=len(self.figures), part=self.figures[at])
+        count = len(self.figures)
+        if drawn >= count:
+            return tr("Writing {name}…", name=self.file)
+        return tr("Drawing figure {at} of {count}: {part}…", at=drawn + 1, count=count, part=self.figures[drawn])
 
 
 def figure_set(session: Session, scene: Scene, folder: Path, stem: str) -> Export:
@@ -44,18 +50,25 @@ def figure_set(session: Session, scene: Scene, folder: Path, stem: str) -> Expor
     document, scene = session.document, stationary(scene)
     recipes = recipes_of(session)
     prepare(folder, scene, recipes)
-    arguments = folder, stem, document.now.mesh.name, scene, versions_of(session), recipes
+    versions = versions_of(session)
+    arguments = folder, stem, document.now.mesh.name, scene, versions, recipes
     file = () if document.path is None else (str(document.path),)
     event = FileExported("figure set", write_set, (*arguments, *file))
-    return Export(event, draw(*event.arguments), list(PARTS))
+    return Export(event, draw(*event.arguments), _drawn(list(PARTS), versions), folder.name)
 
 
 def report(session: Session, scene: Scene, path: Path, stem: str) -> Export:
     """Check that a report can be written, and return its steps; for errors see `write_report`."""
     document = session.document
     prepare_report(path)
-    name = document.now.mesh.name
-    arguments = path, tr("Report on {name}", name=name or stem), name, stationary(scene), versions_of(session)
+    name, versions = document.now.mesh.name, versions_of(session)
+    arguments = path, tr("Report on {name}", name=name or stem), name, stationary(scene), versions
     file = () if document.path is None or not document.path.exists() else (str(document.path),)
     event = FileExported("report", write_report, (*arguments, *file))
-    return Export(event, draw_report(*event.arguments), FIGURES)
+    return Export(event, draw_report(*event.arguments), _drawn(FIGURES, versions), path.name)
+
+
+def _drawn(figures: Sequence[str], versions: Sequence[NamedVersion]) -> list[str]:
+    """Return the names of the figures that are drawn: without an iteration of a run there is no convergence."""
+    run = any(len(version) == 4 for version in versions)
+    return [name for name in figures if run or name != "convergence"]

@@ -23,9 +23,6 @@ _SUFFIXES = (".html", ".pdf")
 #: Pixels per inch of the pictures.
 _DPI = 220.0
 
-#: Names of the figures in the order in which they are drawn.
-FIGURES = ("opposite side", "surface", "cut", "distributions", "convergence")
-
 
 def write_report(
     path: str | Path, title: str, mesh: str, scene: Scene, versions: Sequence[NamedVersion], file: str = ""

@@ -104,6 +104,26 @@ def test_the_report_shows_the_opened_and_the_current_mesh(window, qtbot, page):
     assert "Limits of each run" not in text
 
 
+def test_each_step_of_a_report_is_named_and_the_report_can_be_cancelled(window, qtbot, page, monkeypatch):
+    texts = []
+    show = window.busy.show_work
+    monkeypatch.setattr(
+        window.busy, "show_work", lambda owner, text, *others: (texts.append(text), show(owner, text, *others))
+    )
+    window.window_actions["report"].trigger()
+    cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
+    QTest.mouseClick(cancel, LEFT)
+    assert not window.features["figures"].going_on
+    assert not page.exists()
+    texts.clear()
+    window.window_actions["report"].trigger()
+    qtbot.waitUntil(lambda: not window.features["figures"].going_on, timeout=PATIENCE)
+    parts = ("opposite side", "surface", "cut", "distributions")  # there is no run that converges
+    drawing = [f"Drawing figure {number} of 4: {part}…" for number, part in enumerate(parts, 1)]
+    assert texts == [*drawing, f"Writing {page.name}…"]
+    assert page.exists()
+
+
 def test_a_report_in_an_unknown_format_is_refused(window, page, monkeypatch):
     window.features["figures"].write_report(page.with_suffix(".docx"))
     assert not window.features["figures"].going_on
