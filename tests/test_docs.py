@@ -6,13 +6,16 @@ import re
 import shlex
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
-from hexmend import io
+from hexmend import io, smooth
 from hexmend.cli.main import commands, main
 from hexmend.io.formats.session import session_file
 from hexmend.run import recipe
 from hexmend_app.picture import scene
+from hexmend_app.scene.film.film_page import FilmPage
 from tests.examples import blocks, run_page
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -48,12 +51,41 @@ def test_every_script_of_pictures_is_run_by_make_pictures():
     assert {*listed, *single} == scripts
 
 
-def test_the_animation_is_made_by_the_command_that_its_page_names():
-    page = (DOCS / "untangle.md").read_text(encoding="utf-8")
-    (named,) = re.findall(r"`hexmend film (.*?)`", page, re.DOTALL)
+@pytest.mark.parametrize(("page", "file"), [("untangle.md", "run.gif"), ("watch.md", "before-after.gif")])
+def test_an_animation_is_made_by_the_command_that_its_page_names(page, file):
+    text = (DOCS / page).read_text(encoding="utf-8").replace("\\\n", " ")
+    (named,) = re.findall(rf"hexmend film ([^`]*? -o {file}[^`]*)", text)
     text = (DOCS.parent / "scripts/take-pictures").read_text(encoding="utf-8").replace("\\\n", " ")
-    (run,) = re.findall(r'"\$bin/hexmend" film (.*)', text)
-    assert named.split() == run.replace('"$folder/run.gif"', "run.gif").split()
+    (run,) = re.findall(rf'"\$bin/hexmend" film (.*/{file}.*)', text)
+    assert named.split() == run.replace(f'"$folder/{file}"', file).replace('"$mesh"', "five-side.vtu").split()
+
+
+def test_the_animation_of_the_readme_says_the_truth(tmp_path, monkeypatch):
+    """The figures in its first and last frames are those that the commands of its page lead to."""
+    monkeypatch.chdir(tmp_path)
+    (block,) = re.findall(r"```\n(hexmend gallery five-side.*?)```", (DOCS / "watch.md").read_text(), re.DOTALL)
+    make, draw = block.replace("\\\n", " ").splitlines()
+    assert main(shlex.split(make)[1:]) == 0
+    captions = []
+    compose = FilmPage.compose
+
+    def record(self, picture, caption, viewport, initial):
+        captions.append((initial.caption, caption))
+        return compose(self, picture, caption, viewport, initial)
+
+    monkeypatch.setattr(FilmPage, "compose", record)
+    assert main(shlex.split(draw)[1:]) == 0
+    mesh = io.read("five-side.vtu")
+    after = smooth(mesh)
+    first = f"q min {after.before.q_min:.4f}, {after.before.inverted:,} inverted"
+    last = f"q min {after.after.q_min:.4f}, none inverted"
+    count = after.iterations
+    assert captions[0] == (f"Before: {first}", f"Mend, iteration 0 of {count}: {first}")
+    assert captions[-1] == (f"Before: {first}", f"Mend, iteration {count} of {count}: {last}")
+    with Image.open("before-after.gif") as made, Image.open(DOCS / "before-after.gif") as kept:
+        assert (made.n_frames, made.size) == (kept.n_frames, kept.size)
+        difference = abs(np.asarray(made.convert("RGB")).astype(int) - np.asarray(kept.convert("RGB")))
+        assert difference.mean() < 1, "docs/before-after.gif: run make pictures"
 
 
 @pytest.mark.slow

@@ -25,6 +25,8 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     add_arguments(parser)
     parser.add_argument("--size", metavar="WxH", default="800x500", help="in pixels (default %(default)s)")
     parser.add_argument("--histogram", action="store_true", help="show the quality distribution next to the mesh")
+    parser.add_argument("--before", action="store_true", help="show the mesh before the run next to it")
+    parser.add_argument("--poster", action="store_true", help="begin with the result, as a picture of the whole film")
     parser.add_argument("--arrows", metavar="NODES", help="arrows of the displacement of nodes: sight or all")
     parser.add_argument("--since", metavar="TIME", help="start of the displacement: run (default) or iteration")
     add_force(parser)

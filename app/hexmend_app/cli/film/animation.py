@@ -39,8 +39,9 @@ def run(args: argparse.Namespace) -> int:
     start = ReferenceState(mesh.points, run.start.quality, "before the run")
     movement = Displacement(mesh, start, mesh.points, run.start.quality) if args.arrows else None
     states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), mesh))
-    frames = pictures(states, look, size, view=view, movement=movement, chart=args.histogram)
-    write_film(path, [*show_count(frames, len(numbers), "drawing frames")], rate)
+    frames = pictures(states, look, size, view=view, movement=movement, chart=args.histogram, before=args.before)
+    drawn = [*show_count(frames, len(numbers), "drawing frames")]
+    write_film(path, drawn, rate, poster=args.poster)
     result = run.result()
     print(result.message)
     if result.surface is not None:

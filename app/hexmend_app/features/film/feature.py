@@ -95,7 +95,7 @@ class FeatureFilm(Feature):
         size = choice.size((self.canvas.width(), self.canvas.height()))
         now, start = self.session.document.now, self.session.document.start
         states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), now.mesh))
-        options = {"size": size, "rate": choice.rate, "histogram": choice.histogram}
+        options = {"size": size, "rate": choice.rate, "histogram": choice.histogram, "before": choice.before}
         options |= displacement_since(view.frame.movement, start)
         scene = replace(self.canvas.scene(Page(pixels=size)), panels=())
         self._event = FileExported(
@@ -109,6 +109,7 @@ class FeatureFilm(Feature):
             camera=view.camera,
             movement=view.frame.movement,
             chart=choice.histogram,
+            before=choice.before,
             props=self.canvas.plotter_props,
         )
         self._drawing.begin(frames, lambda drawn: _progress_text(drawn, len(numbers), path))

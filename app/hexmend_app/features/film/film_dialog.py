@@ -39,20 +39,26 @@ class FilmChoice:
         Largest number of frames.
     histogram : bool
         Show a histogram next to the mesh.
+    before : bool
+        Show the mesh before the run next to it.
     """
 
     width: int = 960
     rate: int = 10
     frames: int = FRAMES
     histogram: bool = False
+    before: bool = False
 
     def size(self, view: tuple[int, int]) -> tuple[int, int]:
         """Return width and even height of the film in pixels for a view of some width and height.
 
-        >>> FilmChoice(960).size((1083, 441))
-        (960, 390)
+        Two pictures next to each other have half the height, so that neither is cropped at its sides.
+
+        >>> FilmChoice(960).size((1083, 441)), FilmChoice(960, before=True).size((1083, 441))
+        ((960, 390), (960, 196))
         """
-        return self.width, round(self.width * view[1] / view[0] / 2) * 2
+        pictures = 2 if self.before else 1
+        return self.width, round(self.width / pictures * view[1] / view[0] / 2) * 2
 
 
 class FilmDialog(QDialog):
@@ -71,9 +77,10 @@ class FilmDialog(QDialog):
     def __init__(self, choice: FilmChoice, view: tuple[int, int], iterations: int, parent: QWidget | None = None):
         super().__init__(parent)
         self.setWindowTitle(tr("Save film"))
+        self._view = view
         self._size, self._rate, self._frames = ComboBox(), QSpinBox(), QSpinBox()
         for width in WIDTHS:
-            self._size.addItem("{} × {} pixels".format(*FilmChoice(width).size(view)), width)
+            self._size.addItem("", width)
         self._size.setCurrentIndex(max(0, self._size.findData(choice.width)))
         set_help(self._size, tr("Size"), tr("Width and height of the film, including caption and colour bar."))
         self._rate.setRange(1, 50)
@@ -87,11 +94,17 @@ class FilmDialog(QDialog):
         self._histogram = QCheckBox(tr("Histogram next to the mesh"))
         self._histogram.setChecked(choice.histogram)
         set_help(self._histogram, tr("Histogram"), tr("Show the distribution of values next to the mesh."))
+        self._before = QCheckBox(tr("Mesh before the run on the left"))
+        self._before.setChecked(choice.before)
+        set_help(self._before, tr("Before"), tr("Show the first iteration next to the others."))
+        self._before.toggled.connect(self._show_sizes)
+        self._show_sizes()
         form = QFormLayout()
         form.addRow(tr("Size"), self._size)
         form.addRow(tr("Rate"), self._rate)
         form.addRow(tr("At most"), self._frames)
         form.addRow("", self._histogram)
+        form.addRow("", self._before)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
         buttons.addButton(tr("Save as…"), QDialogButtonBox.ButtonRole.AcceptRole)
         buttons.accepted.connect(self.accept)
@@ -103,8 +116,17 @@ class FilmDialog(QDialog):
         column.addLayout(form)
         column.addWidget(buttons)
 
+    def _show_sizes(self) -> None:
+        for row, width in enumerate(WIDTHS):
+            size = FilmChoice(width, before=self._before.isChecked()).size(self._view)
+            self._size.setItemText(row, "{} × {} pixels".format(*size))
+
     def choice(self) -> FilmChoice:
         """Return the selected options."""
         return FilmChoice(
-            self._size.currentData(), self._rate.value(), self._frames.value(), self._histogram.isChecked()
+            self._size.currentData(),
+            self._rate.value(),
+            self._frames.value(),
+            self._histogram.isChecked(),
+            self._before.isChecked(),
         )

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageDraw
+from PIL import Image
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkProp
 
 from hexmend.boundary.displacement import Displacement, ReferenceState
@@ -16,8 +16,8 @@ from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend_app.picture.appearance import Look, Since
 from hexmend_app.scene.film.film_frames import FilmFrame
-from hexmend_app.scene.film.film_histogram import histogram
-from hexmend_app.scene.film.frame_parts import INK, colour_bar, letters, paper, pixel_ratio_of, strip_height
+from hexmend_app.scene.film.film_page import FilmPage, InitialPicture
+from hexmend_app.scene.film.frame_parts import pixel_ratio_of, strip_height
 from hexmend_app.scene.film.movie import check_installed, write_movie
 from hexmend_app.scene.render.colour_count import count_colours
 from hexmend_app.scene.render.stage import Stage
@@ -32,9 +32,6 @@ FORMATS = {".mp4": "MP4", ".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}
 #: and of the axes.
 _COLOURS, _BAR, _AXES = 116, 120, 16
 
-#: Width of the histogram, as a fraction of the film width.
-_CHART = 0.32
-
 #: Duration of the first and the last frame, in frames.
 _PAUSE = 8
 
@@ -48,6 +45,7 @@ def pictures(
     camera: vtkCamera | None = None,
     movement: Displacement | None = None,
     chart: bool = False,
+    before: bool = False,
     props: Callable[[float], list[vtkProp]] | None = None,
 ) -> Iterator[Image.Image]:
     """Generate the pictures of film frames, drawn off screen with the same camera.
@@ -66,15 +64,15 @@ def pictures(
         iteration refers to the last frame instead.
     chart : bool
         Draw a histogram of the coloured values.
+    before : bool
+        Show the first frame on the left of all frames, and its distribution as a line in the histogram.
     props : callable, optional
         Returns additional props, from the width of a thin line in pixels.
     """
-    width, height = size
     look = replace(look, structure=look.structure.without_decoration())
-    strip = strip_height(size)
-    chart = chart and strip > 0 and not look.colours.neutral
-    chart_width = round(_CHART * width) if chart else 0
-    with Stage((width - chart_width, height - (1 if look.colours.neutral else 2) * strip)) as stage:
+    page = FilmPage.of(size, look, chart=chart, before=before)
+    initial: InitialPicture | None = None
+    with Stage(page.picture_size) as stage:
         viewport = Viewport(Pane(stage.window), pixel_ratio=pixel_ratio_of(size))
         for prop in () if props is None else props(pixel_ratio_of(size)):
             viewport.layers[0].AddViewProp(prop)
@@ -82,9 +80,9 @@ def pictures(
         for film_frame in film_frames:
             mesh, figures = film_frame.state.mesh, film_frame.state.figures
             if movement is not None:
-                before = last if look.movement.since is Since.ITERATION else movement.before
                 current = ReferenceState(mesh.points, figures, "the last frame")
-                movement = Displacement(movement.mesh, before or current, mesh.points, figures)
+                start = last if look.movement.since is Since.ITERATION else movement.before
+                movement = Displacement(movement.mesh, start or current, mesh.points, figures)
                 last = current
             first = viewport.frame is None
             viewport.draw(Frame(mesh, figures, movement, look))
@@ -93,31 +91,21 @@ def pictures(
                 if camera is not None:
                     viewport.camera.DeepCopy(camera)
                     viewport.camera.SetWindowCenter(0, 0)
-            viewport.still()
-            viewport.shade()
-            viewport.layers[0].ResetCameraClippingRange()
-            yield _compose(Image.fromarray(stage.picture()), film_frame.caption, viewport, size, strip)
+            picture = _picture(stage, viewport)
+            if first and before:
+                initial = InitialPicture(f"Before: {film_frame.quality}", picture, page.bars(viewport))
+            yield page.compose(picture, film_frame.caption, viewport, initial)
 
 
-def _compose(picture: Image.Image, caption: str, viewport: Viewport, size: tuple[int, int], strip: int) -> Image.Image:
-    """Add a caption above a picture, a histogram on its right if the picture leaves space, and a colour bar below."""
-    whole = paper(size, picture.mode)
-    whole.paste(picture, (0, strip))
-    colours, chart_width = viewport.colours, size[0] - picture.width
-    if chart_width:
-        chart_size = chart_width, picture.height
-        chart = histogram(colours.values, colours.kinds, viewport.colouring, chart_size, strip / 30, picture.mode)
-        whole.paste(chart, (picture.width, strip))
-    if strip:
-        position = (round(0.3 * strip), strip / 2)
-        ImageDraw.Draw(whole).text(position, caption, INK, letters(0.42 * strip), anchor="lm")
-    if strip and not viewport.frame.look.colours.neutral:
-        bar = colour_bar(viewport.colouring, colours.special_counts, (size[0], strip), picture.mode)
-        whole.paste(bar, (0, size[1] - strip))
-    return whole
+def _picture(stage: Stage, viewport: Viewport) -> Image.Image:
+    """Return the picture of what a viewport shows, shaded."""
+    viewport.still()
+    viewport.shade()
+    viewport.layers[0].ResetCameraClippingRange()
+    return Image.fromarray(stage.picture())
 
 
-def write_film(path: Path, frames: Sequence[Image.Image], rate: float) -> None:
+def write_film(path: Path, frames: Sequence[Image.Image], rate: float, *, poster: bool = False) -> None:
     """Write frames as MP4, or as a repeating GIF, PNG or WebP; the first and the last are shown longer.
 
     Parameters
@@ -127,6 +115,8 @@ def write_film(path: Path, frames: Sequence[Image.Image], rate: float) -> None:
         At least one frame.
     rate : float
         Frames per second.
+    poster : bool
+        Begin with the last frame for a moment: it is what programs show that do not play the film.
 
     Raises
     ------
@@ -138,6 +128,8 @@ def write_film(path: Path, frames: Sequence[Image.Image], rate: float) -> None:
     lengths[0] = lengths[-1] = _PAUSE
     if format == "GIF":
         frames = _with_one_palette(frames)
+    if poster:
+        frames, lengths = [frames[-1], *frames], [1, *lengths]
     with atomic_write(path) as temporary:
         if format == "MP4":
             write_movie(temporary, frames, lengths, rate)

@@ -17,13 +17,26 @@ class FilmFrame:
 
     Parameters
     ----------
-    caption : str
+    title : str
+        Place of the frame in the run.
     state : State
         State of the mesh; frames differ in positions of nodes only.
     """
 
-    caption: str
+    title: str
     state: State
+
+    @property
+    def caption(self) -> str:
+        """Title and quality."""
+        return f"{self.title}: {self.quality}"
+
+    @property
+    def quality(self) -> str:
+        """q min and the number of inverted hexes, in words."""
+        summary = self.state.summary
+        inverted = f"{summary.inverted:,}" if summary.inverted else "none"
+        return f"q min {summary.q_min:.4f}, {inverted} inverted"
 
 
 def chosen_iterations(history: History, record: RunRecord, frames: int) -> list[int]:
@@ -36,13 +49,7 @@ def chosen_iterations(history: History, record: RunRecord, frames: int) -> list[
 def film_frames(record: RunRecord, numbers: Sequence[int], state: Callable[[int], State]) -> Iterator[FilmFrame]:
     """Generate the frames of iterations; `state` returns the state of an iteration by its number."""
     for number in numbers:
-        shown = state(number)
-        inverted = shown.summary.inverted
-        yield FilmFrame(
-            f"{record.title}, {_place(record, number)}: q min {shown.summary.q_min:.4f}, "
-            f"{f'{inverted:,}' if inverted else 'none'} inverted",
-            shown,
-        )
+        yield FilmFrame(f"{record.title}, {_place(record, number)}", state(number))
 
 
 def _place(record: RunRecord, number: int) -> str:

@@ -28,6 +28,7 @@ def write_run_film(
     size: tuple[int, int],
     rate: float,
     histogram: bool = False,
+    before: bool = False,
     opened: Mesh | None = None,
     since: Mesh | None = None,
     since_name: str = "",
@@ -52,6 +53,8 @@ def write_run_film(
         Frames per second.
     histogram : bool
         Draw a histogram.
+    before : bool
+        Show the first iteration on the left of all frames.
     opened, since, since_name
         As for `hexmend_app.scene.page.still_picture.write_picture`, if the scene shows a movement.
 
@@ -67,7 +70,8 @@ def write_run_film(
     camera = vtkCamera()
     aim(camera, scene.camera, mesh.points, size[0] / size[1])
     frames = film_frames(run, numbers, lambda number: _state(run, mesh, number))
-    images = pictures(frames, scene.look(mesh), size, camera=camera, movement=movement, chart=histogram)
+    look = scene.look(mesh)
+    images = pictures(frames, look, size, camera=camera, movement=movement, chart=histogram, before=before)
     write_film(path, [*images], rate)
 
 

@@ -91,6 +91,39 @@ def test_a_histogram_is_drawn_next_to_the_mesh(mesh_file, tmp_path):
     assert (without[60:340, right] == 255).all(axis=2).mean() < 0.1
 
 
+def _frames(path):
+    """Return the frames of a film as (n, h, w, 3) int, and their durations in ms."""
+    with Image.open(path) as film:
+        frames, durations = [], []
+        for number in range(film.n_frames):
+            film.seek(number)
+            frames.append(np.asarray(film.convert("RGB")).astype(int))
+            durations.append(film.info["duration"])
+    return np.array(frames), durations
+
+
+def test_the_mesh_before_the_run_stays_next_to_it(mesh_file, tmp_path):
+    path = tmp_path / "run.webp"
+    run = ["--method", "laplacian", "--max-iterations", "3", "--size", "640x300", "--keep-last"]
+    assert main(["film", str(mesh_file), "-o", str(path), *run, "--before"]) == 0
+    frames, _ = _frames(path)
+    left, right = frames[:, 40:260, :320], frames[:, 40:260, 320:]
+    assert abs(left - left[0]).mean() < 1
+    assert abs(left[0] - right[0]).mean() < 1
+    assert abs(left[-1] - right[-1]).max() > 100
+
+
+def test_a_film_can_begin_with_its_result(mesh_file, tmp_path, capsys):
+    path = tmp_path / "run.gif"
+    run = ["--method", "laplacian", "--max-iterations", "3", "--size", "640x300", "--rate", "10"]
+    assert main(["film", str(mesh_file), "-o", str(path), *run, "--before", "--histogram", "--poster"]) == 0
+    assert "4 frames of 640 × 300 pixels" in capsys.readouterr().out
+    frames, durations = _frames(path)
+    assert durations == [100, 800, 100, 100, 800]
+    assert (frames[0] == frames[-1]).all()
+    assert (frames[0] != frames[1]).any()
+
+
 def test_a_colour_bar_has_no_bands(mesh_file, tmp_path):
     path = tmp_path / "run.gif"
     options = ["--method", "laplacian", "--max-iterations", "2", "--size", "960x600"]

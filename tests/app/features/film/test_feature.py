@@ -29,13 +29,17 @@ def accepted(monkeypatch):
 
 
 def test_the_dialog_shows_and_returns_options(shown):
-    choice = FilmChoice(1280, 25, 100, True)
+    choice = FilmChoice(1280, 25, 100, True, True)
     dialog = shown(FilmDialog(choice, (1000, 600), 40))
     assert dialog.choice() == choice
-    assert named(dialog, QComboBox, "Size").currentText() == "1280 × 768 pixels"
+    assert named(dialog, QComboBox, "Size").currentText() == "1280 × 384 pixels"
     tick = named(dialog, QCheckBox, "Histogram")
     QTest.mouseClick(tick, LEFT, pos=QPoint(8, tick.height() // 2))
     assert not dialog.choice().histogram
+    tick = named(dialog, QCheckBox, "Before")
+    QTest.mouseClick(tick, LEFT, pos=QPoint(8, tick.height() // 2))
+    assert not dialog.choice().before
+    assert named(dialog, QComboBox, "Size").currentText() == "1280 × 768 pixels"
 
 
 @pytest.mark.slow
