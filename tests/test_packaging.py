@@ -12,6 +12,7 @@ import xml.etree.ElementTree as ET
 from importlib.metadata import version
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -203,3 +204,9 @@ def test_what_is_linked_into_the_kernels_has_its_notice():
     for package in set(re.findall(r"find_package\((\w+)", build)) - {"Python", "Threads"}:
         assert f"**{package}**: Copyright" in notices
     assert ("-static-libstdc++" in build) == ("libstdc++" in notices)
+
+
+def test_every_colour_map_that_a_wheel_contains_is_listed():
+    notices = (ROOT / "THIRD_PARTY.md").read_text(encoding="utf-8")
+    with np.load(ROOT / "resources/colour_maps.npz") as maps:
+        assert all(re.search(rf"\b{name}\b", notices) for name in maps.files)

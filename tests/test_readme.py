@@ -77,6 +77,43 @@ def test_figures_that_are_named_are_those_of_the_measurements():
         assert ours.endswith(f"{float(cells[7]):.2f} %")
 
 
+def _cells(line):
+    return [cell.strip().replace("−", "-").replace("\\_", "_") for cell in line.strip().strip("|").split("|")]
+
+
+def _tables(page):
+    """Return the rows of all tables of a page of docs as {first cell: [cells]}, one for each table."""
+    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
+    return [[_cells(line) for line in table.splitlines()] for table in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE)]
+
+
+def _table_with(tables, *heads):
+    return next(table for table in tables if set(heads) <= set(table[0]))
+
+
+def test_figures_of_other_programs_are_those_of_the_measurements():
+    """Each figure is that of docs/peers.md, or for hexsmoothing of docs/performance-mend.md."""
+    (table,) = re.findall(r"<!-- measured: peers -->\n(.*?)<!-- end -->", README, re.DOTALL)
+    rows = [_cells(line) for line in table.strip().splitlines()[2:]]
+    assert len(rows) == 5
+    tables = _tables("peers.md")
+    meshes, same = _table_with(tables, "mend, fixed", "Gmsh", "hexes"), _table_with(tables, "mend, p = 1", "TMOP")
+    goals = _table_with(_tables("performance-mend.md"), "mesh, hexes", "scaled Jacobian min")
+    for name, inverted, given, ours, smoothing, tmop, gmsh, seconds in rows:
+        stem, hexes = name.removesuffix(" hexes").split(", ")
+        (row,) = [dict(zip(meshes[0], row, strict=True)) for row in meshes if re.match(rf"{stem}[._]", row[0])]
+        assert (row["hexes"], row["inverted"], row["mend, fixed"]) == (hexes, inverted, ours)
+        assert [row[key].split(" (")[0] for key in ("sc. Jacobian min as given", "TMOP", "Gmsh")] == [given, tmop, gmsh]
+        timed = [row for row in same if re.match(rf"{stem}[._]", row[0])]
+        assert [f"{row[3]} s, {row[5]} s" for row in timed if row[2] == row[4]] == ([seconds] if timed else [])
+        assert timed or seconds == "–"
+        start = next(i for i, row in enumerate(goals) if re.match(rf"{stem}(_\d+)?, {hexes}$", row[0]))
+        (other,) = [row for row in goals[start : start + 5] if row[1] == "hexsmoothing"]
+        assert other[5] == smoothing
+        balanced = next(row for row in goals[start : start + 5] if row[1] == "balanced")
+        assert abs(float(balanced[4]) - float(other[4])) < 0.00101  # 0.001 in decimals
+
+
 def test_it_is_short():
     assert len(README.splitlines()) <= 120
-    assert len(re.findall(r"!\[", README)) == 1
+    assert re.findall(r"!\[.*?\]\(docs/(.*?)\)", README) == ["before-after.gif", "window-smoothing.png"]
