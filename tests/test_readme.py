@@ -105,7 +105,7 @@ def test_figures_of_other_programs_are_those_of_the_measurements():
         assert (row["hexes"], row["inverted"], row["mend, fixed"]) == (hexes, inverted, ours)
         assert [row[key].split(" (")[0] for key in ("sc. Jacobian min as given", "TMOP", "Gmsh")] == [given, tmop, gmsh]
         timed = [row for row in same if re.match(rf"{stem}[._]", row[0])]
-        assert [f"{row[3]} s, {row[5]} s" for row in timed if row[2] == row[4]] == ([seconds] if timed else [])
+        assert [f"{row[3]}, {row[5]}" for row in timed if row[2] == row[4]] == ([seconds] if timed else [])
         assert timed or seconds == "–"
         start = next(i for i, row in enumerate(goals) if re.match(rf"{stem}(_\d+)?, {hexes}$", row[0]))
         (other,) = [row for row in goals[start : start + 5] if row[1] == "hexsmoothing"]
