@@ -21,6 +21,10 @@ from hexmend_app.widgets.inputs.combo import ComboBox
 #: Widths to choose from, in pixels.
 WIDTHS = (640, 960, 1280, 1920, 2560)
 
+#: Width of the histogram as a fraction of that of the film; smallest height in pixels of the caption and of the colour
+#: bar, and the largest as a fraction of that of the film (see `hexmend_app.scene.film`, which loads VTK).
+CHART_WIDTH, STRIPS = 0.32, (30, 0.075)
+
 #: Default limit of the number of frames: larger files often cannot be viewed where they are sent.
 FRAMES = 60
 
@@ -52,13 +56,16 @@ class FilmChoice:
     def size(self, view: tuple[int, int]) -> tuple[int, int]:
         """Return width and even height of the film in pixels for a view of some width and height.
 
-        Two pictures next to each other have half the height, so that neither is cropped at its sides.
+        Each of two pictures has the shape of the view, so that nothing is cropped at their sides.
 
         >>> FilmChoice(960).size((1083, 441)), FilmChoice(960, before=True).size((1083, 441))
-        ((960, 390), (960, 196))
+        ((960, 390), (960, 256))
         """
-        pictures = 2 if self.before else 1
-        return self.width, round(self.width / pictures * view[1] / view[0] / 2) * 2
+        height = self.width * view[1] / view[0]
+        if self.before:
+            height *= (1 - CHART_WIDTH * self.histogram) / 2
+            height = max(height + 2 * STRIPS[0], height / (1 - 2 * STRIPS[1]))
+        return self.width, round(height / 2) * 2
 
 
 class FilmDialog(QDialog):
@@ -97,7 +104,8 @@ class FilmDialog(QDialog):
         self._before = QCheckBox(tr("Mesh before the run on the left"))
         self._before.setChecked(choice.before)
         set_help(self._before, tr("Before"), tr("Show the first iteration next to the others."))
-        self._before.toggled.connect(self._show_sizes)
+        for box in (self._histogram, self._before):
+            box.toggled.connect(self._show_sizes)
         self._show_sizes()
         form = QFormLayout()
         form.addRow(tr("Size"), self._size)
@@ -118,8 +126,8 @@ class FilmDialog(QDialog):
 
     def _show_sizes(self) -> None:
         for row, width in enumerate(WIDTHS):
-            size = FilmChoice(width, before=self._before.isChecked()).size(self._view)
-            self._size.setItemText(row, "{} × {} pixels".format(*size))
+            choice = FilmChoice(width, histogram=self._histogram.isChecked(), before=self._before.isChecked())
+            self._size.setItemText(row, "{} × {} pixels".format(*choice.size(self._view)))
 
     def choice(self) -> FilmChoice:
         """Return the selected options."""

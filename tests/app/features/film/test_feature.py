@@ -10,6 +10,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QPushButton, QSpinBox
 
 from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
+from hexmend_app.picture.appearance import Look
+from hexmend_app.scene.film.film_page import FilmPage
 from tests.app.driving import LEFT, named, turn
 from tests.app.features.timeline.test_feature import stepped
 from tests.patience import PATIENCE
@@ -32,7 +34,7 @@ def test_the_dialog_shows_and_returns_options(shown):
     choice = FilmChoice(1280, 25, 100, True, True)
     dialog = shown(FilmDialog(choice, (1000, 600), 40))
     assert dialog.choice() == choice
-    assert named(dialog, QComboBox, "Size").currentText() == "1280 × 384 pixels"
+    assert named(dialog, QComboBox, "Size").currentText() == "1280 × 322 pixels"
     tick = named(dialog, QCheckBox, "Histogram")
     QTest.mouseClick(tick, LEFT, pos=QPoint(8, tick.height() // 2))
     assert not dialog.choice().histogram
@@ -40,6 +42,16 @@ def test_the_dialog_shows_and_returns_options(shown):
     QTest.mouseClick(tick, LEFT, pos=QPoint(8, tick.height() // 2))
     assert not dialog.choice().before
     assert named(dialog, QComboBox, "Size").currentText() == "1280 × 768 pixels"
+
+
+@pytest.mark.parametrize("histogram", [False, True])
+@pytest.mark.parametrize("width", [640, 2560])
+def test_a_picture_next_to_that_before_the_run_is_as_wide_as_the_view(width, histogram):
+    view = 1000, 600
+    look = Look()
+    size = FilmChoice(width, histogram=histogram, before=True).size(view)
+    wide, high = FilmPage.of(size, look, chart=histogram, before=True).picture_size
+    assert 0 <= wide / high - view[0] / view[1] < 0.1
 
 
 @pytest.mark.slow
