@@ -19,7 +19,7 @@ from contextlib import suppress
 
 from hexmend import __version__
 from hexmend.cli.process.interrupts import CleanExit, exit_interrupted, exit_on_signals
-from hexmend.terminal_text import install_hint
+from hexmend.terminal_text import install_hint, printable
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -118,18 +118,16 @@ def _core_commands() -> dict[str, Callable[[], Command]]:
 
 
 def _run(load: Callable[[], Command], words: list[str]) -> int:
-    import argparse
-
+    from hexmend.cli.arguments.parser import Parser
     from hexmend.errors import FileError, HexmendError, InsufficientMemoryError, MeshError
-    from hexmend.terminal_text import printable
 
     try:
         command = load()
-        parser = argparse.ArgumentParser(prog=f"hexmend {command.name}", description=command.help, allow_abbrev=False)
+        parser = Parser(command.name, command.help)
         command.arguments(parser)
         try:
-            args = parser.parse_args(words)
-        except SystemExit as leave:  # argparse has printed what is wrong
+            args = parser.parse(words)
+        except SystemExit as leave:  # the parser has printed the help, or what is wrong
             return int(leave.code or 0)
         if command.name == _DEFAULT:  # the window has an event loop of its own
             return command.run(args)
@@ -148,8 +146,12 @@ def _looks_like_a_command(word: str) -> bool:
 
 
 def _unknown(word: str, loaders: dict[str, Callable[[], Command]]) -> int:
+    import difflib
+
+    near = difflib.get_close_matches(word, loaders, n=1)
+    hint = f": did you mean hexmend {near[0]}?" if near else "."
     known = f"Commands: {', '.join(loaders)}; a file opens in the viewer."
-    print(f"hexmend: {word!r} is neither a command nor a file. {known}", file=sys.stderr)
+    print(f"hexmend: {word!r} is neither a command nor a file{hint} {known}", file=sys.stderr)
     return 2
 
 
