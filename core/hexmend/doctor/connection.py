@@ -43,8 +43,8 @@ class DisconnectedParts(Problem):
     name, title = "parts", "Parts apart"
     rank = 9
     remedy = (
-        "Where they should be joined, merge their coincident nodes: hexmend repair MESH -o OUT --only "
-        "coincident-nodes, or Edit > Doctor in the window. Others are smoothed each for itself."
+        "Each is smoothed by itself. If they should be one, merge their coincident nodes: hexmend repair MESH -o OUT "
+        "--only coincident-nodes, or Edit > Doctor in the window."
     )
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
@@ -54,13 +54,9 @@ class DisconnectedParts(Problem):
         return np.flatnonzero(part != np.bincount(part).argmax())
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        sizes = np.bincount(parts_of(mesh, others=True))
+        sizes = np.sort(np.bincount(parts_of(mesh, others=True)))[::-1]
         more = len(sizes) - 1
-        parts = count_phrase(more, "part besides the largest that hangs", "parts besides the largest that hang")
-        others = ", ".join(f"{n:,}" for n in np.sort(sizes)[::-1][1:4])
-        return self.finding(
-            where,
-            f"The mesh has {parts} together with no other ({count_phrase(sizes.max(), 'hex', 'hexes')}, "
-            f"then {others}).",
-            count=more,
-        )
+        largest = [f"{n:,}" for n in sizes[:3]]
+        last = f"{more - 2:,} others" if more > 2 else f"{largest.pop()} hexes"
+        text = f"The mesh consists of {len(sizes):,} parts that are not connected: {', '.join(largest)} and {last}."
+        return self.finding(where, text, count=len(sizes))

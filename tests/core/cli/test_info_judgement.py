@@ -7,7 +7,9 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.cli.main import main
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
+from tests.core.doctor.faulty_meshes import bent
 
 
 def ended(path, mesh, capsys, *words):
@@ -60,3 +62,26 @@ def test_a_failed_check_of_the_solver_decides(tmp_path, capsys, solver, verdict)
     assert record["verdict"] == verdict
     assert record["fit"] is (verdict == "passed")
     assert line.startswith("Not fit for solving." if verdict == "failed" else "Fit for solving")
+
+
+def test_parts_that_are_not_connected_may_be_meant_so(tmp_path, capsys):
+    mesh = gallery.make("cube", size=8)
+    two = Mesh(np.vstack([mesh.points, mesh.points + [5, 0, 0]]), np.vstack([mesh.hexes, mesh.hexes + mesh.n_nodes]))
+    line, record = ended(tmp_path / "assembly.vtu", two, capsys)
+    assert line.startswith("Fit for solving, if its parts need not be connected: no hex is inverted")
+    assert record["fit"] is True
+
+
+def test_hexes_that_are_inverted_between_their_corners_are_not_fit(tmp_path, capsys):
+    path, out, repaired = tmp_path / "bent.vtu", tmp_path / "out.vtu", tmp_path / "repaired.vtu"
+    line, record = ended(path, bent(inside=True), capsys)
+    assert line == f"To be repaired before solving: mid nodes. Next: hexmend repair {path} -o OUT"
+    assert record["fit"] is False
+    assert main(["smooth", str(path), "-o", str(out)]) == 4
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last.startswith("Not fit for solving: 4 hexes of second order have sound corners, but a Jacobian that is")
+    assert last.endswith(f"Next: hexmend repair {out} -o OUT --only mid-nodes")
+    assert main(["repair", str(out), "-o", str(repaired), "--only", "mid-nodes"]) == 0
+    assert main(["smooth", str(repaired), "-o", str(out)]) == 0
+    line, record = ended(tmp_path / "edge.vtu", bent(inside=False), capsys)
+    assert line.startswith("Not fit for solving: of the hexes of second order 1 of 8 have a Jacobian that is not posit")

@@ -6,6 +6,7 @@ from hexmend.doctor import examine, repair
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import mirror_hexes
+from hexmend.mesh.second_order import MID_EDGES
 from tests.core.grids import grid
 
 SOUND = grid(3)
@@ -36,6 +37,26 @@ def collapsed():
     hexes = SOUND.hexes.copy()
     hexes[0, 1], hexes[0, 5] = hexes[0, 0], hexes[0, 4]
     return with_hexes(hexes)
+
+
+def second_order_grid():
+    """Make a cube of eight hexes of 20 nodes with edges of length 1, all of them straight."""
+    mesh = grid(2)
+    mesh = mesh.with_points(mesh.points / mesh.mean_edge_length)
+    edges, place = np.unique(np.sort(mesh.hexes[:, MID_EDGES].reshape(-1, 2)), axis=0, return_inverse=True)
+    mids = np.full((mesh.n_hexes, 19), -1)
+    mids[:, :12] = mesh.n_nodes + place.reshape(-1, 12)
+    return Mesh(np.vstack([mesh.points, mesh.points[edges].mean(axis=1)]), mesh.hexes, mid_nodes=mids)
+
+
+def bent(inside, start=None):
+    """Move a mid-node of an edge by its length: inside the mesh, where four hexes share it, or on one of its edges."""
+    mesh = start or second_order_grid()
+    users = np.bincount(mesh.mid_nodes[:, :12].ravel(), minlength=mesh.n_nodes)
+    node = np.flatnonzero(users == (4 if inside else 1))[0]
+    points = mesh.points.copy()
+    points[node] += mesh.points.mean(axis=0) - mesh.points[node] + [0.1, 0.2, 0.3]
+    return mesh.rebuilt(points=points)
 
 
 def hanging():

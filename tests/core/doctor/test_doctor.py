@@ -11,13 +11,23 @@ from hexmend.mesh.hexahedron import UNIT_CUBE, VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import mirror_hexes, with_consistent_orientation
 from hexmend.quality import measure
-from tests.core.doctor.faulty_meshes import SOUND, blocks, collapsed, flipped, found_in, hanging, with_hexes
+from tests.core.doctor.faulty_meshes import (
+    SOUND,
+    bent,
+    blocks,
+    collapsed,
+    flipped,
+    found_in,
+    hanging,
+    second_order_grid,
+    with_hexes,
+)
 
 TROUBLES = [
     (Mesh(np.vstack([SOUND.points, [[9, 9, 9]]]), SOUND.hexes), "unused-nodes", 1, True),
     (with_hexes(np.vstack([SOUND.hexes, SOUND.hexes[:2]])), "duplicate-hexes", 2, True),
     (collapsed(), "degenerate-hexes", 1, True),
-    (with_hexes(SOUND.hexes[[0, 26]]), "parts", 1, False),
+    (with_hexes(SOUND.hexes[[0, 26]]), "parts", 2, False),
     (mirror_hexes(SOUND, np.ones(27, dtype=bool)), "mirrored-parts", 27, True),
     (flipped(13), "flipped-hexes", 1, True),
     (with_hexes(SOUND.hexes[:, VOXEL_ORDER]), "voxel-order", 27, True),
@@ -25,6 +35,8 @@ TROUBLES = [
     (blocks(1e-8), "coincident-nodes", 16, True),
     (hanging(), "hanging-nodes", 5, False),
     (with_hexes(np.vstack([SOUND.hexes, SOUND.hexes[:1], SOUND.hexes[:1]])), "crowded-faces", None, False),
+    (bent(inside=True), "mid-nodes", 4, True),
+    (bent(inside=False), "mid-nodes", 1, False),
 ]
 
 
@@ -60,6 +72,20 @@ def test_parts_that_other_cells_connect_are_not_disconnected():
     bridge = Cells("tetra", np.array([[*apart.hexes[0][:2], *apart.hexes[1][:2]]], np.int32))
     assert "hexmend repair" in found_in(apart)["parts"].remedy
     assert "parts" not in found_in(apart.replace(cells=(bridge,)))
+
+
+def test_only_mid_nodes_inside_the_mesh_are_put_halfway_and_corners_stay():
+    mesh, sound = bent(inside=True), second_order_grid()
+    after, _ = repair(mesh)
+    np.testing.assert_array_equal(after.points, sound.points)
+    both = bent(inside=False, start=mesh)  # also with a mid-node on the boundary, which keeps its bend
+    after, _ = repair(both)
+    moved = np.flatnonzero((after.points != both.points).any(axis=1))
+    assert moved.tolist() == np.flatnonzero((mesh.points != sound.points).any(axis=1)).tolist()
+    assert found_in(after)["mid-nodes"].count == 1
+    pinned = np.zeros(mesh.n_nodes, bool)
+    pinned[moved] = True
+    assert not found_in(mesh.replace(pinned=pinned))["mid-nodes"].mendable
 
 
 def test_nodes_of_second_order_are_no_unused_ones_and_turn_with_their_hex():

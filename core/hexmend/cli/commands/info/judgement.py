@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend.doctor import Finding
-from hexmend.quality import METRICS, ElementQuality
+from hexmend.quality import METRICS, ElementQuality, SecondOrderSummary
 from hexmend.terminal_text import count_phrase
 
 if TYPE_CHECKING:
@@ -25,7 +25,8 @@ class Judgement:
     Parameters
     ----------
     fit : bool
-        True if no hex is inverted, the doctor finds no problem, and no check of the user's solver fails.
+        True if no hex is inverted, at its corners or between them, the doctor finds no problem (separate parts are
+        none), and no check of the user's solver fails.
     sentence : str
     command : str
         The next command as a line for the shell; "" if none helps.
@@ -43,6 +44,7 @@ class Judgement:
         locking: Locking | None,
         findings: Sequence[Finding],
         checks: Report | None = None,
+        second_order: SecondOrderSummary | None = None,
     ) -> Judgement:
         """Judge a mesh.
 
@@ -55,25 +57,34 @@ class Judgement:
         findings : sequence of Finding
         checks : Report, optional
             Checks of the user's solver.
+        second_order : SecondOrderSummary, optional
+            Jacobians of the hexes of second order.
         """
         total, inverted = quality.inverted.size, int(np.count_nonzero(quality.inverted))
-        if repairable := _kinds(finding for finding in findings if finding.mendable):
+        later = "mid-nodes" if inverted else ""  # which follow the corners when these are untangled
+        if repairable := _kinds(finding for finding in findings if finding.mendable and finding.kind != later):
             return cls(False, f"To be repaired before solving: {repairable}.", _command("repair", path))
         if inverted:
             verb = "is" if inverted == 1 else "are"
             sentence = f"Not fit for solving: {inverted:,} of {count_phrase(total, 'hex', 'hexes')} {verb} inverted."
             return cls(False, sentence, _untangling(path, quality, locking))
-        if findings:
-            return cls(False, f"Not fit for solving: {_kinds(findings)}.", shlex.join(["hexmend", path]))
+        if second_order is not None and second_order.non_positive:
+            sentence = f"Not fit for solving: of the hexes of second order {second_order.phrase}."
+            return cls(False, sentence, shlex.join(["hexmend", path]))
+        if faults := [finding for finding in findings if finding.kind != "parts"]:
+            return cls(False, f"Not fit for solving: {_kinds(faults)}.", shlex.join(["hexmend", path]))
         if checks is not None and checks.verdict == "failed":
             return cls(False, f"Not fit for solving. {checks.sentence}", _command("smooth", path))
+        apart = "if its parts need not be connected" if findings else ""
         limit, _ = METRICS["scaled-jacobian"].acceptable
         poor = int(np.count_nonzero(quality.scaled_jacobian < limit))
         if poor:
             counted = f"{poor:,} of {count_phrase(total, 'hex', 'hexes')} {'has' if poor == 1 else 'have'}"
-            sentence = f"Fit for solving, but poor: {counted} a scaled Jacobian below {limit:g}."
+            but = f"but poor, and only {apart}" if apart else "but poor"
+            sentence = f"Fit for solving, {but}: {counted} a scaled Jacobian below {limit:g}."
             return cls(True, sentence, _command("smooth", path))
-        sentence = f"Fit for solving: no hex is inverted or has a scaled Jacobian below {limit:g}."
+        fit = f"Fit for solving, {apart}" if apart else "Fit for solving"
+        sentence = f"{fit}: no hex is inverted or has a scaled Jacobian below {limit:g}."
         return cls(True, sentence, shlex.join(["hexmend", path]))
 
     @property

@@ -11,14 +11,14 @@ import numpy as np
 from hexmend.cli.commands.info.judgement import Judgement
 from hexmend.cli.output.mesh_messages import print_notes
 from hexmend.cli.output.text_tables import print_spreads, print_summaries
-from hexmend.doctor import Finding, examine
+from hexmend.doctor import PROBLEMS, Finding, examine
 from hexmend.io import read
 from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import (
     ElementQuality,
     MetricStatistics,
-    SecondOrder,
+    SecondOrderSummary,
     Summary,
     measure,
     metric_statistics,
@@ -62,9 +62,9 @@ def run(args: argparse.Namespace) -> int:
     if args.metrics:
         print_spreads(metrics)
     checks = None if solver is None else _print_checks(mesh, solver, quality)
-    findings = examine(mesh, quick=not args.doctor)
+    findings = _examine(mesh, args.doctor, second_order)
     _print_problems(args, findings)
-    print(printable(Judgement.of(args.mesh, quality, locking, findings, checks).line))
+    print(printable(Judgement.of(args.mesh, quality, locking, findings, checks, second_order).line))
     return 0
 
 
@@ -73,7 +73,7 @@ def _print_json(
     mesh: Mesh,
     summary: Summary,
     metrics: Mapping[str, MetricStatistics],
-    second_order: SecondOrder | None,
+    second_order: SecondOrderSummary | None,
     quality: ElementQuality,
     layers: list[dict[str, Any]],
     locking: Locking | None,
@@ -98,11 +98,20 @@ def _print_json(
     if args.solver is not None:
         checks, fields = _checks(mesh, args.solver, quality)
         answer |= fields
-    findings = examine(mesh, quick=not args.doctor)
+    findings = _examine(mesh, args.doctor, second_order)
     if args.doctor:
         answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in findings]
-    answer |= Judgement.of(args.mesh, quality, locking, findings, checks).to_dict()
+    answer |= Judgement.of(args.mesh, quality, locking, findings, checks, second_order).to_dict()
     print(to_json(answer))
+
+
+def _examine(mesh: Mesh, all_searches: bool, second_order: SecondOrderSummary | None) -> tuple[Finding, ...]:
+    """Return the doctor's findings; those of mid-nodes also in a quick search where a Jacobian is not positive."""
+    findings = examine(mesh, quick=not all_searches)
+    if all_searches or second_order is None or not second_order.non_positive:
+        return findings
+    bent = PROBLEMS["mid-nodes"].find(mesh)
+    return findings if bent is None else (*findings, bent)
 
 
 def _print_materials(mesh: Mesh) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import sys
 from dataclasses import replace
 from importlib import import_module
@@ -21,6 +22,7 @@ from hexmend.cli.output.mesh_output import MeshOutput
 from hexmend.cli.output.progress import follow
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
+from hexmend.doctor import PROBLEMS
 from hexmend.errors import ParameterError
 from hexmend.io import read, writer_for
 from hexmend.io.surfaces.curve_file import with_curves_of_file
@@ -29,7 +31,7 @@ from hexmend.mesh.fixing import fix_outside
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.quality import summarise_second_order
+from hexmend.quality import SecondOrderSummary, summarise_second_order
 from hexmend.quality.selection import hexes_in_set
 from hexmend.report import record, write_history, write_json
 from hexmend.run import iterate
@@ -39,7 +41,7 @@ from hexmend.terminal_text import install_hint
 
 
 def run(args: argparse.Namespace) -> int:
-    """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still inverted."""
+    """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still inverted, between corners too."""
     if _is_one_of_several_ranks():
         return _run_on_ranks(args)
     method, limits = method_and_limits(args)
@@ -75,11 +77,14 @@ def run(args: argparse.Namespace) -> int:
         result = smoothing.result()
         written = output.write(result.mesh.replace(pinned=pinned))
         checkpoints.remove()
-        _report(args, mesh, method.title, result, written)
+        second_order = _report(args, mesh, method.title, result, written)
         if result.after.inverted:
             kept = RunOptions(mesh.node_rules.rules, args.as_is, args.surface, args.only, rings)
             _print_advice(args, result, _outside(mesh, pinned), kept)
-    return 4 if result.after.inverted else 0
+        bent = second_order is not None and second_order.non_positive > 0
+        if bent and not result.after.inverted:
+            _print_bent(args.output, result.mesh)
+    return 4 if result.after.inverted or bent else 0
 
 
 def _is_one_of_several_ranks() -> bool:
@@ -104,8 +109,10 @@ def _keep(checkpoints: Checkpoints, mesh: Mesh, iteration: Iteration) -> None:
         checkpoints.write(lambda: mesh.with_points(iteration.points))
 
 
-def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, written: str) -> None:
-    """Write the files of --json and --history, and print the change of the mesh."""
+def _report(
+    args: argparse.Namespace, mesh: Mesh, title: str, result: Result, written: str
+) -> SecondOrderSummary | None:
+    """Write the files of --json and --history, print the change of the mesh, and return its second-order hexes."""
     second_order = {"before": summarise_second_order(mesh), "after": summarise_second_order(result.mesh)}
     if args.json:
         report = record(result)
@@ -125,6 +132,15 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, wr
     if result.surface is not None:
         print(result.surface_sentence)
     print(written)
+    return second_order["after"]
+
+
+def _print_bent(path: str, mesh: Mesh) -> None:
+    """Print that hexes of second order are inverted between sound corners, and the command that repairs them."""
+    found = PROBLEMS["mid-nodes"].find(mesh)
+    if found is not None:
+        repair = f"Next: hexmend repair {shlex.quote(path)} -o OUT --only {found.kind}" if found.mendable else ""
+        print(f"Not fit for solving: {found.message} {found.remedy} {repair}".rstrip())
 
 
 def _print_advice(args: argparse.Namespace, result: Result, outside: np.ndarray | None, options: RunOptions) -> None:

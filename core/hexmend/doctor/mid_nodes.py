@@ -1,0 +1,73 @@
+"""Problem of second-order hexes: mid-nodes that bend edges so far that the hex is inverted between sound corners."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
+from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_EDGES, MID_NODE_WEIGHTS, scaled_jacobians
+from hexmend.quality import corner_determinants
+from hexmend.terminal_text import count_phrase
+
+#: Columns of `mid_nodes` on each of the six faces: its four edges and its centre, (6, 5).
+_ON_FACE = np.array(
+    [[*np.flatnonzero(np.isin(MID_EDGES, face).all(axis=1)), 12 + row] for row, face in enumerate(FACES)]
+)
+
+
+@register_problem
+class BentEdges(Problem):
+    """Second-order hexes whose corners are sound, and whose Jacobian is not positive at a node or Gauss point."""
+
+    name, title = "mid-nodes", "Mid-nodes"
+    rank = 10
+    remedy = "Mid-nodes inside the mesh can be put halfway between the corners; those on the boundary keep its shape."
+    action = "put the mid-nodes inside the mesh halfway between the corners"
+
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        if quick or mesh.mid_nodes is None:
+            return NONE_FOUND
+        return np.flatnonzero(_bad_between_corners(mesh, mesh.points))
+
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        hexes = count_phrase(where.size, "hex of second order has", "hexes of second order have")
+        text = f"{hexes} sound corners, but a Jacobian that is not positive at a node or Gauss point."
+        return self.finding(where, text, mendable=self.mend(mesh) is not mesh)
+
+    def mend(self, mesh: Mesh) -> Mesh:
+        where = self.locate(mesh)
+        assert mesh.mid_nodes is not None
+        movable = ~_kept_mid_nodes(mesh)
+        rows = mesh.mid_nodes[where]
+        hexes, columns = np.nonzero((rows >= 0) & movable[rows])
+        points = mesh.points.copy()
+        corners = mesh.points[mesh.hexes[where[hexes]]]
+        points[rows[hexes, columns]] = np.einsum("kc,kcx->kx", MID_NODE_WEIGHTS[columns], corners)
+        fewer = np.count_nonzero(_bad_between_corners(mesh, points)) < where.size
+        return mesh.rebuilt(points=points) if fewer else mesh
+
+
+def _bad_between_corners(mesh: Mesh, points: np.ndarray) -> np.ndarray:
+    """Mark second-order hexes that are inverted or flat at a node or Gauss point, but not at a corner, (m,) bool."""
+    assert mesh.mid_nodes is not None
+    sound = (corner_determinants(points, mesh.hexes) > 0).all(axis=1)
+    least = scaled_jacobians(points, mesh.hexes, mesh.mid_nodes)
+    return sound & (np.nan_to_num(least, nan=1.0) <= 0)
+
+
+def _kept_mid_nodes(mesh: Mesh) -> np.ndarray:
+    """Mark the nodes that stay: on the boundary, on interfaces, pinned, or shared with other cells, (n,) bool."""
+    assert mesh.mid_nodes is not None
+    outer = mesh.topology.face_neighbours < 0
+    if mesh.materials is not None:
+        material = mesh.materials.of_hex
+        outer = outer | (material[mesh.topology.face_neighbours] != material[:, None])
+    rows, faces = np.nonzero(outer)
+    nodes = mesh.mid_nodes[rows[:, None], _ON_FACE[faces]]
+    kept = np.zeros(mesh.n_nodes, bool) if mesh.pinned is None else mesh.pinned.copy()
+    kept[nodes[nodes >= 0]] = True
+    for cells in mesh.cells:
+        kept[cells.nodes] = True
+    return kept
