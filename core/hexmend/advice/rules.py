@@ -88,6 +88,18 @@ def slide(now: Situation) -> Suggestion | None:
     return Suggestion("Mend with sliding boundary", text, "inverted", Mend(**now.objective, boundary="slide"))
 
 
+def slide_near_inverted(now: Situation) -> Suggestion | None:
+    """Suggest a sliding boundary for hexes that Mend has left inverted although they are not locked."""
+    if not now.slidable_nodes or not _is_mend(now) or now.cut_short or now.smoother.slides or now.can_release:
+        return None
+    if now.locked.size and now.freed:  # `slide` suggests it
+        return None
+    nodes = count_phrase(now.slidable_nodes, "fixed node", "fixed nodes")
+    may = "may slide then, on the boundary and on the interfaces between materials"
+    text = f"Run Mend with boundary = slide: {nodes} of inverted hexes {may}."
+    return Suggestion("Mend with sliding boundary", text, "inverted", Mend(**now.objective, boundary="slide"))
+
+
 def undo_inversion(now: Situation) -> Suggestion | None:
     """Suggest a safe method after one that inverted hexes."""
     if now.result.before.inverted or not now.unlocked.size:
@@ -226,6 +238,7 @@ RULES: tuple[Rule, ...] = (
     widen,
     untangle,
     slide,
+    slide_near_inverted,
     regularise,
     undo_inversion,
     continue_run,

@@ -130,6 +130,13 @@ class Situation:
         return int(np.count_nonzero(freed_by_sliding(self.mesh, which, self.smoother.feature_angle)))
 
     @property
+    def slidable_nodes(self) -> int:
+        """Number of the fixed nodes of inverted hexes that are not locked, and that move if the boundary slides."""
+        fixed = np.unique(self.mesh.hexes[self.unlocked])
+        fixed = fixed[(self.mesh.fixed & ~self.mesh.immovable)[fixed]]
+        return fixed.size
+
+    @property
     def resisting(self) -> np.ndarray:
         """Inverted hexes that released nodes may free, (k,): the locked ones, and those that Mend left at its end."""
         left = self.unlocked if isinstance(self.smoother, METHODS["mend"]) and not self.cut_short else self.unlocked[:0]

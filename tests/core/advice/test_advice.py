@@ -90,6 +90,20 @@ def test_following_a_suggestion_helps_on_a_mesh_that_differs_in_its_last_bits(se
     assert follow_all(near, few)  # which of them are offered depends on the last bits
 
 
+def test_hexes_left_inverted_by_mend_at_fixed_nodes_are_told_to_slide():
+    mesh, rng = grid(4), np.random.default_rng(7)
+    lower = np.flatnonzero(mesh.points[mesh.hexes].mean(axis=1)[:, 2] < mesh.points[:, 2].mean())
+    points, sets = mesh.points.copy(), {"lower": lower, "upper": np.setdiff1d(np.arange(mesh.n_hexes), lower)}
+    points[mesh.free] += rng.uniform(-0.9, 0.9, (27, 3)) * mesh.mean_edge_length
+    mesh = mesh.with_points(points).replace(hex_sets=sets)  # the interface between the sets is fixed as it was moved
+    result = smooth(mesh, "mend")
+    advice = advise(result)
+    assert advice.unlocked.size == result.after.inverted > 0
+    (suggestion,) = advice.suggestions
+    assert suggestion.title == "Mend with sliding boundary"
+    assert followed(mesh, result, suggestion).after.inverted == 0
+
+
 def test_following_a_suggestion_helps_beside_what_is_locked():
     follow_all(with_locked_corner(make("five-side", size=300)))
     assert follow_all(with_locked_corner(make("five-side", size=150, scramble=0.8))), "nothing was suggested at all"

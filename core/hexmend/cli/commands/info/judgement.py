@@ -75,15 +75,15 @@ class Judgement:
             return cls(False, f"Not fit for solving: {_kinds(faults)}.", shlex.join(["hexmend", path]))
         if checks is not None and checks.verdict == "failed":
             return cls(False, f"Not fit for solving. {checks.sentence}", _command("smooth", path))
-        apart = "if its parts need not be connected" if findings else ""
+        condition = "if its parts need not be connected" if findings else ""
         limit, _ = METRICS["scaled-jacobian"].acceptable
         poor = int(np.count_nonzero(quality.scaled_jacobian < limit))
         if poor:
             counted = f"{poor:,} of {count_phrase(total, 'hex', 'hexes')} {'has' if poor == 1 else 'have'}"
-            but = f"but poor, and only {apart}" if apart else "but poor"
+            but = f"but poor, and only {condition}" if condition else "but poor"
             sentence = f"Fit for solving, {but}: {counted} a scaled Jacobian below {limit:g}."
             return cls(True, sentence, _command("smooth", path))
-        fit = f"Fit for solving, {apart}" if apart else "Fit for solving"
+        fit = f"Fit for solving, {condition}" if condition else "Fit for solving"
         sentence = f"{fit}: no hex is inverted or has a scaled Jacobian below {limit:g}."
         return cls(True, sentence, shlex.join(["hexmend", path]))
 
