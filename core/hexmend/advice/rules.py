@@ -95,8 +95,8 @@ def slide_near_inverted(now: Situation) -> Suggestion | None:
     if now.locked.size and now.freed:  # `slide` suggests it
         return None
     nodes = count_phrase(now.slidable_nodes, "fixed node", "fixed nodes")
-    may = "may slide then, on the boundary and on the interfaces between materials"
-    text = f"Run Mend with boundary = slide: {nodes} of inverted hexes {may}."
+    where = "" if now.mesh.materials is None else ", on the boundary and on the interfaces between materials"
+    text = f"Run Mend with boundary = slide: {nodes} of inverted hexes may slide then{where}."
     return Suggestion("Mend with sliding boundary", text, "inverted", Mend(**now.objective, boundary="slide"))
 
 

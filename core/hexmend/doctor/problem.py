@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from hexmend.mesh.file_ids import hex_ids, node_ids, with_ids
 from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
 
@@ -47,8 +48,8 @@ class Finding:
         """Return the finding as plain data, with its first `most` hexes and nodes."""
         return {**vars(self), "hexes": self.hexes[:most].tolist(), "nodes": self.nodes[:most].tolist()}
 
-    def location_text(self, most: int = 5) -> str:
-        """Name the first hexes or nodes that have the problem.
+    def location_text(self, most: int = 5, mesh: Mesh | None = None) -> str:
+        """Name the first hexes or nodes that have the problem, also by the numbers of the file of `mesh`.
 
         >>> Finding("unused-nodes", 7, "", nodes=np.arange(7)).location_text(3)
         'nodes 0, 1, 2, ...'
@@ -58,8 +59,10 @@ class Finding:
         numbers, one, several = (self.hexes, "hex", "hexes") if len(self.hexes) else (self.nodes, "node", "nodes")
         if not len(numbers):
             return ""
-        first = ", ".join(map(str, numbers[:most]))
-        return f"{several if len(numbers) > 1 else one} {first}{', ...' if len(numbers) > most else ''}"
+        ids = None if mesh is None else hex_ids(mesh) if len(self.hexes) else node_ids(mesh)
+        text, more = with_ids(numbers[:most], ids), ", ..." if len(numbers) > most else ""
+        text = text.replace(")", f"{more})") if ids is not None else text + more
+        return f"{several if len(numbers) > 1 else one} {text}"
 
 
 class Problem(ABC):

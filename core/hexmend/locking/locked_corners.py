@@ -10,6 +10,7 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.boundary.sliding.flat_parts import FlatPart, flat_parts
+from hexmend.mesh.file_ids import hex_ids, node_ids
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
@@ -55,8 +56,17 @@ class LockedCorner:
     @property
     def sentence(self) -> str:
         """The proof as a sentence."""
+        return self.describe()
+
+    def describe(self, mesh: Mesh | None = None) -> str:
+        """Return the proof as a sentence, with the numbers that the file of `mesh` gives to hex and nodes."""
         others = ", ".join(map(str, self.nodes[1:]))
-        return f"Hex {self.hex} at node {self.nodes[0]}, with its edges to {others}: {self.reason.value}."
+        place = f"Hex {self.hex} at node {self.nodes[0]}, with its edges to {others}"
+        of_hexes, of_nodes = (None, None) if mesh is None else (hex_ids(mesh), node_ids(mesh))
+        if of_hexes is not None and of_nodes is not None:
+            first, *rest = of_nodes[list(self.nodes)].tolist()
+            place += f" (in the file {of_hexes[self.hex]} at {first}, to {', '.join(map(str, rest))})"
+        return f"{place}: {self.reason.value}."
 
 
 def find_locked_corners(mesh: Mesh, sliding: SlidingBoundary, hexes: np.ndarray) -> tuple[LockedCorner, ...]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.kernels import local
+from hexmend.mesh.file_ids import hex_ids, node_ids
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index, as_reals
@@ -38,6 +39,8 @@ class HexDetails:
     inverted : bool
     locked : bool
         True if fixed nodes alone keep the hex inverted.
+    file_id : int, optional
+        Number of the hex in the file; None if that counts from 0 too, or has none.
     """
 
     number: int
@@ -49,6 +52,7 @@ class HexDetails:
     neighbours: np.ndarray
     inverted: bool
     locked: bool
+    file_id: int | None = None
 
 
 def describe_hex(mesh: Mesh, number: int) -> HexDetails:
@@ -91,7 +95,12 @@ def describe_hex(mesh: Mesh, number: int) -> HexDetails:
         neighbours=neighbours,
         inverted=bool(quality.inverted[0]),
         locked=bool(locked_hexes(mesh.points, hexes, mesh.fixed, quality.inverted)[0]),
+        file_id=_file_id(hex_ids(mesh), number),
     )
+
+
+def _file_id(ids: np.ndarray | None, number: int) -> int | None:
+    return None if ids is None else int(ids[number])
 
 
 def _patch(mesh: Mesh, numbers: np.ndarray) -> Mesh:
@@ -126,6 +135,8 @@ class NodeDetails:
         energy is infinite or the gradient is within rounding, see `hexmend.quality.descent.descent`.
     pinned : bool
         True for a pinned node, also on the boundary.
+    file_id : int, optional
+        Number of the node in the file; None if that counts from 0 too, or has none.
     """
 
     number: int
@@ -135,6 +146,7 @@ class NodeDetails:
     energy: float
     downhill: np.ndarray
     pinned: bool = False
+    file_id: int | None = None
 
 
 def describe_node(mesh: Mesh, number: int) -> NodeDetails:
@@ -165,8 +177,9 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
     corners = mesh.topology.node_corners
     places = corners.items[corners.start[number] : corners.start[number + 1]]
     ring = places // 8
+    file_id = _file_id(node_ids(mesh), number)
     if not ring.size:
-        return NodeDetails(number, mesh.points[number], "unused", ring, 0.0, np.zeros(3))
+        return NodeDetails(number, mesh.points[number], "unused", ring, 0.0, np.zeros(3), file_id=file_id)
     nodes, corners_in_ring = np.unique(mesh.hexes[ring], return_inverse=True)
     hexes = corners_in_ring.reshape(-1, 8).astype(np.int32)
     x = mesh.points[nodes]
@@ -183,7 +196,7 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
         between = mesh.interfaces is not None and mesh.interfaces.interface_nodes[number]
         kind = "interface" if between and not mesh.immovable[number] else "pinned"
     pinned = mesh.pinned is not None and bool(mesh.pinned[number])
-    return NodeDetails(number, mesh.points[number], kind, ring, energy, downhill, pinned)
+    return NodeDetails(number, mesh.points[number], kind, ring, energy, downhill, pinned, file_id)
 
 
 def rank_worst(values: np.ndarray, quality: ElementQuality, count: int, better: int = 1) -> np.ndarray:

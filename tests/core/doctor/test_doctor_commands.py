@@ -5,6 +5,7 @@ import pytest
 
 from hexmend import io
 from hexmend.cli.main import main
+from hexmend.doctor import Finding
 from hexmend.mesh.hexahedron import VOXEL_ORDER
 from tests.core.doctor.faulty_meshes import SOUND, blocks, flipped, with_hexes
 
@@ -69,3 +70,12 @@ def test_a_report_does_not_replace_the_result(tmp_path, capsys):
     out = str(tmp_path / "out.vtk")
     assert main(["smooth", str(tmp_path / "in.vtk"), "-o", out, "--json", out]) == 3
     assert "another file to be written" in capsys.readouterr().err
+
+
+def test_places_have_the_numbers_of_the_file_too(tmp_path, capsys):
+    mesh, path = with_hexes(SOUND.hexes[[0, 26]]), tmp_path / "deck.inp"
+    io.write(path, mesh.replace(hex_data={"id": np.array([11, 512])}))
+    assert main(["info", str(path), "--doctor"]) == 0
+    assert "hex 1 (in the file 512)" in capsys.readouterr().out
+    wide = Finding("parts", 3, "", hexes=np.array([0, 1, 0]))
+    assert wide.location_text(2, io.read(path)) == "hexes 0, 1 (in the file 11, 512, ...)"

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.doctor import PROBLEMS, Finding
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.scrolled import scrolled
@@ -67,8 +68,8 @@ class DoctorPanel(QWidget):
         outside.addWidget(scrolled(inside))
         self.show_findings(None)
 
-    def show_findings(self, findings: Sequence[Finding] | None, problem: str = "") -> None:
-        """List the findings; None while the mesh is being checked, with `problem` if the check failed."""
+    def show_findings(self, findings: Sequence[Finding] | None, problem: str = "", mesh: Mesh | None = None) -> None:
+        """List the findings in a mesh; None while it is being checked, with `problem` if the check failed."""
         while (item := self._rows.takeAt(0)) is not None:
             item.widget().hide()
             item.widget().deleteLater()
@@ -79,7 +80,7 @@ class DoctorPanel(QWidget):
             count = len(findings)
             self._head.setText(tr("{findings}:", findings=counted(count, "finding")) if count else tr(_HEALTHY))
         for row, finding in enumerate(findings or ()):
-            self._add(row, finding)
+            self._add(row, finding, mesh)
         self._all.setVisible(len(self._repair_buttons) > 1)
 
     def show_notes(self, notes: Sequence[str]) -> None:
@@ -92,8 +93,8 @@ class DoctorPanel(QWidget):
         for button in (self._all, *self._repair_buttons):
             button.setEnabled(not busy)
 
-    def _add(self, row: int, finding: Finding) -> None:
-        problem, location = PROBLEMS[finding.kind], finding.location_text()
+    def _add(self, row: int, finding: Finding, mesh: Mesh | None) -> None:
+        problem, location = PROBLEMS[finding.kind], finding.location_text(mesh=mesh)
         text = QLabel(
             f"<b>{escape(problem.title)}.</b> {escape(finding.message)} {escape(finding.remedy)}"
             + (f"<br>{escape(location).capitalize()}" if location else "")

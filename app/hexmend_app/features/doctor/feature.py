@@ -82,7 +82,7 @@ class FeatureDoctor(Feature):
         if self._seen.changed("findings", findings, error, mesh):
             self._listed = findings or ()
             self.panel.show_findings(
-                findings, tr("The mesh could not be checked: {error}", error=error) if error else ""
+                findings, tr("The mesh could not be checked: {error}", error=error) if error else "", mesh
             )
             self.panel.set_busy(not session.editable)
 

@@ -207,7 +207,8 @@ class HexPanel(QWidget):
             f'{face}:&nbsp;<a href="{h}">{h:,}</a>' if h >= 0 else f"{face}:&nbsp;{tr('boundary')}"
             for face, h in zip(_FACES, details.neighbours.tolist(), strict=True)
         )
-        self._neighbours.setText("Neighbours: " + " &nbsp;&nbsp;".join(links))
+        of_file = "" if details.file_id is None else tr("Number in the file: {id}", id=details.file_id) + "<br>"
+        self._neighbours.setText(of_file + "Neighbours: " + " &nbsp;&nbsp;".join(links))
 
     def show_node(self, details: NodeDetails | None, busy: bool = False, boundary_class: str = "") -> None:
         """Show a node of the hex; for None, a hint how to select a node.
@@ -226,8 +227,11 @@ class HexPanel(QWidget):
             self._about_node.setText(tr("Click near a corner or on a node number to select a node."))
             return
         kind = f"{details.kind}, pinned" if details.pinned and details.kind == "boundary" else details.kind
+        name = tr("Node {number:,}", number=details.number)
+        if details.file_id is not None:
+            name = tr("{name} ({id} in the file)", name=name, id=details.file_id)
         parts = [
-            tr("Node {number:,}: {kind}", number=details.number, kind=kind),
+            f"{name}: {kind}",
             boundary_class,
             counted(details.ring.size, "hex"),
         ]

@@ -14,7 +14,7 @@ from hexmend_app.state.mesh.worst_hexes import WorstHexes
 
 
 def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
-    """Write the worst hexes of a mesh as CSV: number, metric, scaled Jacobian, state.
+    """Write the worst hexes of a mesh as CSV: number, metric, scaled Jacobian, state, number in the file if it has one.
 
     Parameters
     ----------
@@ -31,7 +31,8 @@ def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
     suffix_for(Path(path), "a list", (".csv",))
     worst, out = WorstHexes.of(mesh, measure(mesh.points, mesh.hexes), metric), io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["hex", metric, "scaled-jacobian", "state"])
-    columns = worst.hexes.tolist(), worst.values.tolist(), worst.jacobians.tolist(), worst.states
+    writer.writerow(["hex", metric, "scaled-jacobian", "state", *(["id"] if worst.ids is not None else [])])
+    columns = [worst.hexes.tolist(), worst.values.tolist(), worst.jacobians.tolist(), worst.states]
+    columns += [worst.ids.tolist()] if worst.ids is not None else []
     writer.writerows(zip(*columns, strict=True))
     write_text(Path(path), out.getvalue())

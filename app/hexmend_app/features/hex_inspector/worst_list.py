@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality
 from hexmend_app.codec.checks import check_known
-from hexmend_app.features.hex_inspector.worst_model import HEX, JACOBIAN, STATE, VALUE, WorstModel
+from hexmend_app.features.hex_inspector.worst_model import HEX, ID, JACOBIAN, STATE, VALUE, WorstModel
 from hexmend_app.state.mesh.worst_hexes import WorstHexes
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
@@ -104,7 +104,8 @@ class WorstList(QWidget):
         table = QTableView()
         table.setModel(self._model)
         shape_table(table, tr("Worst hexes"), STATE)
-        for column, widest in ((HEX, "000,000,000"), (VALUE, tr("Scaled Jacobian")), (JACOBIAN, tr("Scaled Jacobian"))):
+        jacobian = tr("Scaled Jacobian")
+        for column, widest in ((HEX, "000,000,000"), (ID, "000000000"), (VALUE, jacobian), (JACOBIAN, jacobian)):
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
         # Not currentChanged: the first row becomes current when the table gets the focus.
         table.selectionModel().selectionChanged.connect(self._on_selected)
@@ -216,7 +217,8 @@ class WorstList(QWidget):
         worst = WorstHexes.of(mesh, figures, metric.name)
         self._model.title = metric.title
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
-        self._model.fill(worst.hexes, worst.values, worst.jacobians, worst.states)
+        self._table.setColumnHidden(ID, worst.ids is None)
+        self._model.fill(worst)
         counts = {"total": counted(mesh.n_hexes, "hex"), "inverted": figures.n_inverted}
         if worst.hexes.size == mesh.n_hexes:
             text = tr("{total}, {inverted:,} inverted.", **counts)

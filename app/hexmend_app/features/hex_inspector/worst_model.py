@@ -8,13 +8,14 @@ import numpy as np
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
 from PySide6.QtGui import QBrush, QColor
 
+from hexmend_app.state.mesh.worst_hexes import WorstHexes
 from hexmend_app.theme.style import INVERTED_TEXT, MUTED
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import figure
 
-_TITLES = ("Hex", "", "Scaled Jacobian", "State")
+_TITLES = ("Hex", "In the file", "", "Scaled Jacobian", "State")
 #: Columns of the table.
-HEX, VALUE, JACOBIAN, STATE = range(4)
+HEX, ID, VALUE, JACOBIAN, STATE = range(5)
 _RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
 _LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
 
@@ -30,6 +31,8 @@ class WorstModel(QAbstractTableModel):
         Values of the metric that sorts the list, and scaled Jacobians.
     states : list of str
         "locked", "inverted" or "" for each hex.
+    ids : (k,) int, optional
+        Numbers of the hexes in the file.
     title : str
         Title of the metric.
     """
@@ -39,14 +42,17 @@ class WorstModel(QAbstractTableModel):
         self.hexes = np.empty(0, np.int64)
         self.values = self.jacobians = np.empty(0)
         self.states: list[str] = []
+        self.ids: np.ndarray | None = None
         self.title = ""
 
-    def fill(self, hexes: np.ndarray, values: np.ndarray, jacobians: np.ndarray, states: list[str]) -> None:
+    def fill(self, worst: WorstHexes) -> None:
         """Replace the rows."""
+        hexes = worst.hexes
         same = len(hexes) == len(self.hexes)
         if not same:
             self.beginResetModel()
-        self.hexes, self.values, self.jacobians, self.states = hexes, values, jacobians, states
+        self.hexes, self.values, self.jacobians = hexes, worst.values, worst.jacobians
+        self.states, self.ids = worst.states, worst.ids
         if same:  # no reset: the table keeps its scroll position
             self.dataChanged.emit(self.index(0, 0), self.index(max(len(hexes) - 1, 0), len(_TITLES) - 1))
         else:
@@ -63,6 +69,8 @@ class WorstModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.DisplayRole:
             if column == HEX:
                 return f"{self.hexes[row]:,}"
+            if column == ID:
+                return "" if self.ids is None else str(self.ids[row])
             if column == STATE:
                 return self.states[row]
             return figure(float((self.values if column == VALUE else self.jacobians)[row]))

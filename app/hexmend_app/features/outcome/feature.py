@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from hexmend.advice import Advice, Suggestion
+from hexmend.mesh.file_ids import hex_ids
 from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.outcome.notice import notice
@@ -74,7 +75,8 @@ class FeatureOutcome(Feature):
         """Explain the run of the timeline."""
         name, advice = self._explanation()
         if advice is not None and advice is not self._shown:
-            self.panel.show_advice(tr("Why {name} stopped", name=name), advice)
+            ids = hex_ids(self.session.document.now.mesh)
+            self.panel.show_advice(tr("Why {name} stopped", name=name), advice, ids)
         elif advice is None and self.session.run.busy:
             self.panel.show_hint(tr(_RUNNING))
         elif advice is None:

@@ -115,8 +115,8 @@ class OutcomePanel(QWidget):
         self._view_note.setText(text)
         self._view_note.setVisible(bool(text))
 
-    def show_advice(self, title: str, advice: Advice) -> None:
-        """Explain the end of a run."""
+    def show_advice(self, title: str, advice: Advice, ids: np.ndarray | None = None) -> None:
+        """Explain the end of a run; `ids` (m,) are the numbers of the hexes in the file, if it has some."""
         self._title.setText(title)
         self._reason.setText(advice.reason)
         self._state.setText(with_minus(advice.state))
@@ -124,10 +124,10 @@ class OutcomePanel(QWidget):
         self._regressions.setText(with_minus(advice.regressions))
         self._regressions.setVisible(bool(advice.regressions))
         tint(self._regressions, WORSE)
-        self._locked.show_hexes(advice.locked)
-        self._unlocked.show_hexes(advice.unlocked)
-        self._limiting.show_hexes(advice.limiting)
-        self._locked_below.show_hexes(advice.locked_below)
+        self._locked.show_hexes(advice.locked, ids)
+        self._unlocked.show_hexes(advice.unlocked, ids)
+        self._limiting.show_hexes(advice.limiting, ids)
+        self._locked_below.show_hexes(advice.locked_below, ids)
         self._surface.setText(advice.surface)
         self._surface.setVisible(bool(advice.surface))
         self._no_suggestion.setText(advice.no_suggestion)
@@ -196,13 +196,15 @@ class _HexList(QWidget):
         row.addWidget(self._links, 1)
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignTop)
 
-    def show_hexes(self, hexes: np.ndarray) -> None:
-        """List hexes (k,) by number."""
+    def show_hexes(self, hexes: np.ndarray, ids: np.ndarray | None) -> None:
+        """List hexes (k,) by number, and by that of the file if there are `ids` (m,)."""
         self._hexes = hexes.tolist()
         links = ", ".join(f'<a href="{h}">{h:,}</a>' for h in self._hexes[:_MAX_LISTED])
         more = len(self._hexes) - _MAX_LISTED
         others = f" and {counted(more, 'other')}" if more > 0 else ""
-        self._links.setText(f"{self._title}: {links}{others}")
+        of_file = "" if ids is None else ", ".join(map(str, ids[hexes[:_MAX_LISTED]].tolist()))
+        text = f"{self._title}: {links}{others}"
+        self._links.setText(tr("{text} (in the file {ids})", text=text, ids=of_file) if of_file else text)
         self.setVisible(bool(self._hexes))
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.mesh.file_ids import hex_ids
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, locked_hexes, rank_worst
 from hexmend_app.state.mesh.metric_cache import metric_values
@@ -26,12 +27,15 @@ class WorstHexes:
         Values of the metric, and scaled Jacobians.
     states : list of str
         "locked" if fixed nodes alone keep the hex inverted, "inverted" for other inverted hexes, else "".
+    ids : (k,) int, optional
+        Numbers of the hexes in the file; None if that counts from 0 too, or has none.
     """
 
     hexes: np.ndarray
     values: np.ndarray
     jacobians: np.ndarray
     states: list[str]
+    ids: np.ndarray | None = None
 
     @classmethod
     def of(cls, mesh: Mesh, figures: ElementQuality, metric: str) -> WorstHexes:
@@ -41,4 +45,6 @@ class WorstHexes:
         inverted = figures.inverted[worst]
         locked = locked_hexes(mesh.points, mesh.hexes[worst], mesh.fixed, inverted)
         states = np.where(locked, "locked", np.where(inverted, "inverted", "")).tolist()
-        return cls(worst, values[worst], figures.scaled_jacobian[worst], states)
+        ids = hex_ids(mesh)
+        of_file = None if ids is None else ids[worst]
+        return cls(worst, values[worst], figures.scaled_jacobian[worst], states, of_file)

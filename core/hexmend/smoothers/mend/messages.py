@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.mesh.file_ids import hex_ids, with_ids
+from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.smoothers.mend.maxmin import locked_below
 from hexmend.terminal_text import count_phrase
@@ -59,16 +61,16 @@ def limit_message(optimiser: MaxMinOptimiser, active: ActiveCorners) -> str:
         subject = f"it is limited by {count} corners at {places} separate places, in the hexes"
     measure = optimiser.corners.measure
     least = f"The least {measure.title} of the corners that can be moved is {measure.text(active.least)}"
-    sentence = f"{least}: {subject} {_first_hexes(active.hexes)}."
+    sentence = f"{least}: {subject} {_first_hexes(optimiser.mesh, active.hexes)}."
     locked = locked_below(optimiser, active)
     if not locked.size:
         return sentence
     which = "One corner is" if locked.size == 1 else f"{locked.size:,} corners are"
     lowest = optimiser.corners.values.ravel()[locked[0]]
-    where = _first_hexes(locked[:1] // 8)
+    where = _first_hexes(optimiser.mesh, locked[:1] // 8)
     return f"{sentence} {which} locked below that: {measure.text(lowest)} at the lowest, in hex {where}."
 
 
-def _first_hexes(hexes: np.ndarray) -> str:
-    """List the numbers of the first eight, each once."""
-    return ", ".join(f"{number:,}" for number in dict.fromkeys(hexes[:8].tolist()))
+def _first_hexes(mesh: Mesh, hexes: np.ndarray) -> str:
+    """List the numbers of the first eight, each once, with those of the file."""
+    return with_ids(list(dict.fromkeys(hexes[:8].tolist())), hex_ids(mesh))

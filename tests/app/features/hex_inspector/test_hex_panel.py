@@ -7,7 +7,7 @@ from PySide6.QtGui import QTextDocumentFragment
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
 
-from hexmend.quality import describe_hex, measure
+from hexmend.quality import describe_hex, describe_node, measure
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from tests.core.grids import grid, scrambled
 
@@ -42,6 +42,20 @@ def test_a_hex_is_shown_with_metrics_nodes_and_neighbours(panel):
     assert all(any(f">{node:,}<" in text for text in shown) for node in details.nodes)
     assert f"{details.values['q']:.4f}" in shown
     assert shown.count("free") + shown.count("fixed") == 8
+
+
+def test_the_numbers_of_the_file_are_named_too(panel):
+    ids = {"hex_data": {"id": np.arange(MESH.n_hexes) + 501}, "node_data": {"id": np.arange(MESH.n_nodes) + 1001}}
+    mesh = MESH.replace(**ids)
+    node = int(mesh.hexes[WORST][0])
+    panel.show_hex(describe_hex(mesh, WORST))
+    panel.show_node(describe_node(mesh, node))
+    shown = texts(panel)
+    assert any(text.startswith(f"Number in the file: {WORST + 501}<br>") for text in shown)
+    assert any(text.startswith(f"Node {node:,} ({node + 1001} in the file): ") for text in shown)
+    from_zero = MESH.replace(hex_data={"id": np.arange(MESH.n_hexes)})
+    panel.show_hex(describe_hex(from_zero, WORST))
+    assert not any("in the file:" in text for text in texts(panel))
 
 
 def neighbours(panel):

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QComboBox, QLabel, QPushButton, Q
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.hex_inspector.worst_file import write_worst
 from hexmend_app.features.hex_inspector.worst_list import WorstList
+from hexmend_app.features.hex_inspector.worst_model import ID
 from hexmend_app.state.mesh.worst_hexes import MAX_LISTED
 from tests.core.grids import grid, scrambled
 
@@ -53,6 +54,19 @@ def test_the_list_is_bounded_and_sorted_by_its_metric(worst_list, name):
     assert np.sort(keys)[: len(hexes)].tolist() == listed.tolist()
     equal = listed[1:] == listed[:-1]
     assert (np.diff(FIGURES.scaled_jacobian[hexes])[equal] >= 0).all()
+
+
+def test_the_numbers_of_the_file_have_a_column_where_it_has_some(worst_list, tmp_path):
+    table = worst_list.findChild(QTableView)
+    assert table.isColumnHidden(ID)
+    mesh = MESH.replace(hex_data={"id": np.arange(MESH.n_hexes)[::-1] + 7})
+    worst_list.set_figures(mesh, FIGURES)
+    assert not table.isColumnHidden(ID)
+    worst = int(worst_list.hexes[0])
+    assert table.model().index(0, ID).data() == str(MESH.n_hexes - 1 - worst + 7)
+    write_worst(tmp_path / "worst.csv", mesh)
+    head, first = (tmp_path / "worst.csv").read_text().splitlines()[:2]
+    assert (head.split(",")[-1], first.split(",")[-1]) == ("id", str(MESH.n_hexes - 1 - worst + 7))
 
 
 def test_an_inverted_hex_with_good_q_is_listed_after_worse_hexes(worst_list):

@@ -52,7 +52,7 @@ def run(args: argparse.Namespace) -> int:
         return 0
     print_summaries(args.mesh, [""], [summary])
     if locking is not None:
-        _print_locked(args, locking)
+        _print_locked(args, mesh, locking)
     if mesh.materials is not None:
         _print_materials(mesh)
     if second_order is not None:
@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
         print_spreads(metrics)
     checks = None if solver is None else _print_checks(mesh, solver, quality)
     findings = _examine(mesh, args.doctor, second_order)
-    _print_problems(args, findings)
+    _print_problems(args, mesh, findings)
     print(printable(Judgement.of(args.mesh, quality, locking, findings, checks, second_order).line))
     return 0
 
@@ -169,23 +169,23 @@ def _locking(mesh: Mesh, quality: ElementQuality) -> Locking | None:
     return found if found.hexes.size else None
 
 
-def _print_locked(args: argparse.Namespace, locking: Locking) -> None:
+def _print_locked(args: argparse.Namespace, mesh: Mesh, locking: Locking) -> None:
     """Print how many locked hexes sliding frees, and with --doctor the proofs for the others."""
     print(f"{locking.phrase}.")
     if args.doctor:
         for corner in locking.corners[:_MAX_PLACES]:
-            print(f"      {corner.sentence}")
+            print(f"      {corner.describe(mesh)}")
         more = len(locking.corners) - _MAX_PLACES
         if more > 0:
             print(f"      ... and {more:,} more corners; --json lists them all.")
 
 
-def _print_problems(args: argparse.Namespace, findings: Sequence[Finding]) -> None:
+def _print_problems(args: argparse.Namespace, mesh: Mesh, findings: Sequence[Finding]) -> None:
     if args.doctor and not findings:
         print("The doctor finds no problems. Use hexmend smooth to improve the shape of hexes.")
     for finding in findings:
         print(f"note: {finding.message} {finding.remedy}".rstrip())
         if args.doctor and finding.location_text():
-            print(f"      {finding.location_text(_MAX_PLACES)}")
+            print(f"      {finding.location_text(_MAX_PLACES, mesh)}")
         if args.doctor and finding.mendable:
             print(f"      hexmend repair {args.mesh} -o OUT --only {finding.kind}")

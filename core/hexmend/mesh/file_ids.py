@@ -1,0 +1,38 @@
+"""Numbers that the file of a mesh gives to its hexes and nodes, for messages about them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from hexmend.mesh.mesh import Mesh
+
+#: Name of the node and hex data that hold the numbers of the file.
+ID = "id"
+
+
+def hex_ids(mesh: Mesh) -> np.ndarray | None:
+    """Return the file's numbers of the hexes, (m,) int; None if it has none, or counts from 0 as well."""
+    return _ids(mesh.hex_data.get(ID), mesh.n_hexes)
+
+
+def node_ids(mesh: Mesh) -> np.ndarray | None:
+    """Return the file's numbers of the nodes, (n,) int; None if it has none, or counts from 0 as well."""
+    return _ids(mesh.node_data.get(ID), mesh.n_nodes)
+
+
+def with_ids(numbers: Sequence[int] | np.ndarray, ids: np.ndarray | None) -> str:
+    """List numbers, with those of the file if there are any.
+
+    >>> with_ids([0, 2], None), with_ids([0, 2], np.array([501, 502, 503]))
+    ('0, 2', '0, 2 (in the file 501, 503)')
+    """
+    own = ", ".join(f"{number:,}" for number in numbers)
+    return own if ids is None else f"{own} (in the file {', '.join(map(str, ids[numbers].tolist()))})"
+
+
+def _ids(values: np.ndarray | None, count: int) -> np.ndarray | None:
+    if values is None or values.shape != (count,) or values.dtype.kind not in "iu":
+        return None
+    return None if np.array_equal(values, np.arange(count)) else values
