@@ -187,3 +187,12 @@ def test_no_command_overwrites_a_file_that_the_deck_includes(deck, words, capsys
     assert main([command, str(deck), "-o", str(deck.with_name("nodes.inp")), *options]) == 3
     assert "nodes.inp: is included by deck.inp. Choose another name." in capsys.readouterr().err
     assert before == {path.name: path.read_bytes() for path in deck.parent.iterdir()}
+
+
+def test_what_is_not_read_but_kept_in_the_copy_is_called_so(tmp_path, capsys):
+    deck = tmp_path / "deck.inp"
+    io.write(deck, make("cube", size=8))
+    deck.write_text(deck.read_text() + "*MATERIAL, NAME=STEEL\n")
+    for out, note in (("out.inp", "Kept without being read: "), ("out.vtu", "Not read: ")):
+        assert main(["smooth", str(deck), "-o", str(tmp_path / out)]) == 0
+        assert f"hexmend: {note}keywords that define no mesh (*MATERIAL)." in capsys.readouterr().err

@@ -6,13 +6,23 @@ import sys
 
 from hexmend.doctor import examine
 from hexmend.io import unsupported_data
+from hexmend.io.coordinates.unread import unread_content
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 
 
-def print_notes(mesh: Mesh) -> None:
-    """Print the changes that were made to the mesh on reading."""
+def print_notes(mesh: Mesh, keeps_unread: bool = False) -> None:
+    """Print the changes that were made to the mesh on reading.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    keeps_unread : bool
+        The output is a copy of the file, which keeps what was not read.
+    """
     for note in mesh.notes:
+        for content in unread_content([note]) if keeps_unread else ():
+            note = f"Kept without being read: {content}."
         print(f"hexmend: {note}", file=sys.stderr)
 
 

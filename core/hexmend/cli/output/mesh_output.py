@@ -41,9 +41,14 @@ class MeshOutput:
         self._original = None if rewrite else Original(Path(source), mesh)
         check_not_included(path, source)  # before the run, and not after it
 
+    @property
+    def replaces_coordinates(self) -> bool:
+        """True if the output is to be a copy of the source with other coordinates."""
+        return replaces_coordinates(self.path, self._original)
+
     def warn_of_losses(self, mesh: Mesh) -> None:
         """Print a warning for each part of the mesh that is lost; none is where coordinates are replaced."""
-        if not replaces_coordinates(self.path, self._original):
+        if not self.replaces_coordinates:
             warn_of_losses(self.path, mesh, self._source)
 
     def write(self, mesh: Mesh) -> str:
@@ -55,7 +60,7 @@ class MeshOutput:
             Where the file cannot be written. If the given file would be overwritten and has changed meanwhile, or
             would lose content, the mesh is saved beside it where `spare` says so.
         """
-        expected = replaces_coordinates(self.path, self._original)
+        expected = self.replaces_coordinates
         try:
             written = write_as_given(self.path, mesh, self._original)
         except (ChangedFileError, IncludedFileError, LostContentError) as error:

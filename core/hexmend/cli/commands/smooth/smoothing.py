@@ -50,9 +50,9 @@ def run(args: argparse.Namespace) -> int:
     check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
     rings = _rings(args)
     mesh = read(args.mesh, as_is=args.as_is)
-    print_notes(mesh)
-    print_problems(args.mesh, mesh)
     output = MeshOutput(args.output, args.mesh, mesh, args.rewrite)
+    print_notes(mesh, output.replaces_coordinates)
+    print_problems(args.mesh, mesh)
     output.warn_of_losses(mesh)
     pinned = mesh.pinned  # as in the file, for the output: --only holds for this run alone
     mesh = with_rules(mesh, motion_rules(args))
