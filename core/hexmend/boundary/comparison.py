@@ -18,6 +18,10 @@ from hexmend.terminal_text import count_phrase
 _MOVE_TOLERANCE = 1e-9
 
 
+#: Largest deviation in mean edge lengths, and largest relative change of the volume, that are rounding errors.
+_ROUNDING = 1e-10
+
+
 @dataclass(frozen=True)
 class SurfaceChange:
     """Change of a mesh's boundary by smoothing.
@@ -72,11 +76,22 @@ class SurfaceChange:
     @property
     def sentence(self) -> str:
         """Description of the change as a sentence."""
+        change = self._distance
+        if abs(self.volume_change) > _ROUNDING:
+            change += f"; its volume changed by {100 * self.volume_change:+.2g} %"
+        if self.features:
+            edges = count_phrase(self.features, "sharp edge")
+            change += f"; {self.features_kept:,} of {edges} {'is' if self.features_kept == 1 else 'are'} kept"
+        return f"{self._motion} {change}."
+
+    @property
+    def _distance(self) -> str:
+        """Distance of the boundary from the surface or from its earlier shape, as a clause."""
+        if self.max <= _ROUNDING:
+            return f"it is on {self.reference}" if self.reference else "it has kept its shape"
         return (
-            f"{self._motion} it is at most {self.max:.2g} mean edge lengths ({self.max_percent_of_diagonal:.2g} % of "
-            f"the diagonal) from {self.reference or 'where it was'}, {self.mean:.2g} in the mean; its volume changed "
-            f"by {100 * self.volume_change:+.2g} %; {self.features_kept:,} of "
-            f"{count_phrase(self.features, 'sharp edge')} {'is' if self.features_kept == 1 else 'are'} kept."
+            f"it is at most {self.max:.2g} mean edge lengths ({self.max_percent_of_diagonal:.2g} % of the diagonal) "
+            f"from {self.reference or 'where it was'}, {self.mean:.2g} in the mean"
         )
 
     @property

@@ -80,7 +80,7 @@ class Departures:
             count_phrase(patch, "node has left its patch", "nodes have left their patches"),
         ]
         clauses = ", ".join(text for count, text in zip((corners, curve, patch), left, strict=True) if count)
-        return f"Where the boundary held hexes down, {clauses}, by at most {self.max:.2g} mean edge lengths."
+        return f"For the sake of the worst hexes, {clauses}, by at most {self.max:.2g} mean edge lengths."
 
     def to_dict(self) -> dict[str, float | int | list[int]]:
         """Return the values by name: counts, the largest distance in mean edge lengths, and the nodes."""

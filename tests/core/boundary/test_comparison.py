@@ -1,5 +1,7 @@
 """Distances of boundaries against brute force and known values."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -42,6 +44,12 @@ def test_nothing_has_changed_where_nothing_moved():
     assert change.features == change.features_kept > 0
     inside = surface_change(mesh, mesh.with_points(mesh.points + 0.1 * mesh.free[:, None]))
     assert inside.to_dict() == change.to_dict()
+    edges = f"; {change.features} of {change.features} sharp edges are kept."
+    assert change.sentence == f"The boundary could slide, but none of its nodes moved: it has kept its shape{edges}"
+    smooth = replace(change, features=0, moved=3, max_distance=1e-15, volume_change=-1e-16)
+    assert smooth.sentence == "The boundary slid: 3 of its nodes moved; it has kept its shape."
+    assert replace(smooth, reference="new.stl").sentence.endswith("moved; it is on new.stl.")
+    assert replace(smooth, volume_change=-0.01).sentence.endswith("; its volume changed by -1 %.")
 
 
 @given(st.floats(0.01, 0.4))
