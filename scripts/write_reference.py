@@ -68,6 +68,8 @@ def _value(one: argparse.Action) -> str:
         return ""
     if one.choices is not None and one.metavar is None:
         return "{" + ",".join(map(str, one.choices)) + "}"
+    if isinstance(one.metavar, tuple):  # of an option with several values
+        return " ".join(one.metavar)
     return str(one.metavar or one.dest.upper())
 
 

@@ -190,3 +190,17 @@ def test_the_folder_is_called_after_the_recipe(laboratory, monkeypatch, capsys):
     (task,) = os.listdir("recipe/tasks")
     assert json.loads((laboratory.folder / "recipe/tasks" / task).read_text())["answer"]["status"] == "done"
     assert "1 tasks: 1 done now" in capsys.readouterr().out
+
+
+def test_a_folder_stands_for_its_meshes(laboratory, monkeypatch, capsys):
+    (laboratory.folder / "meshes/fine").mkdir(parents=True)
+    for name in ("meshes/a.vtk", "meshes/fine/b.vtk"):
+        laboratory.mesh(name, seed=len(name))
+    (laboratory.folder / "meshes/notes.txt").write_text("not a mesh")
+    (laboratory.folder / "empty").mkdir()
+    laboratory.recipe('methods = ["laplacian"]')
+    monkeypatch.chdir(laboratory.folder)
+    assert main(["study", "recipe.toml", "meshes"]) == 0
+    assert "2 tasks: 2 done now" in capsys.readouterr().out
+    assert main(["study", "recipe.toml", "empty"]) == 3
+    assert "no mesh is in this folder" in capsys.readouterr().err

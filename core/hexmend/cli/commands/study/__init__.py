@@ -21,7 +21,7 @@ class StudyCommand:
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         text = "the recipe of a study of meshes; thesis: the tables of Chapter 4 and outlooks of 5.2"
         parser.add_argument("study", metavar="RECIPE.toml|thesis", help=text)
-        parser.add_argument("meshes", metavar="MESH", nargs="*", help="recipe: the meshes")
+        parser.add_argument("meshes", metavar="MESH", nargs="*", help="recipe: the meshes, or folders of meshes")
         text = "folder of the report (recipe: its name if not given)"
         parser.add_argument("-o", "--output", metavar="DIR", help=text)
         text = "thesis: small meshes and a few seconds per run: minutes in place of hours"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from hexmend import __version__
@@ -19,6 +20,7 @@ from hexmend.study.batch.plan import read_plan
 from hexmend.study.batch.runner import StudyResult, Workers, run_study
 from hexmend.study.batch.store import Store
 from hexmend.study.batch.table_columns import COLUMNS
+from hexmend.study.bench.collection import find_meshes
 from hexmend.study.bench.sections import machine
 from hexmend.terminal_text import printable
 
@@ -31,19 +33,24 @@ def run(args: argparse.Namespace) -> int:
     plan = read_plan(args.study)
     if not args.meshes:
         raise ParameterError(f"{args.study}: no mesh is named for this study: add MESH...")
-    workers = _workers(args)
+    workers, meshes = _workers(args), _meshes(args.meshes)
     folder = output_folder(args.output or Path(args.study).stem)
     store = Store(output_folder(folder / "tasks"))
     meshes_to = output_folder(folder / "meshes") if args.write_meshes else None
     with FinishWriting():
         with CleanExit() as signals, TaskProgress() as progress:
             options = {"again": args.again, "meshes_to": meshes_to, "watch": progress.show}
-            meshes = [Path(mesh) for mesh in args.meshes]
             study = run_study(plan, meshes, store, workers, version=__version__, **options)
         _write_report(folder, study)
     if study.interrupted:
         return signals.status
     return 3 if study.progress.failed else 0
+
+
+def _meshes(names: Sequence[str]) -> list[Path]:
+    """Return the meshes, and those in folders; a file that cannot be read is a row of the table, and no error here."""
+    listed = [find_meshes([Path(name)]) if Path(name).is_dir() else [Path(name)] for name in names]
+    return [mesh for meshes in listed for mesh in meshes]
 
 
 def _workers(args: argparse.Namespace) -> Workers:
