@@ -308,6 +308,9 @@ def suggestion(name: str, known: Iterable[str]) -> str:
 
     >>> suggestion("inlett", ["inlet", "wall"]), suggestion("x", ["inlet"])
     ('did you mean inlet? ', '')
+    >>> suggestion("base", ["BASE", "phase"])
+    'did you mean BASE? '
     """
-    near = difflib.get_close_matches(name, list(known), n=1)
-    return f"did you mean {near[0]}? " if near else ""
+    names = {one.casefold(): one for one in known}
+    near = difflib.get_close_matches(name.casefold(), names, n=1)
+    return f"did you mean {names[near[0]]}? " if near else ""

@@ -49,6 +49,10 @@ class Registry(Mapping[str, T], Generic[T]):
         self._entries[name] = entry
         return entry
 
+    def __repr__(self) -> str:
+        """List the names, for a prompt."""
+        return f"<{self.kind}s: {', '.join(self)}>"
+
     def __getitem__(self, name: str) -> T:
         try:
             return self._entries[name] if name in self._entries else self._all()[name]

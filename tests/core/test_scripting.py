@@ -157,3 +157,12 @@ def test_a_name_that_is_nearly_right_is_suggested():
 def test_there_is_nothing_to_know_of_a_hex_or_node_that_does_not_exist(number):
     with pytest.raises(MeshError, match="expected a whole number from 0 to"):
         describe_hex(MESH, number)
+
+
+def test_a_mesh_in_the_wrong_place_is_named_with_the_right_one(tmp_path):
+    mesh = hx.gallery.make("cube", size=8)
+    with pytest.raises(TypeError, match=r"given Mesh and str: expected a path, then a hexmend\.Mesh"):
+        hx.write(mesh, str(tmp_path / "a.vtu"))
+    with pytest.raises(TypeError, match=r"that of a result is result\.mesh"):
+        hx.smooth(hx.smooth(mesh))
+    assert repr(hx.METRICS).startswith("<metrics: q, scaled-jacobian, ")

@@ -103,7 +103,14 @@ def write(
     FileError
         For an unknown suffix or encoding, where the file cannot be written, and for a mesh that differs from that of
         `like` in more than its coordinates.
+    TypeError
+        Where `mesh` is no mesh.
     """
+    if not isinstance(mesh, Mesh):
+        raise TypeError(
+            f"write(path, mesh) was given {type(path).__name__} and {type(mesh).__name__}: expected a "
+            "path, then a hexmend.Mesh, such as result.mesh"
+        )
     path = Path(path)
     if like is not None:
         with file_operation(path, FileAction.WRITING):

@@ -97,23 +97,34 @@ def smooth(
 
     Parameters
     ----------
-    mesh, method, stop, **settings
-        See `iterate`.
+    mesh : Mesh or path
+        A mesh, which is not changed, or the path of a file.
+    method : Smoother, Recipe or str
+        A method, the name of one to be used with its defaults (see `hexmend.METHODS`), or a recipe.
+    stop : StoppingCriteria, optional
+        Limits; for a recipe they replace those of every stage.
     progress : bool or callable, optional
         By default a run of more than half a second shows a bar on a terminal (on standard error) and in a notebook.
         True shows its progress elsewhere too, a line every few seconds; False shows nothing; a function is called with
         each iteration.
     watch : callable, optional
         Called with each iteration; the run is stopped if it returns False.
+    **settings
+        Parameters of the method (`boundary`, `goal`, `target`, ...), limits (`max_iterations`, `max_seconds`,
+        `tolerance`, ...) and rules of motion (`fix`, `slide`, `free`, `plane`, `periodic`, `interfaces`) by name; see
+        `iterate`.
 
     Returns
     -------
     Result
+        With the mesh, `result.mesh`, and its summaries before and after.
 
     Raises
     ------
-    ParameterError, FileError, MeshError
-        See `iterate`.
+    ParameterError
+        For a method or a name that does not exist, and a value out of bounds; the message suggests the nearest name.
+    FileError, MeshError
+        If the file cannot be read.
 
     Examples
     --------
@@ -138,7 +149,8 @@ def _read(mesh: Mesh | str | os.PathLike[str]) -> Mesh:
     if isinstance(mesh, Mesh):
         return mesh
     if not isinstance(mesh, str | os.PathLike):
-        raise TypeError(f"{type(mesh).__name__} is not a mesh: expected a hexmend.Mesh or the path of a file")
+        own = "; that of a result is result.mesh" if isinstance(mesh, Result) else ""
+        raise TypeError(f"{type(mesh).__name__} is not a mesh: expected a hexmend.Mesh or the path of a file{own}")
     from hexmend.io import read  # the formats are not loaded for a mesh in memory
 
     return read(mesh)
