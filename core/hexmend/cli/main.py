@@ -28,6 +28,22 @@ if TYPE_CHECKING:
 
     from hexmend.cli.command import Command
 
+#: The commands in the order of the help: those of each day first. Others follow.
+_ORDER = (
+    "info",
+    "smooth",
+    "compare",
+    "repair",
+    "pad",
+    "view",
+    "render",
+    "film",
+    "report",
+    "figures",
+    "study",
+    "gallery",
+)
+
 #: The command that is run for a mesh file without a command, or without any arguments.
 _DEFAULT = "view"
 
@@ -160,9 +176,10 @@ def _help(loaders: dict[str, Callable[[], Command]]) -> int:
     print("hexmend: see a hexahedral mesh, and mend it while you watch.\n")
     print("usage: hexmend [MESH]              open the viewer")
     print("       hexmend COMMAND --help      options of a command\n")
-    for name, load in loaders.items():
+    names = [name for name in _ORDER if name in loaders]
+    for name in [*names, *(name for name in loaders if name not in names)]:
         try:
-            print(f"  {name:<10} {load().help}")
+            print(f"  {name:<10} {loaders[name]().help}")
         except ImportError:
             print(f"  {name:<10} not installed: {install_hint('app')}")
     return 0

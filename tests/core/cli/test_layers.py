@@ -32,6 +32,8 @@ def test_smooth_keeps_layers_and_says_so(cylinder, tmp_path, capsys):
     printed = capsys.readouterr()
     assert "Boundary layers at 'wall 1' are kept." in printed.err
     assert "Layers at 'wall 1' (20 layers on " in printed.out
+    (row,) = [line.split() for line in printed.out.splitlines() if "q of target min" in line]
+    assert float(row[-1]) == pytest.approx(json.loads(report.read_text())["q_of_target"][1], abs=1e-4)
     values = json.loads(report.read_text())
     assert values["target"] == "given-shape"
     assert values["layers"][0]["after"]["first_height_mean"] == pytest.approx(1e-4, rel=0.01)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from hexmend.cli.process.terminal import shows_colours
 from hexmend.quality import METRICS, REGRESSION_KEYS, SUMMARY_QUANTITIES, MetricStatistics, Summary, regressions
-from hexmend.quantity import format_count
+from hexmend.quantity import format_count, format_quality
 from hexmend.terminal_text import WorsenedText, printable
 
 
@@ -22,7 +22,7 @@ def print_summaries(
         Heads of the columns, one for each summary.
     summaries : sequence of Summary
     target_q : (float, float), optional
-        Of a run with a target: see `hexmend.quality.regressions`.
+        Least q of the target before and after a run with one, which gets a row: with a target q(H) may well fall.
     """
     print(printable(title))
     columns = [
@@ -36,6 +36,8 @@ def print_summaries(
         ]
         for figure in SUMMARY_QUANTITIES.values()
     ]
+    if target_q is not None:
+        rows.append(["q of target min", *(format_quality(q) for q in target_q)])
     print_columns(["", *heads] if len(heads) > 1 else None, rows)
 
 
