@@ -183,11 +183,14 @@ def _rise_on(path: CentralPath, target: Least, config: BalanceConfig) -> Iterato
 
 def _message(path: CentralPath, top: Least, mean_without: float) -> str:
     """Say which floors hold, and what they cost: the mean of q(H) at the optimum of shape is higher, without them."""
-    kept, mean = path.least, path.energy.mean(measure(path.points, path.energy.mesh.hexes).q)
+    kept, quality = path.least, measure(path.points, path.energy.mesh.hexes)
+    mean, fixed = path.energy.mean(quality.q), float(quality.scaled_jacobian.min())
     message = (
         f"The least scaled Jacobian of the corners that can be moved can be {top.jacobian:.4f}; it is kept at "
         f"{kept.jacobian:.4f} at least, and the least q(H) at {kept.quality:.4f}."
     )
+    if 0 < fixed < kept.jacobian - 5e-5:
+        message += f" A corner that cannot be moved has {fixed:.4f}."
     cost = mean_without - mean
     if cost < _COSTS:
         return message

@@ -233,3 +233,12 @@ def test_where_much_is_gained_the_least_comes_near_that_of_its_own_goal(real_mes
     mesh = read(real_mesh("rockerarm_2.mesh"))
     balanced, highest = (smooth(mesh, Mend(goal=goal)).after for goal in ("balanced", "scaled-jacobian"))
     assert balanced.scaled_jacobian_min >= 0.95 * highest.scaled_jacobian_min
+
+
+def test_the_least_of_the_table_is_explained_where_it_is_at_a_fixed_corner():
+    tangled = smooth(make("bridge-sharp", size=864, scramble=0.4, seed=1), Mend())
+    least = tangled.after.scaled_jacobian_min
+    movable = movable_least(tangled.mesh, tangled.mesh.points).jacobian
+    assert 0 < least < movable - 1e-3
+    assert f" A corner that cannot be moved has {least:.4f}." in tangled.message
+    assert "cannot be moved" not in smooth(make("cube", size=64, scramble=0.4), Mend()).message
