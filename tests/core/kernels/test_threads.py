@@ -202,10 +202,11 @@ for delay in (0.01, 0.013, 0.021, 0.034, 0.05):
     assert program(BEGIN + interrupted).split() == ["interrupted", "True"] * 5
 
 
-def test_the_bench_says_threads_and_build():
+def test_the_bench_says_threads_build_and_system_without_its_version():
     from hexmend.study.bench.sections import machine
 
     assert (machine()["threads"], machine()["kernels"]) == (kernels.threads(), kernels.BUILD)
+    assert machine()["system"].isalpha()
 
 
 def test_a_build_that_there_is_not_is_said_plainly():

@@ -63,7 +63,7 @@ def machine() -> dict[str, Any]:
         "cores": os.cpu_count(),
         "threads": kernels.threads(),
         "kernels": kernels.BUILD,
-        "system": platform.platform(),
+        "system": platform.system(),
         "python": platform.python_version(),
         "numpy": np.__version__,
     }
