@@ -152,9 +152,11 @@ class StageRun:
 
     def _size(self, moves: np.ndarray) -> float:
         """Size of the largest of some moves (n, 3), in mean edge lengths or, with a target, in lengths at each node."""
-        sizes = self._node_sizes
+        sizes, by_length = self._node_sizes, self.stage.stop.move == "length"
+        if not isinstance(sizes, np.ndarray) and not by_length:  # division keeps the order of numbers
+            return float(max(moves.max(), -moves.min()) / sizes)
         relative = moves / (sizes[:, None] if isinstance(sizes, np.ndarray) else sizes)
-        return largest_norm(relative) if self.stage.stop.move == "length" else float(np.abs(relative).max())
+        return largest_norm(relative) if by_length else float(np.abs(relative).max())
 
     def set_limits(self, stop: StoppingCriteria) -> None:
         """Continue with other limits."""
