@@ -101,6 +101,11 @@ def absolute_tolerance(mesh: Mesh, tolerance: float | str) -> float:
     return (AUTO_TOLERANCE if tolerance == AUTO else float(tolerance)) * mesh.mean_edge_length
 
 
+def moving(nodes: np.ndarray, stays: np.ndarray) -> np.ndarray:
+    """Return the nodes (k,) that do not have to stay, stays (n,) bool; the same array if none of all nodes has to."""
+    return nodes[~stays[nodes]] if stays.any() else nodes
+
+
 class Sweeps:
     """Sweeps that move node after node and keep the boundary in the band around the surface.
 

@@ -12,7 +12,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Steps, Sweep, method
 from hexmend.smoothers.laplacian.constrained_means import ConstrainedMeans
-from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps
+from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps, moving
 
 
 @method
@@ -45,7 +45,7 @@ class SmartLaplacian(SlidingSmoother):
         points, sweeps = mesh.points, Sweeps(sliding, mesh.n_nodes)
 
         def sweep(moved: np.ndarray, stays: np.ndarray) -> int:
-            may_move, keep = nodes[~stays[nodes]], self.guard == "quality"
+            may_move, keep = moving(nodes, stays), self.guard == "quality"
             return kernels.smart_sweep(moved, hex_mesh, ring.start, ring.items, may_move, keep, surface)
 
         yield Step(points)

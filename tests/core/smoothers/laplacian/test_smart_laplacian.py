@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend.gallery import make
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, slid
@@ -49,3 +50,22 @@ def test_where_no_move_does_harm_every_node_goes_to_the_mean_of_its_neighbours()
     step = next(smart)
     assert step.diagnostics["rejected_steps"] == 0
     np.testing.assert_array_equal(step.points, next(plain).points)
+
+
+@pytest.mark.parametrize("guard", ["inversion", "quality"])
+def test_a_sweep_rejects_the_moves_that_harm_one_of_all_hexes_at_the_node(guard):
+    mesh = scrambled(make("five-side", size=250), 0.9, 5)
+    assert np.diff(mesh.topology.node_corners.start)[mesh.free].max() > 8  # more than the lanes of a register
+    points, rejected = mesh.points.copy(), 0
+    for i in np.flatnonzero(mesh.free):
+        attached = mesh.hexes[mesh.topology.node_corners[i] // 8]
+        was, old = measure(points, attached), points[i].copy()
+        points[i] = points[mesh.topology.rings[i]].mean(axis=0)
+        now = measure(points, attached)
+        if (now.inverted & ~was.inverted).any() or (guard == "quality" and now.q.min() < was.q.min()):
+            points[i], rejected = old, rejected + 1
+    steps = Smart(guard=guard).steps(mesh)
+    next(steps)
+    step = next(steps)
+    assert 0 < rejected == step.diagnostics["rejected_steps"]
+    np.testing.assert_allclose(step.points, points, rtol=1e-12)
