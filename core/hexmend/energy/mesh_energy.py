@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -18,7 +17,7 @@ from hexmend.energy.hex_energy import as_omitted_corners, energies
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.sparsity import BlockSparsity
-from hexmend.energy.target import wanted_lengths
+from hexmend.energy.target import TargetScales
 from hexmend.energy.workspace import Workspace
 from hexmend.kernels import local, step_limits
 from hexmend.kernels import objective as kernels
@@ -30,13 +29,9 @@ from hexmend.mesh.validation import points_like
 if TYPE_CHECKING:
     from hexmend.energy.quads.surface_term import SurfaceTerm
 
-#: Longest over shortest target length of a hex up to which single precision is enough for the Hessian: the terms of its
-#: directions differ by the square.
-_MAX_SINGLE_ASPECT = 30.0
-
 
 @reads_old_names
-class MeshEnergy:
+class MeshEnergy(TargetScales):
     """Sum of eta(H)^p over all hexes, which has the same minimisers as (3.3).
 
     The unit of length is the mean edge length of the given mesh, so that delta means the same on every mesh. With a
@@ -102,51 +97,6 @@ class MeshEnergy:
     def sparsity(self) -> BlockSparsity:
         """Sparsity pattern of the Hessian: pairs of free nodes that share a hex."""
         return BlockSparsity(self.mesh, workspace=self._workspace)
-
-    def _set_target(self, mesh: Mesh) -> None:
-        """Take over the target of a mesh with the same hexes."""
-        self._lengths = wanted_lengths(mesh)
-        self._weight = 0.0 if mesh.element_target is None else mesh.element_target.size_weight
-        self.target = None if self._lengths is None else TargetMatrices(self.unit / self._lengths, self._weight)
-        for name in ("hex_sizes", "node_lengths", "precision"):  # they follow from the lengths
-            self.__dict__.pop(name, None)
-
-    def without_size(self) -> MeshEnergy:
-        """Return the energy in which only the shape counts, with the scale of the present edges; itself if that is so.
-
-        In tangled layers sigma may be many times the volume that is wanted, so that the size would outweigh the shape.
-        """
-        target = self.mesh.element_target
-        if target is None or target.size_weight == 0:
-            return self
-        other = copy.copy(self)
-        other._set_target(self.mesh.with_element_target(replace(target, size_weight=0.0)))
-        return other
-
-    @cached_property
-    def hex_sizes(self) -> np.ndarray | float:
-        """Lengths, in the mesh's unit, to whose cubes sigma and delta of the hexes are relative: `unit`, or (m,)."""
-        return self.unit if self._lengths is None else np.cbrt(self._lengths.prod(axis=1))
-
-    @cached_property
-    def node_lengths(self) -> np.ndarray | None:
-        """Lengths of the targets at the free nodes, in mean edge lengths, (k, 1); None without a target.
-
-        Root mean squares of the inverse lengths are inverted: the shortest decide how far a node can move.
-        """
-        if self._lengths is None:
-            return None
-        squares, corners = np.square(self.unit / self._lengths).mean(axis=1), self.mesh.topology.node_corners
-        sums = np.bincount(self.mesh.hexes.ravel(), np.repeat(squares, 8), self.mesh.n_nodes)
-        return np.sqrt(np.diff(corners.start)[self.nodes] / sums[self.nodes])[:, None]
-
-    @cached_property
-    def precision(self) -> type:
-        """Precision in which the Hessian keeps its small terms: double where hexes are to be thin."""
-        if self._lengths is None:
-            return np.float32
-        aspect = (self._lengths.max(axis=1) / self._lengths.min(axis=1)).max(initial=1.0)
-        return np.float64 if aspect > _MAX_SINGLE_ASPECT else np.float32
 
     @property
     def cube_value(self) -> float:

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import copy
+from dataclasses import replace
+from functools import cached_property
+from typing import Self
+
 import numpy as np
 
 from hexmend.arrays import row_norms
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
+
+#: Longest over shortest target length of a hex up to which single precision is enough for the Hessian: the terms of its
+#: directions differ by the square.
+_MAX_SINGLE_ASPECT = 30.0
 
 #: Least size of a hex that counts, in mean edge lengths: edges may have no length.
 _MIN_SIZE = 1e-9
@@ -95,3 +104,70 @@ def node_sizes(mesh: Mesh) -> np.ndarray | float:
     for corner in mesh.hexes.T:
         np.minimum.at(sizes, corner, shortest)
     return sizes
+
+
+class TargetScales:
+    """Base of an energy: the lengths of its target, and what follows from them.
+
+    Attributes
+    ----------
+    mesh : Mesh
+    unit : float
+        Unit of length of the energy, in that of the mesh.
+    nodes : (k,) int32
+        Free nodes.
+    target : TargetMatrices or None
+        Of the mesh, in the energy's unit of length.
+    """
+
+    mesh: Mesh
+    unit: float
+    nodes: np.ndarray
+    target: TargetMatrices | None
+    _lengths: np.ndarray | None
+    _weight: float
+
+    def _set_target(self, mesh: Mesh) -> None:
+        """Take over the target of a mesh with the same hexes."""
+        self._lengths = wanted_lengths(mesh)
+        self._weight = 0.0 if mesh.element_target is None else mesh.element_target.size_weight
+        self.target = None if self._lengths is None else TargetMatrices(self.unit / self._lengths, self._weight)
+        for name in ("hex_sizes", "node_lengths", "precision"):  # they follow from the lengths
+            self.__dict__.pop(name, None)
+
+    def without_size(self) -> Self:
+        """Return the energy in which only the shape counts, with the scale of the present edges; itself if that is so.
+
+        In tangled layers sigma may be many times the volume that is wanted, so that the size would outweigh the shape.
+        """
+        target = self.mesh.element_target
+        if target is None or target.size_weight == 0:
+            return self
+        other = copy.copy(self)
+        other._set_target(self.mesh.with_element_target(replace(target, size_weight=0.0)))
+        return other
+
+    @cached_property
+    def hex_sizes(self) -> np.ndarray | float:
+        """Lengths, in the mesh's unit, to whose cubes sigma and delta of the hexes are relative: `unit`, or (m,)."""
+        return self.unit if self._lengths is None else np.cbrt(self._lengths.prod(axis=1))
+
+    @cached_property
+    def node_lengths(self) -> np.ndarray | None:
+        """Lengths of the targets at the free nodes, in mean edge lengths, (k, 1); None without a target.
+
+        Root mean squares of the inverse lengths are inverted: the shortest decide how far a node can move.
+        """
+        if self._lengths is None:
+            return None
+        squares, corners = np.square(self.unit / self._lengths).mean(axis=1), self.mesh.topology.node_corners
+        sums = np.bincount(self.mesh.hexes.ravel(), np.repeat(squares, 8), self.mesh.n_nodes)
+        return np.sqrt(np.diff(corners.start)[self.nodes] / sums[self.nodes])[:, None]
+
+    @cached_property
+    def precision(self) -> type:
+        """Precision in which the Hessian keeps its small terms: double where hexes are to be thin."""
+        if self._lengths is None:
+            return np.float32
+        aspect = (self._lengths.max(axis=1) / self._lengths.min(axis=1)).max(initial=1.0)
+        return np.float64 if aspect > _MAX_SINGLE_ASPECT else np.float32
