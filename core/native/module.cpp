@@ -2,6 +2,10 @@
 // processors that it is for. Arguments and results of kernels are described where they are bound, in bindings.
 #include <nanobind/nanobind.h>
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 #include "simd/lanes.hpp"
 #include "simd/threads.hpp"
 
@@ -24,6 +28,15 @@ NB_MODULE(HEXMEND_MODULE, m) {
     using namespace nb::literals;
     nb::set_leak_warnings(false);  // objects of meshes may live until the process ends
     m.attr("LANES") = hexmend::LANES;
+    m.def(
+        "release_free_memory",
+        [] {
+#ifdef __GLIBC__
+            malloc_trim(0);
+#endif
+        },
+        "Return free memory that the allocator retains to the system, where the C library can.",
+        nb::call_guard<nb::gil_scoped_release>());
     m.def("threads", &hexmend::threads, "Number of threads that run a loop of the calling thread.");
     m.def("set_threads", &hexmend::set_threads, "count"_a, "Set the number of threads of the calling thread.");
     m.def("set_default_threads", &hexmend::set_default_threads, "count"_a,

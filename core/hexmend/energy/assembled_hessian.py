@@ -155,7 +155,8 @@ class AssembledHessian(SymmetricOperator):
         b = self._to_slots(right, -exponent)  # scaling by a power of two is exact
         sparsity, x = self.sparsity, np.empty_like(b)
         coupled = sparsity.ranks.count > 1
-        size = kernels.workspace_size(self.order.size, sparsity.ghosts, coupled)
+        pattern = sparsity.pattern
+        size = kernels.workspace_size(pattern, sparsity.ghosts, coupled)
         coarse = sparsity.coarse_space if deflated else None
         if coarse is not None:
             size += kernels.coarse_workspace_size(coarse)
@@ -163,8 +164,9 @@ class AssembledHessian(SymmetricOperator):
         work = sparsity.workspace.array((size,), b.dtype.type)
         blocks = self.off_diagonal, self.diagonal
         count, end = kernels.solve(
-            sparsity.pattern, *blocks, damping, b, tolerance, iterations, x, work, *coupling, coarse=coarse
+            pattern, *blocks, damping, b, tolerance, iterations, x, work, *coupling, coarse=coarse
         )
+        del b
         solution = self._from_slots(x, exponent - self.exponent)
         return CGResult(solution, count, end is kernels.SolveStatus.NEGATIVE_CURVATURE)
 

@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.arrays import index_of
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.workspace import Workspace
-from hexmend.kernels import conjugate_gradients, ordering
+from hexmend.kernels import conjugate_gradients, ordering, release_free_memory
 from hexmend.kernels import sparsity as kernels
 from hexmend.kernels.assembly import HexShares
 from hexmend.kernels.conjugate_gradients import BlockPattern, CoarsePattern
@@ -82,28 +82,16 @@ class BlockSparsity:
         self._slot_of_node = index_of(self.nodes, mesh.n_nodes)
         slots = self._slot_of_node[mesh.hexes]
         with overflow_as_mesh_error("pairs of free nodes that share a hex"):
-            self.row_start, self.columns, target = kernels.pattern(
-                slots, self.nodes, corners.start, corners.items, MAX_ITEMS
-            )
+            self.row_start, self.columns = kernels.pattern(slots, self.nodes, corners.start, corners.items, MAX_ITEMS)
         self._hexes, self._topology = mesh.hexes, mesh.topology
-        self._rows = np.arange(mesh.n_hexes), target
         self._shares: tuple[int, HexShares | None] = 0, None
+        del slots
+        release_free_memory()  # before the blocks of the matrix take most of it
 
     @property
     def slots(self) -> np.ndarray:
         """Slot of each corner, -1 if it is fixed, (m, 8) int32."""
         return self._slot_of_node[self._hexes]
-
-    @property
-    def target(self) -> np.ndarray:
-        """Block to which each pair of a hex's corners contributes, (m, 28) uint16; see `hexmend.kernels.sparsity`.
-
-        It is put together from the rows in shares: a hex may be in two of them, and one that is fixed is in none.
-        """
-        hexes, rows = self._rows  # one read, as another thread may replace it
-        target = np.full((len(self._hexes), rows.shape[1]), np.iinfo(rows.dtype).max, rows.dtype)
-        target[hexes] = rows
-        return target
 
     def shares(self, count: int) -> HexShares:
         """The slots in `count` shares, and the hexes at the slots of each; those of the last count are kept."""
@@ -117,9 +105,8 @@ class BlockSparsity:
             lowest, highest = lowest[order], highest[order]
             there = [order[(lowest < high) & (highest >= low)] for low, high in itertools.pairwise(bounds)]
             start = np.cumsum([0, *map(len, there)], dtype=np.int32)
-            chosen = np.concatenate(there)
-            self._rows = chosen, target = chosen, self.target[chosen]
-            shares = HexShares(bounds, start, chosen, target, self._hexes, self._slot_of_node, self.row_start)
+            chosen, at = np.concatenate(there), self._slot_of_node
+            shares = HexShares(bounds, start, chosen, self._hexes, at, self.row_start, self.columns)
             self._shares = count, shares
         return shares
 

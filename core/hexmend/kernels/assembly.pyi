@@ -17,12 +17,11 @@ class HexShares:
     summed over its hexes in one order for any number of shares.
     """
 
-    def __init__(self, bounds: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], target: Annotated[NDArray[numpy.uint16], dict(shape=(None, 28), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], row_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+    def __init__(self, bounds: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], row_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], columns: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
-        Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: rows start[k] to start[k + 1] - 1 of
-        numbers, in the mesh, int32, and of target (.., 28) uint16, from `sparsity.pattern`. hexes (m, 8) int32
-        of the mesh; slots (n,) int32 of its nodes, -1 for fixed ones; row_start (k + 1,) int32. Arrays are not
-        copied.
+        Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: start[k] to start[k + 1] - 1 of numbers,
+        in the mesh, int32. hexes (m, 8) int32 of the mesh; slots (n,) int32 of its nodes, -1 for fixed ones;
+        row_start (k + 1,) and columns (blocks,) int32: `sparsity.pattern`. Arrays are not copied.
         """
 
 @overload

@@ -54,7 +54,7 @@ def coarse_workspace_size(coarse: CoarsePattern) -> int:
     Numbers that `solve` needs in its workspace for a coarse space, besides `workspace_size`.
     """
 
-def workspace_size(slots: int, ghosts: int = 0, coupled: bool = False) -> int:
+def workspace_size(pattern: BlockPattern, ghosts: int = 0, coupled: bool = False) -> int:
     """
     Numbers of the workspace of `solve`; `coupled`: with `sum` and `exchange`.
     """

@@ -59,21 +59,21 @@ void bind_assembly(nb::module_ m) {
                           "summed over its hexes in one order for any number of shares.")
         .def(
             "__init__",
-            [](HexShares *self, Indices bounds, Indices start, Indices numbers, BlockTargets target, Hexes hexes,
-               Indices slots, Indices row_start) {
+            [](HexShares *self, Indices bounds, Indices start, Indices numbers, Hexes hexes, Indices slots,
+               Indices row_start, Indices columns) {
                 expect(!bounds.empty() && start.size() == bounds.size(), "start: one for each of bounds is expected");
-                expect(target.size() == numbers.size(), "target: a row for each of numbers is expected");
                 expect(static_cast<std::int64_t>(row_start.size()) == bounds.back() + 1,
                        "row_start: one more than the slots is expected");
-                new (self) HexShares{bounds, start, numbers, target, hexes, slots, row_start};
+                expect(row_start.back() == static_cast<std::int64_t>(columns.size()),
+                       "columns: as many as the last of row_start are expected");
+                new (self) HexShares{bounds, start, numbers, hexes, slots, row_start, columns};
             },
-            "bounds"_a, "start"_a, "numbers"_a, "target"_a, "hexes"_a, "slots"_a, "row_start"_a, nb::keep_alive<1, 2>(),
-            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
-            nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(),
-            "Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: rows start[k] to start[k + 1] - 1 of\n"
-            "numbers, in the mesh, int32, and of target (.., 28) uint16, from `sparsity.pattern`. hexes (m, 8) int32\n"
-            "of the mesh; slots (n,) int32 of its nodes, -1 for fixed ones; row_start (k + 1,) int32. Arrays are not\n"
-            "copied.");
+            "bounds"_a, "start"_a, "numbers"_a, "hexes"_a, "slots"_a, "row_start"_a, "columns"_a,
+            nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
+            nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(),
+            "Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: start[k] to start[k + 1] - 1 of numbers,\n"
+            "in the mesh, int32. hexes (m, 8) int32 of the mesh; slots (n,) int32 of its nodes, -1 for fixed ones;\n"
+            "row_start (k + 1,) and columns (blocks,) int32: `sparsity.pattern`. Arrays are not copied.");
     bind_assemble<float>(m);
     bind_assemble<double>(m);
 }

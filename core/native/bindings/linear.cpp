@@ -109,7 +109,7 @@ void bind_conjugate_gradients(nb::module_ m) {
           "`Topology.node_corners`. All are int32.");
     m.def("coarse_workspace_size", &coarse_workspace_size, "coarse"_a,
           "Numbers that `solve` needs in its workspace for a coarse space, besides `workspace_size`.");
-    m.def("workspace_size", &workspace_size, "slots"_a, "ghosts"_a = 0, "coupled"_a = false,
+    m.def("workspace_size", &workspace_size, "pattern"_a, "ghosts"_a = 0, "coupled"_a = false,
           "Numbers of the workspace of `solve`; `coupled`: with `sum` and `exchange`.");
     bind_for<float>(m);
     bind_for<double>(m);
@@ -129,11 +129,9 @@ void bind_sparsity(nb::module_ m) {
     m.doc() = "Sparsity of a Hessian: the 3 x 3 blocks above its diagonal, one for each pair of free nodes of a hex.";
     m.attr("PAIRS") = PAIRS;
     m.def("pattern", &pattern, "slots"_a, "nodes"_a, "start"_a, "corners"_a, "max_items"_a = MOST_ITEMS, ReleaseGil(),
-          "Blocks above the diagonal, and the block that each pair of a hex's corners adds to.\n\n"
+          "Blocks above the diagonal.\n\n"
           "slots (m, 8): the slot of each corner, -1 if it is fixed; nodes (k,): the node of each slot; start,\n"
-          "corners: `Topology.node_corners`. Returns row_start (k + 1,) and columns, ascending within a row; and\n"
-          "target (m, 28) uint16, of the pairs 01, 02... 07, 12...: the block, from the first of the row of the\n"
-          "lower slot on, 65535 where a corner is fixed or both are one node. The others are int32.\n"
+          "corners: `Topology.node_corners`. Returns row_start (k + 1,) and columns, ascending within a row, int32.\n"
           "OverflowError where there are more than `max_items` blocks.");
 }
 

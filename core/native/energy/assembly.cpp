@@ -20,10 +20,15 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
             int count = std::min(LANES, shared.start[share + 1] - first);
             // Hexes are in the order of slots, and their nodes in that of the mesh: what the next ones need is
             // prefetched.
-            for (auto next = first + LANES; next < std::min(first + 2 * LANES, shared.start[share + 1]); ++next)
+            const auto end = shared.start[share + 1];
+            for (auto next = first + LANES; next < std::min(first + 2 * LANES, end); ++next)
+                for (Node node : shared.hexes[shared.numbers[next]])
+                    if (auto slot = shared.slots[node]; slot >= 0)
+                        __builtin_prefetch(&shared.columns.data()[shared.row_start[slot]]);
+            for (auto next = first + 2 * LANES; next < std::min(first + 3 * LANES, end); ++next)
                 for (Node node : shared.hexes[shared.numbers[next]])
                     __builtin_prefetch(&shared.slots[node]), __builtin_prefetch(&points[node]);
-            for (auto next = first + 2 * LANES; next < std::min(first + 3 * LANES, shared.start[share + 1]); ++next)
+            for (auto next = first + 3 * LANES; next < std::min(first + 4 * LANES, end); ++next)
                 __builtin_prefetch(&shared.hexes[shared.numbers[next]]);
             Hex hexes[LANES], slots[LANES];
             for (int i = 0; i < count; ++i) {
@@ -38,7 +43,7 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
             // The blocks are scattered in memory: prefetch them while the values are computed.
             PairBlocks blocks[LANES];
             for (int i = 0; i < count; ++i) {
-                blocks[i] = blocks_of(slots[i], shared.target[first + i], shared.row_start);
+                blocks[i] = blocks_of(slots[i], shared.row_start, shared.columns);
                 for (auto s : blocks[i])
                     if (s >= 0) __builtin_prefetch(&off_diagonal[s], 1), __builtin_prefetch(&off_diagonal[s][8], 1);
             }
@@ -59,8 +64,8 @@ void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners om
               const TargetMatrices *matrices) {
     expect_rows(matrices, omitted.size());
     // A copy that the compiler can keep in registers: the AVX-512 build then rounds the same sums as before.
-    const auto [bounds, start, numbers, target, hexes, slots, row_start] = shared;
-    const HexShares local{bounds, start, numbers, target, hexes, slots, row_start};
+    const auto [bounds, start, numbers, hexes, slots, row_start, columns] = shared;
+    const HexShares local{bounds, start, numbers, hexes, slots, row_start, columns};
     with_target(matrices, [&](const auto &w) {
         if (delta != 0) assemble_of<true, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal, w);
         else assemble_of<false, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal, w);

@@ -11,17 +11,15 @@
 
 namespace hexmend {
 
-using BlockTargets = std::span<const std::array<PairBlock, PAIRS>>;
-
 // Slots divided into shares that are assembled in parallel: share s has the slots bounds[s] to bounds[s + 1] - 1 and
-// all hexes at these, rows start[s] to start[s + 1] - 1 of numbers and target.
+// all hexes at these, numbers start[s] to start[s + 1] - 1.
 struct HexShares {
     Indices bounds, start;
-    Indices numbers;      // of the hexes in the mesh; a hex at slots of several shares is in each
-    BlockTargets target;  // (.., 28)
-    Hexes hexes;          // (m, 8), of the mesh
-    Indices slots;        // (n,): slot of each node, -1 for a fixed one
-    Indices row_start;    // (k + 1,): first block of each slot's row
+    Indices numbers;    // of the hexes in the mesh; a hex at slots of several shares is in each
+    Hexes hexes;        // (m, 8), of the mesh
+    Indices slots;      // (n,): slot of each node, -1 for a fixed one
+    Indices row_start;  // (k + 1,): first block of each slot's row
+    Indices columns;    // (blocks,)
 
     // The number in the mesh of hex i of `count` from row `first` on; that of the last one beyond.
     std::int32_t number(std::int64_t first, int i, int count) const { return numbers[first + std::min(i, count - 1)]; }

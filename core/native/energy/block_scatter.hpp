@@ -44,16 +44,24 @@ template <class Real> void add_with_transpose(const Real *block, std::array<Real
 // Block of each pair of a hex's corners: -1 if a corner is fixed, -2 - slot if both are one node.
 using PairBlocks = std::array<std::int32_t, PAIRS>;
 
-inline PairBlocks blocks_of(const Hex &slots, const std::array<PairBlock, PAIRS> &target, Indices row_start) {
-    std::int32_t first[8];
-    for (int c = 0; c < 8; ++c) first[c] = slots[c] < 0 ? 0 : row_start[slots[c]];
+inline PairBlocks blocks_of(const Hex &slots, Indices row_start, Indices columns) {
+    typedef std::int32_t Eight __attribute__((vector_size(32)));
+    Eight all;
+    std::memcpy(&all, slots.data(), sizeof all);
+    std::int32_t found[8][8];  // block of row slots[a] and column slots[b], -1 for none
+    for (int a = 0; a < 8; ++a) {
+        Eight blocks = Eight{} - 1;
+        if (slots[a] >= 0)
+            for (auto s = row_start[slots[a]]; s < row_start[slots[a] + 1]; ++s)
+                blocks = all == Eight{} + columns[s] ? Eight{} + s : blocks;
+        std::memcpy(found[a], &blocks, sizeof blocks);
+    }
     PairBlocks blocks;
     int pair = 0;
     for (int a = 0; a < 8; ++a)
         for (int b = a + 1; b < 8; ++b, ++pair) {
-            std::int32_t row = slots[a] < slots[b] ? first[a] : first[b];
-            std::int32_t none = slots[a] == slots[b] && slots[a] >= 0 ? -2 - slots[a] : -1;
-            blocks[pair] = target[pair] == NO_BLOCK ? none : row + target[pair];
+            blocks[pair] = std::max(found[a][b], found[b][a]);
+            if (slots[a] == slots[b] && slots[a] >= 0) blocks[pair] = -2 - slots[a];
         }
     return blocks;
 }

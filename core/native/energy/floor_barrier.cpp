@@ -224,7 +224,7 @@ void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, co
             weigh_hessian<Real>(*sums, weight, floors.weight * by.second, values.get());
             for (int i = 0; i < count; ++i) {
                 Hex slots = shared.slots_of(shared.numbers[first + i]);
-                scatter<Real>(values[i], slots, blocks_of(slots, shared.target[first + i], shared.row_start), low, high,
+                scatter<Real>(values[i], slots, blocks_of(slots, shared.row_start, shared.columns), low, high,
                               off_diagonal, diagonal);
             }
         }

@@ -43,6 +43,11 @@ template <class Real> struct Block {
 template <class Real> struct HalfBlock {
     Vec4<Real> first, second;
 
+    static HalfBlock of(const std::array<Real, 6> &a) {
+        return {__builtin_shufflevector(load(a.data()), Vec4<Real>{}, 0, 1, 2, 4),
+                __builtin_shufflevector(load(a.data() + 2), Vec4<Real>{}, 1, 2, 3, 4)};
+    }
+
     Block<Real> whole() const {
         return {first, __builtin_shufflevector(first, second, 1, 4, 5, 7),
                 __builtin_shufflevector(first, second, 2, 5, 6, 7)};
@@ -71,6 +76,9 @@ template <class Real> using Vectors = std::span<const std::array<Real, 4>>;
 // (k + 1,) and columns of the blocks above the diagonal. Columns from k on belong to ghosts, slots of another process.
 struct BlockPattern {
     Indices bounds, row_start, columns;
+
+    std::int64_t slots() const { return bounds.back(); }
+    std::int32_t first_separator() const { return bounds[bounds.size() / 2]; }
 };
 
 // A matrix with blocks of type Real for vectors of type Number.
@@ -84,7 +92,8 @@ template <class Real, class Number = Real> class BlockMatrix {
           columns_(pattern.columns),
           off_diagonal_(off_diagonal.data()->data()),
           parts_(static_cast<int>(bounds_.size()) / 2),
-          size_(bounds_.back()) {}
+          first_separator_(pattern.first_separator()),
+          size_(pattern.slots()) {}
 
     std::int64_t size() const { return size_; }
 
@@ -111,26 +120,30 @@ template <class Real, class Number = Real> class BlockMatrix {
         return horizontal_sums(x, y, z);
     }
 
-    // Add the transposed blocks of row i times p to w at their columns, but for those of ghosts.
-    void add_transposed(std::int32_t i, const V &p, V *w) const {
+    // Add the transposed blocks of row i times p at their columns, but for those of ghosts: to w, or to at_separators,
+    // whose first vector is that of the first separator.
+    void add_transposed(std::int32_t i, const V &p, V *w, V *at_separators) const {
         V x = p[0] - V{}, y = p[1] - V{}, z = p[2] - V{};
-        for (auto s = row_start_[i]; s < row_start_[i + 1] && columns_[s] < size_; ++s)
+        auto s = row_start_[i], end = row_start_[i + 1];  // columns ascend
+        for (; s < end && columns_[s] < first_separator_; ++s)
             w[columns_[s]] += row(s, 0) * x + row(s, 1) * y + row(s, 2) * z;
+        for (; s < end && columns_[s] < size_; ++s)
+            at_separators[columns_[s] - first_separator_] += row(s, 0) * x + row(s, 1) * y + row(s, 2) * z;
     }
 
     // Forward substitution: body(i, lower) returns p for slot i and a summand; lower is the row left of the diagonal
-    // times the p of earlier slots. Returns the sum of the summands. w is zero before and after; it has two vectors,
-    // because two parts add to one separator.
-    template <class Body> double forward(V *const (&w)[2], const Body &body) {
+    // times the p of earlier slots. Returns the sum of the summands. w has a vector for each slot, and `odd` a second
+    // one for each separator, because two parts add to it; both are zero before and after.
+    template <class Body> double forward(V *w, V *odd, const Body &body) {
         auto rows = [&](std::int32_t begin, std::int32_t end, int range) {
             const bool separator = range >= parts_;
-            V *below = w[separator ? 0 : range % 2];
+            V *at_separators = separator || range % 2 == 0 ? w + first_separator_ : odd;
             double sum = 0;
             for (auto i = begin; i < end; ++i) {
-                V lower = std::exchange(below[i], V{});
-                if (separator) lower += std::exchange(w[1][i], V{});
+                V lower = std::exchange(w[i], V{});
+                if (separator) lower += std::exchange(odd[i - first_separator_], V{});
                 auto [p, square] = body(i, lower);
-                add_transposed(i, p, below);
+                add_transposed(i, p, w, at_separators);
                 sum += square;
             }
             return sum;
@@ -143,6 +156,7 @@ template <class Real, class Number = Real> class BlockMatrix {
     Indices bounds_, row_start_, columns_;
     const Real *off_diagonal_;
     int parts_;
+    std::int32_t first_separator_;
     std::int64_t size_;
     std::vector<double> sums_ = std::vector<double>(2 * parts_);
 

@@ -44,10 +44,11 @@ template <class Real> class PreconditionedCG {
   public:
     using V = Vec4<Real>;
 
-    PreconditionedCG(BlockMatrix<Real> &system, DiagonalBlocks<Real> diagonal, double damping, std::span<Real> work,
-                     const Coupling<Real> &coupling)
+    PreconditionedCG(const BlockPattern &pattern, BlockMatrix<Real> &system, DiagonalBlocks<Real> diagonal,
+                     double damping, std::span<Real> work, const Coupling<Real> &coupling)
         : system_(system),
           own_(diagonal),
+          damped_(static_cast<Real>(1 + damping)),
           share_(static_cast<Real>((2 + damping) / (1 + damping))),
           coupling_(coupling) {
         void *free = work.data();
@@ -58,27 +59,33 @@ template <class Real> class PreconditionedCG {
             array = static_cast<T *>(free);
             free = array + size;
         };
-        const auto size = system.size(), all = size + coupling.ghosts;
-        take(positive_, size), take(inverse_, size);
-        for (auto *vector : {&residual_, &v_, &product_}) take(*vector, size);
-        for (auto *vector : {&t_, &w_[0], &w_[1]}) {
-            take(*vector, all);
-            std::fill(*vector + size, *vector + all, V{});
-        }
+        const auto size = system.size(), separators = size - pattern.first_separator();
+        take(inverse_, size);
+        for (auto *vector : {&residual_, &v_, &product_, &w_}) take(*vector, size);
+        take(odd_, separators), take(t_, size + coupling.ghosts);
+        std::fill(odd_, odd_ + separators, V{}), std::fill(t_ + size, t_ + size + coupling.ghosts, V{});
         if (coupling.exchange) take(from_ghosts_, size);
+        take(increased_, size);
         sum_over_slots([&](std::int32_t i) {
-            v_[i] = w_[0][i] = w_[1][i] = V{};
+            v_[i] = w_[i] = V{};
             if (from_ghosts_) from_ghosts_[i] = V{};
-            auto [d, inverse] = make_positive_definite(widened(diagonal[i]));
-            positive_[i] = half_block<Real>((1 + damping) * d);
+            const auto own = widened(diagonal[i]);
+            auto [d, inverse] = make_positive_definite(own);
+            increased_[i] = std::memcmp(&d, &own, sizeof d) ? 0 : AS_GIVEN;
             inverse_[i] = half_block<Real>((1 / (1 + damping)) * inverse);
             return 0.0;
         });
+        for (std::int64_t i = 0; i < size; ++i)
+            if (increased_[i] != AS_GIVEN) {
+                increased_[i] = static_cast<std::int32_t>(increased_blocks_.size());
+                auto d = make_positive_definite(widened(diagonal[i])).first;
+                increased_blocks_.push_back(half_block<Real>((1 + damping) * d));
+            }
     }
 
     // Compute the first residual, (D + L)^-1 right; returns its square.
     double start(Vectors<Real> right) {
-        return system_.forward(w_, [&](std::int32_t i, const V &below) {
+        return system_.forward(w_, odd_, [&](std::int32_t i, const V &below) {
             residual_[i] = inverse_[i] * (load(right[i].data()) - below);
             return std::pair{residual_[i], square_of_residual(i)};
         });
@@ -86,10 +93,9 @@ template <class Real> class PreconditionedCG {
 
     // The damped diagonal block of slot i.
     std::array<Real, 9> damped_diagonal(std::int32_t i) const {
-        const auto &a = own_[i];
+        const auto a = HalfBlock<Real>::of(own_[i]), d = positive(i);
         const Real share = 2 - share_;  // of the damped D in the damped diagonal, d / (1 + d)
-        V x = V{a[0], a[1], a[2], 0} + share * positive_[i].first,
-          y = V{a[3], a[4], a[5], 0} + share * positive_[i].second;
+        V x = a.first + share * d.first, y = a.second + share * d.second;
         return {x[0], x[1], x[2], x[1], y[0], y[1], x[2], y[1], y[2]};
     }
 
@@ -100,7 +106,7 @@ template <class Real> class PreconditionedCG {
     double project(Vectors<Real> right) {
         over_slots([&](std::int32_t i, int range) { coarse_->restrict_to(range, i, load(right[i].data())); });
         coarse_->solve();
-        return system_.forward(w_, [&](std::int32_t i, const V &below) {
+        return system_.forward(w_, odd_, [&](std::int32_t i, const V &below) {
             residual_[i] = inverse_[i] * (load(right[i].data()) - coarse_->row(i) - below);
             return std::pair{residual_[i], square_of_residual(i)};
         });
@@ -123,7 +129,7 @@ template <class Real> class PreconditionedCG {
     void next_direction(Real beta) {
         auto back = [&](std::int32_t begin, std::int32_t end, int range) {
             for (auto i = end - 1; i >= begin; --i) {
-                V v = positive_[i] * residual_[i] + beta * v_[i];
+                V v = positive(i) * residual_[i] + beta * v_[i];
                 v_[i] = v;
                 t_[i] = inverse_[i] * (v - system_.row_times(i, t_));
                 if (coarse_) coarse_->add(range, i, t_[i]);
@@ -138,7 +144,7 @@ template <class Real> class PreconditionedCG {
 
     // Compute product = (D + L)^-1 A t = t + (D + L)^-1 (v + R t + rest t), or that of P A; returns its product with v.
     double curvature() {
-        return system_.forward(w_, [&](std::int32_t i, const V &below) {
+        return system_.forward(w_, odd_, [&](std::int32_t i, const V &below) {
             V right = from_ghosts_ ? v_[i] + from_ghosts_[i] : v_[i];
             if (coarse_) right -= coarse_->row(i);
             V p = inverse_[i] * (right + rest(i) * t_[i] - below);
@@ -169,20 +175,29 @@ template <class Real> class PreconditionedCG {
   private:
     BlockMatrix<Real> &system_;
     DiagonalBlocks<Real> own_;
-    Real share_;
-    HalfBlock<Real> *positive_, *inverse_;  // D and D^-1, damped
+    Real damped_, share_;
+    HalfBlock<Real> *inverse_;  // D^-1, damped
+    // Of each slot the number of its damped D among increased_blocks_, or AS_GIVEN where D is the diagonal block.
+    static constexpr std::int32_t AS_GIVEN = -1;
+    std::int32_t *increased_;
+    std::vector<HalfBlock<Real>> increased_blocks_;
     V *residual_, *v_, *t_, *product_;
     const Coupling<Real> &coupling_;
     CoarseSpace<Real> *coarse_ = nullptr;
     V *from_ghosts_ = nullptr;  // R t, if processes are coupled
-    // Contributions of rows to later rows; two vectors, because two parts add to one separator.
-    V *w_[2];
+    V *w_, *odd_;               // contributions of rows to later rows, see `forward`
+
+    // D of slot i, damped.
+    HalfBlock<Real> positive(std::int32_t i) const {
+        if (increased_[i] != AS_GIVEN) return increased_blocks_[increased_[i]];
+        const auto a = HalfBlock<Real>::of(own_[i]);
+        return {damped_ * a.first, damped_ * a.second};
+    }
 
     // The damped diagonal less twice the damped D: with damping d and undamped D, A_D + d D - 2 (1 + d) D.
     HalfBlock<Real> rest(std::int32_t i) const {
-        const auto &a = own_[i];
-        return {V{a[0], a[1], a[2], 0} - share_ * positive_[i].first,
-                V{a[3], a[4], a[5], 0} - share_ * positive_[i].second};
+        const auto a = HalfBlock<Real>::of(own_[i]), d = positive(i);
+        return {a.first - share_ * d.first, a.second - share_ * d.second};
     }
 
     // Receive t of the ghosts, and compute R t; their t is 0 again afterwards, for the next back substitution.
@@ -195,7 +210,7 @@ template <class Real> class PreconditionedCG {
         std::fill(t_ + system_.size(), t_ + system_.size() + coupling_.ghosts, V{});
     }
 
-    double square_of_residual(std::int32_t i) { return dot(residual_[i], positive_[i] * residual_[i]); }
+    double square_of_residual(std::int32_t i) { return dot(residual_[i], positive(i) * residual_[i]); }
 
     // Call body(i, range) for each slot i.
     template <class Body> void over_slots(const Body &body) {
@@ -225,10 +240,10 @@ std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real>
                                   int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work,
                                   const Coupling<Real> &coupling, const CoarsePattern *coarse_pattern) {
     BlockMatrix<Real> system(pattern, off_diagonal);
-    auto size = workspace_size(system.size(), coupling.ghosts, static_cast<bool>(coupling.exchange));
+    auto size = workspace_size(pattern, coupling.ghosts, static_cast<bool>(coupling.exchange));
     if (static_cast<std::int64_t>(work.size()) < size + (coarse_pattern ? coarse_workspace_size(*coarse_pattern) : 0))
         throw std::invalid_argument("work is too small: see `workspace_size`");
-    PreconditionedCG<Real> solver(system, diagonal, damping, work, coupling);
+    PreconditionedCG<Real> solver(pattern, system, diagonal, damping, work, coupling);
     std::optional<CoarseSpace<Real>> coarse;
     if (coarse_pattern)
         coarse.emplace(
@@ -290,10 +305,9 @@ void product(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, Diagon
              std::span<const std::int64_t> order, Points x, std::span<Point> y) {
     using V = Vec4<double>;
     BlockMatrix<Real, double> system(pattern, off_diagonal);
-    std::vector<V> of(x.size()), there(x.size()), below[2] = {std::vector<V>(x.size()), std::vector<V>(x.size())};
-    V *const w[2] = {below[0].data(), below[1].data()};
+    std::vector<V> of(x.size()), there(x.size()), w(x.size()), odd(x.size() - pattern.first_separator());
     for (std::size_t k = 0; k < x.size(); ++k) of[order[k]] = V{x[k][0], x[k][1], x[k][2], 0};
-    system.forward(w, [&](std::int32_t i, const V &left) {
+    system.forward(w.data(), odd.data(), [&](std::int32_t i, const V &left) {
         there[i] = half_block<double>(widened(diagonal[i])) * of[i] + system.row_times(i, of.data()) + left;
         return std::pair{of[i], 0.0};
     });

@@ -38,8 +38,9 @@ template <class Real> struct Coupling {
 };
 
 // Numbers of the workspace of `solve`.
-constexpr std::int64_t workspace_size(std::int64_t slots, std::int64_t ghosts, bool coupled) {
-    return 40 * slots + (coupled ? 4 * slots + 12 * ghosts : 0) + 16;
+inline std::int64_t workspace_size(const BlockPattern &pattern, std::int64_t ghosts, bool coupled) {
+    const auto slots = pattern.slots();
+    return 29 * slots + 4 * (slots - pattern.first_separator()) + (coupled ? 4 * (slots + ghosts) : 0) + 16;
 }
 
 // Solve A x = right in the precision of the matrix; returns the iterations and the status.

@@ -12,8 +12,7 @@ constexpr std::int64_t PIECES = 16;
 
 }  // namespace
 
-std::tuple<IntArray, IntArray, OwnedArray<PairBlock, PAIRS>> pattern(Hexes slots, Indices nodes, Indices start,
-                                                                     Indices corners, std::int64_t max_items) {
+CSR pattern(Hexes slots, Indices nodes, Indices start, Indices corners, std::int64_t max_items) {
     std::int64_t count = nodes.size(), size = std::max<std::int64_t>((count + PIECES - 1) / PIECES, 1);
     std::vector<std::int32_t> row_start(count + 1), found[PIECES];
     parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t end) {
@@ -33,28 +32,13 @@ std::tuple<IntArray, IntArray, OwnedArray<PairBlock, PAIRS>> pattern(Hexes slots
     });
     accumulate(row_start, max_items);
 
-    for (std::int64_t i = 0; i < count; ++i)
-        if (row_start[i + 1] - row_start[i] >= NO_BLOCK)
-            throw std::overflow_error("a node shares hexes with too many nodes: fewer than 65,535 are expected");
     std::vector<std::int32_t> columns(row_start[count]);
-    std::vector<PairBlock> target(slots.size() * PAIRS, NO_BLOCK);
-    parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t end) {
-        std::copy(found[begin / size].begin(), found[begin / size].end(), columns.begin() + row_start[begin]);
-        std::vector<std::int32_t> block(count);
-        for (auto i = static_cast<std::int32_t>(begin); i < end; ++i) {
-            for (auto s = row_start[i]; s < row_start[i + 1]; ++s) block[columns[s]] = s;
-            for (auto s = start[nodes[i]]; s < start[nodes[i] + 1]; ++s) {
-                int h = corners[s] / 8, a = corners[s] % 8;
-                for (int b = 0; b < 8; ++b) {
-                    auto j = slots[h][b];
-                    if (j <= i) continue;
-                    target[PAIRS * std::int64_t{h} + pair_of(std::min(a, b), std::max(a, b))] =
-                        static_cast<PairBlock>(block[j] - row_start[i]);
-                }
-            }
-        }
+    parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t) {
+        auto &own = found[begin / size];
+        std::copy(own.begin(), own.end(), columns.begin() + row_start[begin]);
+        own = {};
     });
-    return {{std::move(row_start)}, {std::move(columns)}, {std::move(target)}};
+    return {{std::move(row_start)}, {std::move(columns)}};
 }
 
 }  // namespace hexmend

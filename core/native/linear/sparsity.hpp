@@ -1,9 +1,6 @@
 // Sparsity of a Hessian: the 3 x 3 blocks above its diagonal, one for each pair of free nodes that share a hex.
 #pragma once
 
-#include <limits>
-#include <tuple>
-
 #include "mesh/array_views.hpp"
 
 namespace hexmend {
@@ -14,15 +11,9 @@ constexpr int PAIRS = 28;
 // Number of the pair of corners a < b.
 constexpr int pair_of(int a, int b) { return a * (15 - a) / 2 + b - a - 1; }
 
-// Block to which a pair of corners of a hex contributes, counted from the first of its row; NO_BLOCK where a corner is
-// fixed or both are one node.
-using PairBlock = std::uint16_t;
-constexpr PairBlock NO_BLOCK = std::numeric_limits<PairBlock>::max();
-
-// Block rows row_start (k + 1,) and columns; and target (m, 28), the block of each pair of a hex's corners. Throws
-// std::overflow_error if there are more than `max_items` blocks, or NO_BLOCK in a row.
-std::tuple<IntArray, IntArray, OwnedArray<PairBlock, PAIRS>> pattern(Hexes slots, Indices nodes, Indices start,
-                                                                     Indices corners, std::int64_t max_items);
+// Block rows row_start (k + 1,) and columns, ascending in each row. Throws std::overflow_error if there are more than
+// `max_items` blocks.
+CSR pattern(Hexes slots, Indices nodes, Indices start, Indices corners, std::int64_t max_items);
 
 // Order the free nodes so that neighbours are close to each other, in parts that share no hex; each two consecutive
 // parts have a separator, and all separators follow the parts. Returns the node in each slot, and the bounds (2

@@ -28,7 +28,7 @@ settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, 0.1, Objectiv
 local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
 figures = measure(mesh.points, mesh.hexes)
 np.savez(
-    sys.argv[2], same_sigma=sigma, same_edges=mesh.topology.edges, same_slots=energy.sparsity.target,
+    sys.argv[2], same_sigma=sigma, same_edges=mesh.topology.edges, same_slots=energy.sparsity.columns,
     same_inverted=figures.inverted, eta=energies(x, mesh.hexes, 0.1), gradient=energy.gradient(x, 0.1),
     product=energy.hessian(x, 0.1).matvec(v.ravel()), off=matrix.off_diagonal, own=matrix.diagonal, swept=swept,
     solved=matrix.solve(v.ravel(), 1e-10, 300).x,

@@ -25,10 +25,6 @@ def threads(request):
     kernels.set_threads(before)
 
 
-#: What `target` has where a pair of corners has no block.
-NO_BLOCK = 65535
-
-
 def shuffled(nx, ny, nz, seed=0):
     """A grid whose nodes are numbered anyhow."""
     mesh = grid(nx, ny, nz)
@@ -114,35 +110,24 @@ def test_blocks_of_a_hessian_are_the_pairs_of_free_nodes_that_share_a_hex():
     np.testing.assert_array_equal(rows, start)
     np.testing.assert_array_equal(columns, expected)
 
-    low, high = (np.array(k) for k in zip(*((a, b) for a in range(8) for b in range(a + 1, 8)), strict=True))
-    ends = np.sort(np.stack([at.slots[:, low], at.slots[:, high]], axis=-1), axis=-1)
-    free = ends[..., 0] >= 0
-    row = np.repeat(np.arange(at.nodes.size), np.diff(rows))
-    np.testing.assert_array_equal(at.target[~free], NO_BLOCK)
-    block = rows[ends[free][:, 0]] + at.target[free]
-    np.testing.assert_array_equal(row[block], ends[free][:, 0])
-    np.testing.assert_array_equal(columns[block], ends[free][:, 1])
 
-
-def test_rows_of_hexes_are_the_same_whatever_shares_they_are_kept_in():
+def test_hexes_of_shares_are_those_at_their_slots_and_the_last_shares_are_kept():
     fixed = np.zeros(MESH.n_nodes, dtype=bool)
     fixed[MESH.hexes[:3]] = True  # hexes that are in no share
     at = BlockSparsity(MESH.with_fixed(fixed), parts=2)
-    slots, target = at.slots, at.target
+    slots = at.slots
     assert (slots[:3] == -1).all()
     for count in (1, 2, 5, 2):
         shares = at.shares(count)
         assert at.shares(count) is shares
         np.testing.assert_array_equal(at.slots, slots)
-        np.testing.assert_array_equal(at.target, target)
 
 
-def test_two_corners_that_are_one_node_add_to_its_own_block():
+def test_two_corners_that_are_one_node_have_no_block_above_the_diagonal():
     hexes = np.array([[4, 4, 5, 1, 1, 6, 7, 0]], np.int32)
     slots = np.array([[1, 1, -1, 0, 0, -1, -1, -1]], np.int32)
-    row_start, columns, target = sparsity.pattern(slots, np.array([1, 4], np.int32), *incidence.node_corners(hexes, 8))
+    row_start, columns = sparsity.pattern(slots, np.array([1, 4], np.int32), *incidence.node_corners(hexes, 8))
     assert (row_start.tolist(), columns.tolist()) == ([0, 1, 1], [1])
-    assert Counter(target[0].tolist()) == {0: 4, NO_BLOCK: 24}
 
 
 def test_no_hexes_are_no_trouble():
@@ -158,8 +143,8 @@ def test_no_hexes_are_no_trouble():
         assert incidence.greedy_colours(start, corners, np.zeros(n, bool)).tolist() == [-1] * n
         ends, valence, outside = structure.edges(hexes, start, corners, neighbours)
         assert (ends.shape, valence.size, outside.dtype) == ((0, 2), 0, bool)
-    rows, columns, target = sparsity.pattern(hexes, np.empty(0, np.int32), start, corners)
-    assert (rows.tolist(), columns.size, target.shape) == ([0], 0, (0, 28))
+    rows, columns = sparsity.pattern(hexes, np.empty(0, np.int32), start, corners)
+    assert (rows.tolist(), columns.size) == ([0], 0)
 
 
 def test_more_items_than_there_are_numbers_for_are_refused_before_they_are_written():

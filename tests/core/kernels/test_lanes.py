@@ -246,7 +246,7 @@ def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
             element_step.element_steps(x, mesh.hexes, 1.0, 0.5, places)
             step_limits.shorten(step, x, rings.start, rings.items, energy.nodes, 0.1)
             pattern = BlockSparsity(mesh, parts)
-            found = matrix.off_diagonal, matrix.diagonal, solved.x, swept, places, step, pattern.target, pattern.columns
+            found = matrix.off_diagonal, matrix.diagonal, solved.x, swept, places, step, pattern.columns
             answers.append([array.tobytes() for array in (*found, matrix @ solved.x, pattern.slots)])
     finally:
         kernels.set_threads(most)
