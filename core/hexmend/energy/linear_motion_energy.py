@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend.arrays import dot, mask
+from hexmend.arrays import as_immutable_owned, dot, mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.floor_barrier import FloorBarrier
@@ -67,6 +67,7 @@ class LinearMotionEnergy(MeshEnergy):
         self.surface = energy.surface
         self.energy, self.reduction = energy, Reduction(energy.mesh)
         self.nodes, self.faceted = self.reduction.nodes, energy.faceted
+        self.limits_moves = energy.limits_moves
         self.slides = isinstance(energy, SlidingEnergy)
 
     def with_objective(self, norm: ObjectiveNorm, omitted: np.ndarray) -> LinearMotionEnergy:
@@ -85,8 +86,8 @@ class LinearMotionEnergy(MeshEnergy):
         return other
 
     def to_mesh_units(self, x: np.ndarray) -> np.ndarray:
-        """Points in the mesh's own unit of length, (n, 3); constraints hold to the last bit."""
-        return self.mesh.constrained(super().to_mesh_units(x))
+        """Points in the mesh's own unit of length, (n, 3), immutable; constraints hold to the last bit."""
+        return as_immutable_owned(self.mesh.constrained(super().to_mesh_units(x)))
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         """Return x (n, 3) with the free nodes displaced as alpha times steps (j, 3) of the independent ones."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend.aliases import reads_old_names
-from hexmend.arrays import dot, index_of
+from hexmend.arrays import as_immutable_owned, dot, index_of
 from hexmend.energy.floor_barrier import FloorBarrier
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import as_omitted_corners, energies
@@ -70,6 +70,8 @@ class MeshEnergy(TargetScales):
 
     #: True if nodes slide on a surface of triangles: its creases slow down Newton's method.
     faceted = False
+    #: True if `infeasible_nodes` may find some.
+    limits_moves = False
     #: The ranks among which the hexes are divided; values and slopes are sums over all of them.
     ranks: Ranks = ONE_RANK
     #: True if nodes move independently of each other, so that the energy of a part of the mesh has the same form.
@@ -187,10 +189,10 @@ class MeshEnergy(TargetScales):
         return self.as_points(points) / self.unit
 
     def to_mesh_units(self, x: np.ndarray) -> np.ndarray:
-        """Points in the mesh's own unit of length, (n, 3); fixed nodes to the last bit where they were."""
+        """Points in the mesh's own unit of length, (n, 3), immutable; fixed nodes to the last bit where they were."""
         points = self.mesh.points.copy()
         np.multiply(self.as_points(x), self.unit, out=points, where=self.mesh.free[:, None])
-        return points
+        return as_immutable_owned(points)
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         """Return x (n, 3) with the free nodes displaced by alpha times step (k, 3)."""

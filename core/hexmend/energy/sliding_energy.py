@@ -57,6 +57,7 @@ class SlidingEnergy(MeshEnergy):
     """
 
     has_parts = False
+    limits_moves = True
 
     def __init__(
         self,

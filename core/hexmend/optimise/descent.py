@@ -169,7 +169,7 @@ def _limit(
 
 def shorten_to_range(step: np.ndarray, unit: float, ranks: Ranks = ONE_RANK) -> None:
     """Shorten a step (k, 3), changed, that would overflow; `unit` is its unit of length in units of the mesh."""
-    size = ranks.greatest(float(np.abs(step).max(initial=0.0)))
+    size = ranks.greatest(float(max(step.max(initial=0.0), -step.min(initial=0.0))))
     if size > DESCENT.max_coordinate / unit:
         step *= DESCENT.max_coordinate / unit / size
 
@@ -189,8 +189,9 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
     hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
     limit = DESCENT.growth_factor * energy.with_barriers(x, delta) + DESCENT.growth_summand
     worsened, moved = np.zeros(len(hexes), dtype=bool), None
-    for _ in range(DESCENT.halvings):
-        before, moved = moved, energy.moved(x, share[energy.nodes, None] * step)
+    for trial in range(DESCENT.halvings):
+        before = moved
+        moved = energy.moved(x, step if trial == 0 else share[energy.nodes, None] * step)
         changed = None if before is None else differing_rows(before, moved)
         at = None if changed is None else np.flatnonzero(any_of_rows(changed, hexes))
         some = slice(None) if at is None else at

@@ -118,18 +118,20 @@ class TruncatedNewton:
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
         config, matrix = self.config, hessian.assembled(reuse=self._matrix)
         self._matrix = matrix
-        right, tolerance = -gradient.ravel(), self._tolerance(hessian.energy.ranks.norm(gradient))
-        solved = self._solve(matrix, right, tolerance, self._damping)
+        tolerance = self._tolerance(hessian.energy.ranks.norm(gradient))
+        solved = self._solve(matrix, gradient.ravel(), tolerance, self._damping)
         count, damping = solved.iterations, self._damping
         for _ in range(config.max_damping_increases):
             if not solved.negative_curvature:
                 break
             damping = max(config.damping_growth * damping, config.min_damping)
-            solved = self._solve(matrix, right, tolerance, damping)
+            del solved  # large meshes have no memory for two solutions
+            solved = self._solve(matrix, gradient.ravel(), tolerance, damping)
             count += solved.iterations
         self._damping = damping if damping > self._damping else damping / config.damping_decay
         if self._damping < config.min_damping:
             self._damping = 0.0
+        np.negative(solved.x, out=solved.x)
         return SearchDirection(solved.x.reshape(-1, 3), count, damping)
 
     def _solve(self, matrix: AssembledHessian, right: np.ndarray, tolerance: float, damping: float) -> CGResult:

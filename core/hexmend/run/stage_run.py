@@ -8,7 +8,7 @@ from time import perf_counter
 
 import numpy as np
 
-from hexmend.arrays import as_immutable, largest_norm
+from hexmend.arrays import BLOCK, as_immutable, largest_norm
 from hexmend.energy.target import node_sizes
 from hexmend.iteration import ActiveSet, Iteration, Outcome, StageResult, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
@@ -125,8 +125,7 @@ class StageRun:
         before = self.current
         label = f"{self.smoother.name}: the points of a step"
         points = as_immutable(points_like(step.points, before.points.shape, label))
-        moves = points - before.points
-        move = largest_norm(moves) / self._unit
+        move, size = self._sizes_of_moves(before.points, points)
         if not np.isfinite(move):
             self.end(Outcome.NOT_FINITE)
             return None
@@ -143,20 +142,30 @@ class StageRun:
             self._best_rank = self._rank(now)
         elif not step.infeasible:
             self._update_best(now)
-        small = self._size(moves) < self.stage.stop.tolerance  # Algorithm A.1
+        small = size < self.stage.stop.tolerance  # Algorithm A.1
         if small and not step.intermediate and (self.stage.stop.moves_only or not self._still_falls(before, now)):
             self.end(Outcome.CONVERGED)
         else:
             self._end_at_a_limit()
         return now
 
-    def _size(self, moves: np.ndarray) -> float:
-        """Size of the largest of some moves (n, 3), in mean edge lengths or, with a target, in lengths at each node."""
-        sizes, by_length = self._node_sizes, self.stage.stop.move == "length"
-        if not isinstance(sizes, np.ndarray) and not by_length:  # division keeps the order of numbers
-            return float(max(moves.max(), -moves.min()) / sizes)
-        relative = moves / (sizes[:, None] if isinstance(sizes, np.ndarray) else sizes)
-        return largest_norm(relative) if by_length else float(np.abs(relative).max())
+    def _sizes_of_moves(self, before: np.ndarray, after: np.ndarray) -> tuple[float, float]:
+        """Return the longest move from points (n, 3) to others, and the largest as the limits measure it.
+
+        The first is in mean edge lengths, the second too or, with a target, in lengths at each node.
+        """
+        longest, largest, sizes = 0.0, 0.0, self._node_sizes
+        for first in range(0, len(before), BLOCK):
+            rows = slice(first, first + BLOCK)
+            moves = after[rows] - before[rows]
+            length = largest_norm(moves)
+            if not np.isfinite(length):
+                return length, length
+            moves /= sizes[rows, None] if isinstance(sizes, np.ndarray) else sizes
+            by_length = self.stage.stop.move == "length"
+            size = largest_norm(moves) if by_length else float(max(moves.max(), -moves.min()))
+            longest, largest = max(longest, length), max(largest, size)
+        return longest / self._unit, largest
 
     def set_limits(self, stop: StoppingCriteria) -> None:
         """Continue with other limits."""

@@ -62,7 +62,7 @@ def test_the_direction_is_the_solution_for_minus_the_gradient():
     gradient = np.array([[1.0, -2.0, 3.0], [4.0, 5.0, -6.0]])
     found = find(1.0, gradient, matrix)
     np.testing.assert_array_equal(found.vector, -gradient / 2)
-    np.testing.assert_array_equal(matrix.asked[0][0], -gradient.ravel())
+    np.testing.assert_array_equal(matrix.asked[0][0], gradient.ravel())
     assert (matrix.asked[0][2], found.solver_iterations, found.shift) == (17, 3, 0.0)
 
 

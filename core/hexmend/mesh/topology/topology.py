@@ -101,6 +101,10 @@ class Topology:
         """Neighbour across each face of `hexmend.mesh.hexahedron.FACES`, -1 on the boundary, (m, 6) int32."""
         return self._faces[0]
 
+    def release_faces(self) -> None:
+        """Give back the memory of `face_neighbours`; they are computed again on the next use."""
+        self.__dict__.pop("_faces", None)
+
     @property
     def n_nonmanifold_faces(self) -> int:
         """Number of faces shared by more than two hexes, counted once a hex; they are treated as boundary."""

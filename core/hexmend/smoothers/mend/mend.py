@@ -84,10 +84,11 @@ class Mend(MendSettings):
         count = ranks.sum(int(np.count_nonzero(judged)))
         if not count:
             return False
-        pairs = [(one.q[judged], one.scaled_jacobian[judged]) for one in (start, now)]
+        rows = slice(None) if judged.all() else judged
+        pairs = [(one.q[rows], one.scaled_jacobian[rows]) for one in (start, now)]
         (q, jacobian), (new_q, new_jacobian) = ([ranks.least(_least(values)) for values in pair] for pair in pairs)
         mean, new_mean = (ranks.sum(float(pair[0].sum())) / count for pair in pairs)
-        mean_counts = not ranks.any(start.inverted[judged])
+        mean_counts = not ranks.any(start.inverted[rows])
         return (
             new_q < share * q - WORSE_BY
             or new_jacobian < share * jacobian - WORSE_BY

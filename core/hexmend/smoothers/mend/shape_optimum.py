@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.arrays import largest_norm
+from hexmend.arrays import BLOCK, largest_norm
 from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
@@ -84,7 +84,9 @@ def optimise_shape(
         After each step of all nodes.
     """
     while True:
-        reached = yield from _minimise(energy, points, energy.norm.p < max_p, intermediate, config)
+        steps = _minimise(energy, points, energy.norm.p < max_p, intermediate, config)
+        del points  # large meshes have no memory for those before the first step
+        reached = yield from steps
         if reached.outcome is not None:
             return reached
         points, (p, offset) = reached.points, energy.norm
@@ -111,12 +113,11 @@ def _minimise(
         judged = energy.faceted and len(values) > config.window
         if judged and values[-config.window] - values[-1] < min_fall * values[-1]:
             return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)
-        moves = descent.x - energy.to_edge_units(points)
-        move = relative_move = energy.ranks.greatest(largest_norm(moves))
-        if energy.node_lengths is not None:
-            relative_move = energy.ranks.greatest(largest_norm(moves[energy.nodes] / energy.node_lengths))
-        x, points, full_step = descent.x, energy.to_mesh_units(descent.x), descent.backtracks == 0
-        diagnostics = descent.diagnostics(0.0) | {"p": energy.norm.p}
+        diagnostics, full_step = descent.diagnostics(0.0) | {"p": energy.norm.p}, descent.backtracks == 0
+        x = descent.x
+        del descent  # large meshes have no memory for its direction
+        move, relative_move = _largest_moves(energy, points, x)
+        points = energy.to_mesh_units(x)
         yield Step(points, diagnostics, intermediate=p_will_rise or intermediate, norm=energy.norm)
         if p_will_rise and move < config.converged:
             break
@@ -128,3 +129,16 @@ def _minimise(
     # At the optimum a step would gain less than rounding; slope and value are 0 where all hexes are cubes.
     converged = descent is not None and -descent.slope <= config.rounding * descent.value
     return ShapeOptimum(points, Outcome.CONVERGED if converged else Outcome.NO_DESCENT)
+
+
+def _largest_moves(energy: MeshEnergy, points: np.ndarray, x: np.ndarray) -> tuple[float, float]:
+    """Return the longest move from points (n, 3) to x (n, 3), in mean edge lengths, and in lengths of the target."""
+    move = 0.0
+    for first in range(0, len(x), BLOCK):
+        rows = slice(first, first + BLOCK)
+        move = max(move, largest_norm(x[rows] - points[rows] / energy.unit))
+    move = energy.ranks.greatest(move)
+    if energy.node_lengths is None:
+        return move, move
+    moves = (x[energy.nodes] - points[energy.nodes] / energy.unit) / energy.node_lengths
+    return move, energy.ranks.greatest(largest_norm(moves))

@@ -134,23 +134,23 @@ class Stages:
 
     def _shape(self, mesh: Mesh, energy: MeshEnergy, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
         """Untangle a mesh, then go to the optimum of shape."""
-        quality = measure(mesh.points, mesh.hexes)
-        locked = locked_corners(mesh, quality)
+        locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
         energy = energy.with_objective(energy.norm, locked)
-        untangled = yield from self._untangle(mesh, energy, quality, locked)
+        untangled = yield from self._untangle(mesh, energy, locked)
         left = untangled.left(locked, energy)
         if left and energy.norm.p < SQUARES.p and not energy.faceted:
             # Squares weigh the worst hexes more, and untangle some meshes that sums do not.
-            again = yield from self._untangle(mesh, energy.with_objective(SQUARES, locked), quality, locked)
+            again = yield from self._untangle(mesh, energy.with_objective(SQUARES, locked), locked)
             untangled = again if again.left(locked, energy) < left else untangled
         points, omitted = untangled.points, untangled.omitted
         if energy.ranks.any(omitted) and not self.settings.slides_on(mesh):
             decision = omission_message(energy.count(locked), energy.count(omitted & ~locked))
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)
-        del untangled, quality  # large meshes have no memory for what is no longer needed
         config = ShapeOptimumConfig(newton=NewtonConfig(self.settings.solver_iterations, deflated=True))
-        return (yield from optimise_shape(energy, points, self.settings.p_limit, intermediate, config))
+        steps = optimise_shape(energy, points, self.settings.p_limit, intermediate, config)
+        del untangled, points  # large meshes have no memory for what is no longer needed
+        return (yield from steps)
 
     def _sound_energy(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None) -> MeshEnergy:
         """The energy that floors are added to, without the corners that are inverted at these points."""
@@ -230,20 +230,17 @@ class Stages:
         yield higher.step()
         return higher
 
-    def _untangle(
-        self, mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, locked: np.ndarray
-    ) -> Generator[Step, None, Untangled]:
+    def _untangle(self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray) -> Generator[Step, None, Untangled]:
         config = UntanglingConfig(self.settings.initial_epsilon, newton=NewtonConfig(self.settings.solver_iterations))
-        return (yield from untangle(mesh, energy.without_size(), quality, locked, config))
+        return (yield from untangle(mesh, energy.without_size(), locked, config))
 
     def _untangled(self, sliding: SlidingBoundary, points: np.ndarray) -> Generator[Step, None, np.ndarray]:
         """Untangle a mesh whose boundary slides, from points (n, 3) on."""
         mesh = sliding.mesh.with_points(points)
-        quality = measure(points, mesh.hexes)
-        locked = locked_corners(mesh, quality)
+        locked = locked_corners(mesh, measure(points, mesh.hexes))
         energy = self._energy(mesh, self.settings.first_norm_on(mesh), sliding)
         energy = energy.with_objective(self.settings.norm, locked)
-        return (yield from self._untangle(mesh, energy, quality, locked)).points
+        return (yield from self._untangle(mesh, energy, locked)).points
 
 
 def _is_lower(now: ElementQuality, kept: ElementQuality) -> bool:

@@ -112,7 +112,7 @@ class _Iterate:
 
 
 def untangle(
-    mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, locked: np.ndarray, config: UntanglingConfig
+    mesh: Mesh, energy: MeshEnergy, locked: np.ndarray, config: UntanglingConfig
 ) -> Generator[Step, None, Untangled]:
     """Untangle what can be untangled.
 
@@ -122,8 +122,6 @@ def untangle(
         Its points are where the stage begins.
     energy : MeshEnergy
         Of this mesh, the locked corners omitted.
-    quality : ElementQuality
-        Of the mesh's hexes.
     locked : (m,) uint8
         Corners that fixed nodes lock in inversion.
     config : UntanglingConfig
@@ -133,12 +131,14 @@ def untangle(
     Step
         After each step of all nodes and after the sweeps at each delta.
     """
+    quality = measure(mesh.points, mesh.hexes)
     points = recentre_far_nodes(mesh, quality)
     if energy.ranks.any(points is not mesh.points):
         points = energy.ranks.complete(np.array(points))
         quality = measure(points, mesh.hexes)
         yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
     now = _Iterate.of(energy.to_edge_units(points), points, quality, energy, locked)
+    del points, quality  # large meshes have no memory for what is no longer needed
     epsilon, fewest, idle = config.initial_epsilon, now.inverted, 0
     patience = config.faceted_patience if energy.faceted else config.patience
     while now.inverted and idle < patience and epsilon > config.min_epsilon:
@@ -146,7 +146,9 @@ def untangle(
         delta = min(config.max_delta, float(np.sqrt(epsilon * (epsilon - worst))))
         few = now.inverted < config.few * energy.n_hexes
         if not few or idle % config.few_period == config.few_period - 1:
-            now = yield from _newton_steps(now, energy, locked, delta, config)
+            steps = _newton_steps(now, energy, locked, delta, config)
+            del now
+            now = yield from steps
         if now.inverted:
             sweeps = config.few_sweeps if few else config.sweeps
             x = local_sweeps(energy, now.x, now.quality.inverted, locked, delta, sweeps)
@@ -168,8 +170,8 @@ def _newton_steps(
         descent = config.newton.step(energy, now.x, delta, direction)
         if descent is None or descent.alpha == 0:
             break
-        now = _Iterate.at(descent.x, energy, locked)
-        diagnostics = descent.diagnostics(delta)
+        now, diagnostics = _Iterate.at(descent.x, energy, locked), descent.diagnostics(delta)
+        del descent
         yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, norm=energy.norm)
         if not now.inverted:
             break

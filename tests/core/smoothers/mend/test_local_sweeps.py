@@ -44,9 +44,8 @@ def swept(monkeypatch):
 
 def untangled(mesh, energy, config=DEFAULT):
     """Untangle a mesh: the steps, and the result."""
-    quality = measure(mesh.points, mesh.hexes)
-    locked = locked_corners(mesh, quality)
-    return walked(untangle(mesh, energy, quality, locked, config))
+    locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
+    return walked(untangle(mesh, energy, locked, config))
 
 
 def nodes_of(mesh, hexes):

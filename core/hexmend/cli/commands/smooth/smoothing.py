@@ -72,6 +72,7 @@ def run(args: argparse.Namespace) -> int:
         print(f"hexmend: --interfaces {args.interfaces} has no effect: the mesh has one material.", file=sys.stderr)
     if args.save_recipe:
         write_recipe(args.save_recipe, smoothing.recipe)
+    mesh.topology.release_faces()  # few methods need them
     with FinishWriting():
         follow(smoothing, lambda iteration: _keep(checkpoints, mesh.replace(pinned=pinned), iteration))
         result = smoothing.result()
