@@ -29,7 +29,7 @@ class Mend(MendSettings):
     )
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     iteration_limit = 1000
-    bytes_per_hex = 1650
+    bytes_per_hex = 1400
     keeps_linear_motion = True
 
     def steps(self, mesh: Mesh) -> Steps:
