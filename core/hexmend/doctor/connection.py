@@ -56,7 +56,10 @@ class DisconnectedParts(Problem):
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         sizes = np.sort(np.bincount(parts_of(mesh, others=True)))[::-1]
         more = len(sizes) - 1
-        largest = [f"{n:,}" for n in sizes[:3]]
-        last = f"{more - 2:,} others" if more > 2 else f"{largest.pop()} hexes"
-        text = f"The mesh consists of {len(sizes):,} parts that are not connected: {', '.join(largest)} and {last}."
+        if more > 2:
+            listed, last = sizes[:3], f"{more - 2:,} others"
+        else:
+            listed, last = sizes[:-1], count_phrase(int(sizes[-1]), "hex", "hexes")
+        largest = ", ".join(f"{size:,}" for size in listed)
+        text = f"The mesh consists of {len(sizes):,} parts that are not connected: {largest} and {last}."
         return self.finding(where, text, count=len(sizes))

@@ -8,8 +8,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from hexmend.mesh.file_ids import hex_ids, node_ids, with_ids
 from hexmend.mesh.mesh import Mesh
+from hexmend.quality.file_ids import hex_ids, node_ids, with_ids
 from hexmend.registry import Registry
 
 #: Empty array of hexes or nodes.

@@ -10,10 +10,10 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.boundary.sliding.flat_parts import FlatPart, flat_parts
-from hexmend.mesh.file_ids import hex_ids, node_ids
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
+from hexmend.quality.file_ids import hex_ids, node_ids
 from hexmend.quality.measure import fixed_tetrahedra
 
 #: Largest distance of nodes from a plane or line, in mean edge lengths: files may hold seven digits.

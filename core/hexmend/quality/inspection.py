@@ -8,11 +8,11 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.kernels import local
-from hexmend.mesh.file_ids import hex_ids, node_ids
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index, as_reals
 from hexmend.quality.descent import descent
+from hexmend.quality.file_ids import hex_ids, node_ids
 from hexmend.quality.measure import ElementQuality, corner_qualities, locked_hexes, measure
 from hexmend.quality.metric import METRICS
 

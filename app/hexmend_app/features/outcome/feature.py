@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from hexmend.advice import Advice, Suggestion
-from hexmend.mesh.file_ids import hex_ids
+from hexmend.quality.file_ids import hex_ids
 from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.outcome.notice import notice

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.mesh.file_ids import hex_ids
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, locked_hexes, rank_worst
+from hexmend.quality.file_ids import hex_ids
 from hexmend_app.state.mesh.metric_cache import metric_values
 
 #: Maximum number of hexes in the list, which is rebuilt at every iteration.
