@@ -39,6 +39,7 @@ CORE = [
 APP = [
     {"aliases"},
     {"resources", "translation"},
+    {"catalogue"},
     {"formats"},
     {"codec"},
     {"picture"},

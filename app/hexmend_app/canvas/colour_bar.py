@@ -131,7 +131,7 @@ class ColourBar(QFrame):
                 label=label,
                 low=low,
                 high=high,
-                names=", ".join(swatch.name for swatch in shown),
+                names=", ".join(tr(swatch.name) for swatch in shown),
             ),
         )
         texts = "; ".join(swatch_text(swatch.name, swatch.count) for swatch in shown)

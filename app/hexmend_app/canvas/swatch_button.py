@@ -21,7 +21,7 @@ def swatch_text(name: str, count: int) -> str:
     >>> swatch_text("inverted", 2707), swatch_text("inverted", 0)
     ('inverted (2,707)', 'inverted')
     """
-    return f"{name} ({count:,})" if count else name
+    return f"{tr(name)} ({count:,})" if count else tr(name)
 
 
 class SwatchButton(QAbstractButton):
@@ -48,14 +48,16 @@ class SwatchButton(QAbstractButton):
         self.name, self.count, self._colour = name, count, colour
         self.setEnabled(count > 0)
         self.setCursor(Qt.CursorShape.PointingHandCursor if count else Qt.CursorShape.ArrowCursor)
-        set_help(self, tr("Isolate {name}", name=name), tr("Show only {name} hexes; Esc shows all again.", name=name))
+        set_help(
+            self, tr("Isolate {name}", name=tr(name)), tr("Show only {name} hexes; Esc shows all again.", name=tr(name))
+        )
         self.updateGeometry()
         self.update()
 
     def sizeHint(self) -> QSize:
         """Return a size that fits large numbers, so that the layout does not change with the number."""
         metrics = QFontMetricsF(self.font())
-        text = f"{self.name} (00,000)" if 0 < self.count < 100_000 else swatch_text(self.name, self.count)
+        text = f"{tr(self.name)} (00,000)" if 0 < self.count < 100_000 else swatch_text(self.name, self.count)
         return QSize(math.ceil(_SIZE + _GAP + metrics.horizontalAdvance(text)) + 2, math.ceil(metrics.height()) + 4)
 
     def paintEvent(self, event: QPaintEvent) -> None:

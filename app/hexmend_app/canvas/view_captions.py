@@ -51,8 +51,8 @@ class Caption:
     @property
     def figures(self) -> str:
         """Numbers of hexes with special colours, and the smallest q as text."""
-        counts = [f"{count:,} {name}" for name, count in self.counts or (("inverted", self.inverted),) if count]
-        return " · ".join([*(counts or ["none inverted"]), f"q min {figure(self.q_min)}"])
+        counts = [f"{count:,} {tr(name)}" for name, count in self.counts or (("inverted", self.inverted),) if count]
+        return " · ".join([*(counts or [tr("none inverted")]), tr("q min {value}", value=figure(self.q_min))])
 
 
 class CaptionRow(QWidget):

@@ -11,6 +11,7 @@ from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.view_captions import Caption
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.scene.views.panes import Panes
+from hexmend_app.translation import tr
 from hexmend_app.widgets.overlay import MARGIN, Overlay
 
 #: Maximum share of the width for a strip next to several views; a wider colour bar covers them.
@@ -51,7 +52,7 @@ class ViewLegend:
             bar.hide()
         else:
             bar.setVisible(not view.frame.look.colours.neutral)
-            bar.set_label(colouring.title)
+            bar.set_label(tr(colouring.title))
             bar.set_table(colouring.table)
             bar.set_range(colouring.low, colouring.high, colouring.beyond)
             bar.set_names(colouring.names)

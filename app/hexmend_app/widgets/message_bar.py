@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushBut
 
 from hexmend_app.theme.palette import AMBER, BLUE, WORSE
 from hexmend_app.theme.style import icon, on_theme_change, set_help, set_variant
-from hexmend_app.translation import tr
+from hexmend_app.translation import marked, tr
 
 #: Maximum number of letters of a text that are shown, and of messages that are stored.
 _MAX_SHOWN, _MAX_STORED = 700, 100
@@ -33,9 +33,9 @@ class _Message:
 
 # Icon and its colour; sorted by priority. The style sheet has the other colours.
 _KINDS = {
-    "error": ("alert-circle", WORSE),
-    "warning": ("alert", AMBER),
-    "info": ("information", BLUE),
+    marked("error"): ("alert-circle", WORSE),
+    marked("warning"): ("alert", AMBER),
+    marked("info"): ("information", BLUE),
 }
 _PRIORITIES = list(_KINDS)
 
@@ -231,7 +231,7 @@ class MessageBar(QFrame):
         if filled or self.takes_escape is not before:
             self.filled.emit()
         self._paint()
-        self._icon.setAccessibleName(message.kind)
+        self._icon.setAccessibleName(tr(message.kind))
         self.title.setText(message.title + (f"  (×{message.times})" if message.times > 1 else ""))
         long = len(message.text) > _MAX_SHOWN
         self.text.setText(
@@ -243,7 +243,7 @@ class MessageBar(QFrame):
         self._next.setText(tr("{number} of {count}  ›", number=self._at + 1, count=len(self._messages)))
         if message.timeout_ms:
             self._timer.start(message.timeout_ms)
-        self.setAccessibleName(f"{message.kind}: {message.title}")
+        self.setAccessibleName(f"{tr(message.kind)}: {message.title}")
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
 
 

@@ -16,33 +16,46 @@ def described(metric: HexQuantity) -> str:
     """Return the tooltip of a metric: formula, meaning, acceptable range and source."""
     low, high = metric.acceptable
     return tr(
-        "<qt><b>{title}</b>: {formula}.<br>{meaning}<br>Acceptable from {low:g} to {high:g} {unit}. "
-        "<i>{source}</i></qt>",
-        title=metric.title,
-        formula=metric.formula,
-        meaning=metric.meaning,
-        low=low,
-        high=high,
-        unit=metric.unit,
+        "<qt><b>{title}</b>: {formula}.<br>{meaning}<br>Acceptable from {low} to {high} {unit}. <i>{source}</i></qt>",
+        title=tr(metric.title),
+        formula=tr(metric.formula),
+        meaning=tr(metric.meaning),
+        low=_bound(low),
+        high=_bound(high),
+        unit=metric.unit and tr(metric.unit),
         source=metric.source,
     )
+
+
+def _bound(value: float) -> str:
+    """Return the end of a range.
+
+    >>> _bound(-math.inf), _bound(0.25)
+    ('−∞', '0.25')
+    """
+    return f"{value:g}".replace("inf", "∞").replace("-", "−")
 
 
 def in_sentence(metric: HexQuantity) -> str:
     """Return the title of a metric as written within a sentence.
 
-    >>> from hexmend.quality import METRICS
-    >>> [in_sentence(METRICS[name]) for name in ("q", "jacobian", "scaled-jacobian", "min-angle")]
-    ['q(H)', 'Jacobian', 'scaled Jacobian', 'smallest angle']
+        >>> import math
+
+    from hexmend.quality import METRICS
+        >>> [in_sentence(METRICS[name]) for name in ("q", "jacobian", "scaled-jacobian", "min-angle")]
+        ['q(H)', 'Jacobian', 'scaled Jacobian', 'smallest angle']
     """
-    return metric.title if metric.title == "Jacobian" else metric.title[:1].lower() + metric.title[1:]
+    title = tr(metric.title)
+    return title if metric.title == "Jacobian" or title != metric.title else title[:1].lower() + title[1:]
 
 
 def value_text(metric: HexQuantity, value: float) -> str:
     """Return a value of a metric as text; of angles to a tenth of a degree.
 
-    >>> from hexmend.quality import METRICS
-    >>> value_text(METRICS["min-angle"], 80.0572), value_text(METRICS["q"], 0.25)
-    ('80.1°', '0.2500')
+        >>> import math
+
+    from hexmend.quality import METRICS
+        >>> value_text(METRICS["min-angle"], 80.0572), value_text(METRICS["q"], 0.25)
+        ('80.1°', '0.2500')
     """
     return f"{value:.1f}°" if metric.unit == "degrees" else figure(value)

@@ -9,7 +9,7 @@ from pathlib import Path
 from PySide6.QtCore import QLocale
 
 from hexmend.parameters import Parameter
-from hexmend_app.translation import tr
+from hexmend_app.translation import tr, tr_count
 
 _GREEK = {"alpha": "α", "beta": "β", "delta": "δ", "eta": "η", "lambda": "λ", "rho": "ρ", "sigma": "σ", "tau": "τ"}
 _SUBSCRIPT = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -31,6 +31,38 @@ def name_in_words(name: str) -> str:
 def label_of(parameter: Parameter) -> str:
     """Return the label of a declared parameter, in the language of the program."""
     return tr(parameter.label or name_in_words(parameter.name))
+
+
+def range_of(parameter: Parameter) -> str:
+    """Return the values that a parameter admits, in the language of the program.
+
+    >>> range_of(Parameter("rho", float, 0.5, 0, 1, None, "", "", automatic="auto"))
+    'A number from 0 to 1, or auto'
+    """
+    if parameter.choices is not None:
+        return tr("One of {choices}", choices=", ".join(parameter.choices))
+    if parameter.type is bool:
+        return tr("True or false")
+    if parameter.type is str:
+        other = tr("names of sets with commas between them") if parameter.sets else tr("another text")
+        return _joined(list(parameter.suggestions), other) if parameter.suggestions else tr("A text")
+    kind = tr("A whole number") if parameter.type is int else tr("A number")
+    low, high = parameter.low, parameter.high
+    if low is not None and high is not None:
+        kind = tr("{kind} from {low:g} to {high:g}", kind=kind, low=low, high=high)
+    elif low is not None:
+        kind = tr("{kind} of at least {low:g}", kind=kind, low=low)
+    elif high is not None:
+        kind = tr("{kind} of at most {high:g}", kind=kind, high=high)
+    others = [word for word in (parameter.automatic, parameter.no_limit) if word]
+    if parameter.percent_of:
+        others.insert(0, tr("a percentage such as 0.5% of the {length}", length=tr(parameter.percent_of)))
+    return _joined([kind, *others[:-1]], others[-1]) if others else kind
+
+
+def _joined(texts: list[str], last: str) -> str:
+    texts_before = ", ".join(texts)
+    return tr("{texts}, or {last}", texts=texts_before[:1].upper() + texts_before[1:], last=last)
 
 
 def short_number(value: float) -> str:
@@ -109,9 +141,10 @@ def size(bytes: int) -> str:
 
 
 def counted(number: int, noun: str) -> str:
-    """Return a number with a noun in singular or plural.
+    """Return a number with a noun in singular or plural, in the language of the program.
 
     >>> counted(1, "node"), counted(1234, "node"), counted(2, "hex")
     ('1 node', '1,234 nodes', '2 hexes')
     """
-    return f"{number:,} {noun if number == 1 else noun + ('es' if noun.endswith('x') else 's')}"
+    plural = noun + ("es" if noun.endswith("x") else "s")
+    return tr_count(number, f"{{number:,}} {noun}", f"{{number:,}} {plural}")

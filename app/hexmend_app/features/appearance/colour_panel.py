@@ -65,7 +65,7 @@ class ColourPanel(QWidget):
         let_shrink(self._metric, 7)
         self._metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for metric in (*metrics_offered(), *DISPLACEMENT_QUANTITIES.values(), MATERIAL):
-            self._metric.addItem(metric.title, metric.name)
+            self._metric.addItem(tr(metric.title), metric.name)
             self._metric.setItemData(self._metric.count() - 1, _description(metric.name), Qt.ItemDataRole.ToolTipRole)
         self._metric.insertSeparator(len(METRICS))
         self._metric.insertSeparator(self._metric.count() - 1)
@@ -240,13 +240,13 @@ def _description(name: str) -> str:
     """Return the description of a metric as rich text."""
     metric = colour_quantity(name)
     if metric is MATERIAL:
-        lines = (f"<b>{escape(metric.title)}</b>", escape(metric.formula), escape(metric.meaning))
+        lines = (f"<b>{escape(tr(metric.title))}</b>", escape(tr(metric.formula)), escape(tr(metric.meaning)))
         return f"<qt>{'<br>'.join(lines)}</qt>"
     direction = {1: tr("Higher is better."), -1: tr("Lower is better."), 0: ""}[better(name)]
     full, acceptable = _range_text(metric.full_range), _range_text(metric.acceptable)
     lines = (
-        f"<b>{escape(metric.title)}</b>",
-        escape(metric.formula),
+        f"<b>{escape(tr(metric.title))}</b>",
+        escape(tr(metric.formula)),
         tr("Full range {full}; acceptable {acceptable}.", full=full, acceptable=acceptable) + f" {direction}",
         f"<i>{escape(metric.source)}</i>",
     )
@@ -254,7 +254,8 @@ def _description(name: str) -> str:
 
 
 def _range_text(ends: tuple[float, float]) -> str:
-    return " to ".join(f"{end:g}".replace("inf", "∞").replace("-", "−") for end in ends)
+    low, high = (f"{end:g}".replace("inf", "∞").replace("-", "−") for end in ends)
+    return tr("{low} to {high}", low=low, high=high)
 
 
 def _rounded(low: float, high: float) -> tuple[float, float]:

@@ -41,11 +41,11 @@ class MapBox(ComboBox):
         if self.findData(maps[0]) < 0:
             self.clear()
             for at, key in enumerate(maps):
-                self.addItem(COLOUR_MAPS[key].title or key, key)
-                self.setItemData(at, COLOUR_MAPS[key].help, Qt.ItemDataRole.ToolTipRole)
+                self.addItem(tr(COLOUR_MAPS[key].title) or key, key)
+                self.setItemData(at, tr(COLOUR_MAPS[key].help), Qt.ItemDataRole.ToolTipRole)
             self._paint_swatches()
         self.setCurrentIndex(max(self.findData(name), 0))
-        set_help(self, tr("Colour map"), COLOUR_MAPS[CHANGE_MAP].help if change else tr(_VALUE_MAPS_HELP))
+        set_help(self, tr("Colour map"), tr(COLOUR_MAPS[CHANGE_MAP].help) if change else tr(_VALUE_MAPS_HELP))
 
     def _on_activated(self) -> None:
         if self.currentData() in value_maps():

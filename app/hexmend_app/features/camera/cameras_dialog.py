@@ -49,7 +49,7 @@ class CamerasDialog(QDialog):
         self.list.setEditTriggers(QListWidget.EditTrigger.EditKeyPressed)
         self._problem = note("", WORSE)
         self._problem.setAccessibleName(tr("Error"))
-        self._buttons = [QPushButton(text) for text in ("&Go to", tr("&Rename"), tr("&Delete"))]
+        self._buttons = [QPushButton(text) for text in (tr("&Go to"), tr("&Rename"), tr("&Delete"))]
         for button, act in zip(self._buttons, (self._go, self._edit, self._delete), strict=True):
             button.setAutoDefault(False)
             button.clicked.connect(act)

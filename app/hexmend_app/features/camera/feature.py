@@ -112,9 +112,9 @@ class FeatureCamera(Feature):
                 menu="View/Camera",
                 keys=keys,
                 icon=icon,
-                help=tr(
-                    "Look at the mesh from {place}.", place="a corner" if name == "iso" else name.replace("-", "−")
-                ),
+                help=tr("Look at the mesh from a corner.")
+                if name == "iso"
+                else tr("Look at the mesh from {direction}.", direction=name.replace("-", "−")),
                 tool=tr(tool),
                 handle=lambda name=name: self.canvas.look_along(name),
                 enabled=self._ready,

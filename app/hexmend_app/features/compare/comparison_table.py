@@ -63,7 +63,7 @@ def title_of(name: str) -> str:
     >>> title_of("local-sd"), title_of(INITIAL)
     ('Local steepest descent', 'initial')
     """
-    return METHODS[name].title if name in METHODS else name
+    return tr(METHODS[name].title) if name in METHODS else tr(name)
 
 
 def column_texts(entries: Sequence[ComparisonRow], quantity: Quantity) -> dict[str, str]:
@@ -71,8 +71,10 @@ def column_texts(entries: Sequence[ComparisonRow], quantity: Quantity) -> dict[s
     with_result = [entry for entry in entries if entry.record]
     texts = map(with_minus, format_column(quantity, [entry.record for entry in with_result]))
     named = {entry.name: text for entry, text in zip(with_result, texts, strict=True)}
-    kept = tr("kept the start: nothing was better")
-    return {entry.name: kept if named.get(entry.name) == KEPT_START else named.get(entry.name, "") for entry in entries}
+    if quantity.key == "outcome":
+        kept = tr("initial mesh kept: no iteration was better")
+        named = {name: kept if text == KEPT_START else tr(text) for name, text in named.items()}
+    return {entry.name: named.get(entry.name, "") for entry in entries}
 
 
 def best(entries: Sequence[ComparisonRow], quantity: Quantity, texts: Mapping[str, str]) -> set[str]:
@@ -241,7 +243,7 @@ class ComparisonModel(QAbstractTableModel):
         quantity = LINES[section - _FIRST] if section >= _FIRST else None
         if role == _Role.DisplayRole:
             return (
-                label(quantity, [one.record for one in self.entries])
+                tr(label(quantity, [one.record for one in self.entries]))
                 if quantity
                 else (tr("Method"), tr("View"))[section]
             )
@@ -250,7 +252,7 @@ class ComparisonModel(QAbstractTableModel):
         if role == _Role.ForegroundRole:
             return QBrush(QColor(str(MUTED)))
         if role == _Role.ToolTipRole:
-            help = quantity.help if quantity else (
+            help = tr(quantity.help) if quantity else (
                 tr("Select the methods to run. Click a column header to sort."),
                 tr("Select the results to show in views next to the current mesh."),
             )[section]  # fmt: skip

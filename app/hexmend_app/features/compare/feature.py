@@ -125,17 +125,17 @@ class FeatureCompare(Feature):
     def _entry(self, name: str, result: MethodResult | None, norm: ObjectiveNorm) -> ComparisonRow:
         method = METHODS[name]
         if result is None:
-            return ComparisonRow(name, f"<b>{method.title}</b><br>{method.help}", {})
+            return ComparisonRow(name, f"<b>{tr(method.title)}</b><br>{tr(method.help)}", {})
         row, state = result.row, result.state
         values = {one.key: getattr(row, one.key, None) for one in LINES} | {"kept": row.kept}
         record = values | (_mesh_values(state, norm) if state is not None else {}) | {"worse": row.worse}
         shown = state is not None and self._views.shows(state)
-        return ComparisonRow(name, f"<b>{method.title}</b><br>{row.message}", record, state is not None, shown)
+        return ComparisonRow(name, f"<b>{tr(method.title)}</b><br>{row.message}", record, state is not None, shown)
 
     def _show_status(self) -> None:
         comparison, progress = self._comparison, self._comparison.progress
         if progress is None:
-            interrupted = ", interrupted" if comparison.interrupted else ""
+            interrupted = tr(", interrupted") if comparison.interrupted else ""
             count = len(comparison.results)
             self.panel.set_status(
                 tr("{count} compared{interrupted}", count=counted(count, "method"), interrupted=interrupted)
@@ -145,7 +145,11 @@ class FeatureCompare(Feature):
         elif comparison.ending:
             self.panel.set_status(tr("Stopping {title} after this iteration…", title=title_of(progress.method)))
         else:
-            step = f"iteration {progress.iteration:,}, {progress.seconds:.1f} s" if progress.iteration else "preparing…"
+            step = (
+                tr("iteration {number:,}, {seconds:.1f} s", number=progress.iteration, seconds=progress.seconds)
+                if progress.iteration
+                else tr("preparing…")
+            )
             self.panel.set_status(
                 tr(
                     "{title} ({number} of {of}): {step}",

@@ -33,9 +33,9 @@ def titled(chart: Chart, curves: Sequence[Curve], dashes: Sequence[str]) -> str:
     unreported = [curve.record.name for curve in omitted if not _infinite(chart, curve)]
     notes = []
     if infinite:
-        notes.append(tr("infinite for {infinite} while hexes are inverted", infinite=" and ".join(infinite)))
+        notes.append(tr("infinite for {infinite} while hexes are inverted", infinite=", ".join(infinite)))
     if unreported:
-        notes.append(tr("not reported by {unreported}", unreported=" and ".join(unreported)))
+        notes.append(tr("not reported by {unreported}", unreported=", ".join(unreported)))
     return f"{heading}: {'; '.join(notes)}" if notes else heading
 
 
@@ -86,7 +86,7 @@ def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
         if np.isfinite(value):
             text = figure(int(value)) if quantity.whole else _significant(float(value))
         else:
-            text = "infinite" if quantity.key == "objective" else tr("not reported")
+            text = tr("infinite") if quantity.key == "objective" else tr("not reported")
         row = curve.record.rows[number] if quantity.key == "objective" else {}
         formula = row.get("objective_formula")
         values.append(f"{tr(quantity.title)} {formula} {text}" if formula else f"{tr(quantity.title)} {text}")
@@ -95,9 +95,9 @@ def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
     stored = curve.stored()
     nearest = int(stored[np.abs(stored - number).argmin()])
     thinned = "" if nearest == number else tr(" (nearest stored: {nearest})", nearest=nearest)
-    seconds = f" at {curve.columns.seconds[number]:.3g} s" if by_time else ""
+    seconds = tr(" at {seconds:.3g} s", seconds=curve.columns.seconds[number]) if by_time else ""
     pause = curve.record.pauses.get(number)
-    paused = f"\n    paused: {pause}" if pause else ""
+    paused = "\n    " + tr("paused: {reason}", reason=pause) if pause else ""
     return f"{_named(curve.record, number)}{seconds}: {', '.join(values)}{thinned}{paused}"
 
 

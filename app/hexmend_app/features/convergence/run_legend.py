@@ -93,7 +93,7 @@ class RunRow(QWidget):
         font = self.box.font()
         font.setBold(curve.current)
         self.box.setFont(font)
-        values = {"title": record.title, "count": counted(record.newest, record.unit)}
+        values = {"title": tr(record.title), "count": counted(record.newest, record.unit)}
         if record.parent is None:
             help = tr("Plot {title}: {count}.", **values)
         else:

@@ -27,7 +27,7 @@ class FeatureEdit(Feature):
                 tool=tr("Undo"),
                 handle=commands.undo,
                 enabled=lambda: self.session.editable and self._undo_title is not None,
-                title=lambda: tr("&Undo {title}", title=self._undo_title or "").strip(),
+                title=lambda: tr("&Undo {title}", title=tr(self._undo_title or "")).strip(),
             ),
             Action(
                 id="redo",
@@ -39,7 +39,7 @@ class FeatureEdit(Feature):
                 tool=tr("Redo"),
                 handle=commands.redo,
                 enabled=lambda: self.session.editable and self._redo_title is not None,
-                title=lambda: tr("&Redo {title}", title=self._redo_title or "").strip(),
+                title=lambda: tr("&Redo {title}", title=tr(self._redo_title or "")).strip(),
             ),
         )
 

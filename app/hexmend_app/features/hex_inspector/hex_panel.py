@@ -169,8 +169,8 @@ class HexPanel(QWidget):
         grid = QGridLayout()
         grid.setVerticalSpacing(4)
         for row, metric in enumerate(metrics):
-            title = QLabel(metric.title)
-            set_help(title, metric.title, described(metric).removeprefix("<qt>").removesuffix("</qt>"))
+            title = QLabel(tr(metric.title))
+            set_help(title, tr(metric.title), described(metric).removeprefix("<qt>").removesuffix("</qt>"))
             grid.addWidget(title, row, 0)
             grid.addWidget(self._values[metric.name], row, 1)
         return grid
@@ -237,7 +237,9 @@ class HexPanel(QWidget):
         ]
         if np.isfinite(details.energy):
             gradient = float(np.linalg.norm(details.downhill))
-            parts.append(f"energy {figure(details.energy)}, gradient {figure(gradient)}")
+            parts.append(
+                tr("energy {energy}, gradient {gradient}", energy=figure(details.energy), gradient=figure(gradient))
+            )
         else:
             parts.append(tr("infinite energy (inverted hex)"))
         self._about_node.setText(", ".join(filter(None, parts)))

@@ -68,7 +68,7 @@ class WorstList(QWidget):
         self._stale = False
         self._metric = ComboBox()
         for metric in metrics_offered():
-            self._metric.addItem(metric.title, metric.name)
+            self._metric.addItem(tr(metric.title), metric.name)
             self._metric.setItemData(self._metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
         set_help(
             self._metric,
@@ -215,7 +215,7 @@ class WorstList(QWidget):
             return
         metric = METRICS[self.chosen_metric]
         worst = WorstHexes.of(mesh, figures, metric.name)
-        self._model.title = metric.title
+        self._model.title = tr(metric.title)
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
         self._table.setColumnHidden(ID, worst.ids is None)
         self._model.fill(worst)

@@ -72,7 +72,7 @@ class WorstModel(QAbstractTableModel):
             if column == ID:
                 return "" if self.ids is None else str(self.ids[row])
             if column == STATE:
-                return self.states[row]
+                return tr(self.states[row])
             return figure(float((self.values if column == VALUE else self.jacobians)[row]))
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _LEFT if column == STATE else _RIGHT

@@ -10,6 +10,7 @@ import numpy as np
 from hexmend.quality import METRICS
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.colouring import range_label
+from hexmend_app.translation import tr
 
 #: Left and right ends of the separate bars on the plot, on which the bins span 0 to 1.
 _INVERTED = (-0.30, -0.18)
@@ -134,12 +135,12 @@ class Axis:
         """Title of the metric with power of ten and unit."""
         metric = METRICS[self.metric]
         power = f"10{str(self.exponent).translate(_SUPERSCRIPT)}" if self.exponent else ""
-        unit = " ".join(part for part in (power, metric.unit) if part)
-        return f"{metric.title} [{unit}]" if unit else metric.title
+        unit = " ".join(part for part in (power, metric.unit and tr(metric.unit)) if part)
+        return f"{tr(metric.title)} [{unit}]" if unit else tr(metric.title)
 
     def ticks(self) -> list[tuple[float, str]]:
         """Return positions and texts of the ticks, those of the separate bars first."""
-        ticks = [(sum(self.inverted) / 2, "inverted")]
+        ticks = [(sum(self.inverted) / 2, tr("inverted"))]
         for bar, sign, end in ((self.below, "<", self.low), (self.above, "≥", self.high)):
             if bar is not None:
                 ticks.append((sum(bar) / 2, f"{sign} {self._tick_text(end)}"))

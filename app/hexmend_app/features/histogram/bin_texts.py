@@ -50,9 +50,9 @@ def _bin_at(shown: Distribution, x: float, cumulative: bool) -> tuple[str, Calla
     low, high = axis.text(axis.low), axis.text(axis.high)
     below = tr("inverted, or {metric} < {low}", metric=metric, low=low) if cumulative else f"{metric} < {low}"
     for bar, title, count in (
-        (axis.inverted, "inverted", lambda distribution: distribution.inverted),
+        (axis.inverted, tr("inverted"), lambda distribution: distribution.inverted),
         (axis.below, below, lambda distribution: distribution.below),
-        (axis.above, "all" if cumulative else f"{metric} ≥ {high}", lambda distribution: distribution.above),
+        (axis.above, tr("all") if cumulative else f"{metric} ≥ {high}", lambda distribution: distribution.above),
     ):
         if bar is not None and bar[0] <= x <= bar[1]:
             return title, count
@@ -82,8 +82,9 @@ def range_summary(now: Distribution | None, range: Show | None) -> str:
     if now is None:
         return tr("No mesh is open.")
     if range is None:
-        return f"{counted(now.total, 'hex')}, {now.inverted:,} inverted"
-    return f"{now.within(range):,} of {counted(now.total, 'hex')}{_description(now, range)}"
+        return tr("{hexes}, {inverted:,} inverted", hexes=counted(now.total, "hex"), inverted=now.inverted)
+    hexes, description = counted(now.total, "hex"), _description(now, range)
+    return tr("{count:,} of {hexes}{description}", count=now.within(range), hexes=hexes, description=description)
 
 
 def _description(now: Distribution, range: Show) -> str:
@@ -105,7 +106,10 @@ def _values(axis: Axis, range: Show) -> str:
     """Describe the bounds of a range; "" if it has none."""
     minimum, maximum = METRICS[axis.metric].full_range
     low, high = axis.end_text(range.low), axis.end_text(range.high)
-    unit = f" {METRICS[axis.metric].unit}".rstrip()
+    unit = METRICS[axis.metric].unit
+    unit = f" {tr(unit)}" if unit else ""
     if range.high >= maximum:
-        return "" if range.low <= minimum else f" from {low}{unit}"
-    return f" up to {high}{unit}" if range.low <= minimum else f" in {low} – {high}{unit}"
+        return "" if range.low <= minimum else tr(" from {low}{unit}", low=low, unit=unit)
+    if range.low <= minimum:
+        return tr(" up to {high}{unit}", high=high, unit=unit)
+    return tr(" from {low} to {high}{unit}", low=low, high=high, unit=unit)

@@ -90,7 +90,7 @@ class Distributions:
         if self._initial is not None:
             series.append(Series("start", tr("at the start"), GREY, self._initial, filled=not coloured))
         if self.current is not None:
-            now = Series("now", "now", BLUE, self.current, filled=True, current=True, gradient=self.gradient)
+            now = Series("now", tr("now"), BLUE, self.current, filled=True, current=True, gradient=self.gradient)
             series.insert(0 if coloured else len(series), now)
         return series + [Series(str(slot), name, KEPT[slot], counts) for slot, name, counts in self.snapshots]
 

@@ -199,7 +199,7 @@ class FeatureHistogram(Feature):
 
     def _export_event(self, path: Path, style: ChartStyle | None = None) -> FileExported:
         panel, document = self.panel, self._document
-        drawn = [(tr("at the start"), GREY.light, True, document.start), ("now", BLUE.light, True, document.now)]
+        drawn = [(tr("at the start"), GREY.light, True, document.start), (tr("now"), BLUE.light, True, document.now)]
         for snapshot in self._snapshots.all:
             state = self.session.state_at(snapshot.points)
             mesh = document.now.mesh.with_points(snapshot.points) if state is None else state

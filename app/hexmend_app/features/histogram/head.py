@@ -66,7 +66,7 @@ class HistogramHead(QWidget):
         self.metric_box.setMaximumWidth(240)
         self.metric_box.addItem("", "")
         for metric in metrics_offered():
-            self.metric_box.addItem(metric.title, metric.name)
+            self.metric_box.addItem(tr(metric.title), metric.name)
             self.metric_box.setItemData(self.metric_box.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
         self.metric_box.view().setMinimumWidth(220)
         self.metric_box.activated.connect(lambda: self.metric_chosen.emit(self.metric_box.currentData()))
@@ -159,7 +159,7 @@ class HistogramHead(QWidget):
         """Show a metric, without emitting a signal; `as_colours` if it follows the metric of the colours."""
         metric = METRICS[name]
         self.metric_box.setItemText(
-            0, tr("{title} (as colours)", title=metric.title) if as_colours else tr("As colours")
+            0, tr("{title} (as colours)", title=tr(metric.title)) if as_colours else tr("As colours")
         )
         self.metric_box.setItemData(0, tr("Use the metric of the colours."), Qt.ItemDataRole.ToolTipRole)
         self.metric_box.setCurrentIndex(0 if as_colours else self.metric_box.findData(name))

@@ -101,10 +101,10 @@ def figure(
                 [float(count * scale) for count in counted.counts],
                 [(*span, count * scale) for span, count in bars if span is not None and count],
                 line.filled and not cumulative,
-                f"{counted.inverted:,} inverted",
+                tr("{count:,} inverted", count=counted.inverted),
             )
         )
-    label = tr("% of hexes up to x, inverted first") if cumulative else "hexes"
+    label = tr("% of hexes up to x, inverted first") if cumulative else tr("hexes")
     return Histogram(outlines, title, axis.title, label, axis.ticks(), axis.extent, log)
 
 

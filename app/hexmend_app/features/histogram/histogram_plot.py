@@ -84,7 +84,7 @@ class HistogramPlot(QWidget):
             region.setBrush(f"{BLUE}20")
             for line in region.lines:
                 line.setPen(str(BLUE), width=1.5)
-        self.plot.getAxis("bottom").colours["inverted"] = INVERTED_TEXT
+        self.plot.getAxis("bottom").colours[tr("inverted")] = INVERTED_TEXT
         for key, colour in (("now", INVERTED_TEXT), ("start", MUTED)):
             for number in self.numbers[key]:
                 number.setColor(str(colour))

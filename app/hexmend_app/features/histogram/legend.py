@@ -47,7 +47,7 @@ class HistogramLegend(QWidget):
         self._title.setContentsMargins(0, 0, 8, 0)
         set_help(self._title, tr("Axis of values"), help)
         self._flow.addWidget(self._title)
-        for text, colour in ((tr("at the start"), GREY), ("now", BLUE)):
+        for text, colour in ((tr("at the start"), GREY), (tr("now"), BLUE)):
             entry = legend_entry(text, colour)
             set_help(entry, text, help)
             entry.setMinimumHeight(_HEIGHT)  # aligns it with the entries of snapshots

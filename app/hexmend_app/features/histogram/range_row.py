@@ -67,11 +67,11 @@ class RangeRow(QWidget):
         """Change the metric and the range of its values."""
         self._axis = axis
         metric = in_sentence(METRICS[axis.metric])
-        for box, end in ((self.low, tr("Lowest")), (self.high, tr("Highest"))):
+        for box, name in ((self.low, tr("Minimum {metric} shown")), (self.high, tr("Maximum {metric} shown"))):
             with QSignalBlocker(box):
                 box.set_axis(axis)
             box.updateGeometry()
-            name = f"{end} {metric} shown"
+            name = name.format(metric=metric)
             set_help(
                 box,
                 name,

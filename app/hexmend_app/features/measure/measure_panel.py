@@ -94,12 +94,16 @@ def measurement_text(measurement: Measurement) -> str:
     Angle at 2: 90°
     """
     points = measurement.points
-    lines = [f"Point {k}: ({', '.join(map(_number, point))})" for k, point in enumerate(points, 1)]
+    lines = [
+        tr("Point {number}: ({place})", number=k, place=", ".join(map(_number, point)))
+        for k, point in enumerate(points, 1)
+    ]
     for k, (start, end, length) in enumerate(zip(points[:-1], points[1:], measurement.distances, strict=True), 1):
         steps = ", ".join(f"Δ{axis} {_number(b - a)}" for axis, a, b in zip("xyz", start, end, strict=True))
-        lines.append(f"Distance {k}–{k + 1}: {_number(length)}    {steps}")
+        distance = tr("Distance {start}–{end}: {length}", start=k, end=k + 1, length=_number(length))
+        lines.append(f"{distance}    {steps}")
     if measurement.angle is not None:
-        lines.append(f"Angle at 2: {measurement.angle:.5g}°")
+        lines.append(tr("Angle at 2: {angle:.5g}°", angle=measurement.angle))
     return "\n".join(lines)
 
 

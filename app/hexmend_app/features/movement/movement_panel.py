@@ -203,18 +203,20 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
 
 
 def _count_texts(counts: DisplacementCounts, name: str, free: int) -> tuple[str, str, str, str]:
-    distance = f"mean {figure(counts.mean)}, max {figure(counts.largest)}" if counts.moved else "–"
-    slid = f" and {counts.slid:,} boundary" if counts.slid else ""
+    distance = (
+        tr("mean {mean}, max {max}", mean=figure(counts.mean), max=figure(counts.largest)) if counts.moved else "–"
+    )
+    slid = tr(" and {count:,} boundary", count=counts.slid) if counts.slid else ""
     return (
         tr(
             "{moved:,} of {free:,} free{slid} nodes moved since {name}",
             moved=counts.moved - counts.slid,
             free=free,
             slid=slid,
-            name=name,
+            name=tr(name),
         ),
         distance,
-        f"{counts.better:,} better, {counts.worse:,} worse",
+        tr("{better:,} better, {worse:,} worse", better=counts.better, worse=counts.worse),
         tr(
             "{newly_inverted:,} newly inverted, {mended:,} repaired",
             newly_inverted=counts.newly_inverted,

@@ -155,7 +155,7 @@ class FeatureNodeStep(Feature):
     def _show(self, step: NodeStep, done: bool) -> None:
         if self._node_sweep.sweep is not None or done:
             self._cancel_request()
-        self.panel.show_step(step, METHODS[step.method].title, done)
+        self.panel.show_step(step, tr(METHODS[step.method].title), done)
         self._draw(step)
         if self.panel.patch_alone and self._isolation != _isolation(step):
             self._isolate(step)

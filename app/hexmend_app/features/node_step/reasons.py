@@ -70,7 +70,7 @@ def reason_for_no_sweep(session: Session, smoother: Smoother | None) -> str:
     if smoother is None:
         return tr(_INVALID)
     if not isinstance(smoother, LocalDescent):
-        local = ", ".join(method.title for method in METHODS.values() if issubclass(method, LocalDescent))
+        local = ", ".join(tr(method.title) for method in METHODS.values() if issubclass(method, LocalDescent))
         return tr("Only local methods move one node at a time. Select one of: {methods}.", methods=local)
     return "" if session.document.now.mesh.free.any() else tr("All nodes of the mesh are fixed.")
 

@@ -185,7 +185,7 @@ class _HexList(QWidget):
         self.button.clicked.connect(lambda: self.show_requested.emit(self._hexes))
         set_help(
             self.button,
-            tr("Show {hexes}", hexes=name or f"the {title.lower()} hexes"),
+            tr("Show {hexes}", hexes=name or tr("the {title} hexes", title=title.lower())),
             tr(
                 "Show only the hexes {description}, and their neighbours; Esc shows all hexes again.",
                 description=description,
@@ -213,7 +213,7 @@ def _selection_help(suggestion: Suggestion) -> str:
     if suggestion.undo:
         effects.append(tr("go back to the mesh before the run"))
     if suggestion.unpin.size:
-        effects.append(f"unpin {counted(int(suggestion.unpin.size), 'node')}")
+        effects.append(tr("unpin {nodes}", nodes=counted(int(suggestion.unpin.size), "node")))
     if suggestion.widen:
         effects.append(tr("unpin the nodes around the inverted hexes"))
     if suggestion.rules is not None:

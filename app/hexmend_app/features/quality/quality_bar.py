@@ -74,7 +74,7 @@ class QualityBar(QFrame):
         if self._summaries is None:
             return
         figures = self._figures()
-        help = "".join(f"<p>{_html(*entry, True)}<br>{escape(entry[0].help)}</p>" for entry in figures)
+        help = "".join(f"<p>{_html(*entry, True)}<br>{escape(tr(entry[0].help))}</p>" for entry in figures)
         self._label.setToolTip(f"<qt>{help}</qt>")
         self._label.setAccessibleDescription(". ".join(_sentence(*entry) for entry in figures))
         self._set_text(with_start=True)

@@ -30,13 +30,13 @@ from hexmend_app.theme.style import (
     smaller,
     tabular,
 )
-from hexmend_app.translation import tr
+from hexmend_app.translation import marked, tr
 from hexmend_app.widgets.tables.link_table import LinkTable
 from hexmend_app.widgets.wording import figure
 
 #: Quantities with a row; the quality of the best hex tells nothing about a mesh.
 ROWS = tuple(quantity for quantity in SUMMARY_QUANTITIES.values() if quantity.key != "q_max")
-_COLUMNS = ("", "start", "now", "change")
+_COLUMNS = ("", marked("start"), marked("now"), marked("change"))
 _START, _NOW, _CHANGE = 1, 2, 3
 
 #: Horizontal padding of a cell, in pixels.
@@ -44,7 +44,7 @@ _PADDING = 10
 
 
 def _title(row: Quantity) -> str:
-    return f"– {row.label}" if row.part_of else row.title
+    return f"– {tr(row.label)}" if row.part_of else tr(row.title)
 
 
 def _cell_text(value: float | None) -> str:
@@ -66,7 +66,7 @@ def change(row: Quantity, start: float | None, now: float | None) -> tuple[str, 
     if start is None or now is None:
         if start is now:
             return "", 0
-        return ("finite", 1) if start is None else ("infinite", -1)
+        return (tr("finite"), 1) if start is None else (tr("infinite"), -1)
     difference = now - start
     if difference == 0 or not math.isfinite(difference):
         return "=", 0
@@ -77,7 +77,7 @@ def change(row: Quantity, start: float | None, now: float | None) -> tuple[str, 
 
 
 #: Rows whose present number is a link to the hexes that it counts, and the names of these groups of hexes.
-LINKS = {"inverted": "inverted", "locked_inverted": "locked"}
+LINKS = {"inverted": marked("inverted"), "locked_inverted": marked("locked")}
 
 
 class StatisticsTable(QWidget):
@@ -194,8 +194,11 @@ class StatisticsTable(QWidget):
                 item.setFont(font)
                 item.setForeground(QBrush(QColor(str(WORSE if linked else TEXT))))
                 kind = LINKS[row.key]
-                help = f"<qt>Show only the {kind} hexes: click, or press Enter in this row. Esc shows all hexes.</qt>"
-                item.setToolTip(help if linked else _help(row))
+                help = tr(
+                    "Show only the {kind} hexes: click, or press Enter in this row. Esc shows all hexes again.",
+                    kind=tr(kind),
+                )
+                item.setToolTip(f"<qt>{help}</qt>" if linked else _help(row))
                 self._table.set_link(number, _NOW, kind if linked else None)
 
     def text(self) -> str:
@@ -233,4 +236,4 @@ class StatisticsTable(QWidget):
 
 
 def _help(row: Quantity) -> str:
-    return f"<qt><b>{row.title}</b><br>{row.help}</qt>"
+    return f"<qt><b>{tr(row.title)}</b><br>{tr(row.help)}</qt>"

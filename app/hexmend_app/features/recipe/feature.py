@@ -47,7 +47,7 @@ class FeatureRecipe(Feature):
         panel.load_requested.connect(self.ask_load)
         panel.save_requested.connect(self.ask_save)
         panel.shipped_requested.connect(self.load)
-        panel.set_shipped([(read_recipe(path).title, path) for path in recipes()])
+        panel.set_shipped([(tr(read_recipe(path).title), path) for path in recipes()])
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that run, load and save the recipe."""
@@ -165,8 +165,9 @@ class FeatureRecipe(Feature):
 def _text(stage: Stage) -> tuple[str, str]:
     """Return the title of a stage with its changed values, and its help."""
     values = [*_changed_values(stage.smoother), *_changed_values(stage.stop, _LIMITS)]
-    title = f"{stage.smoother.title} ({', '.join(values)})" if values else stage.smoother.title
-    return title, f"{title}: {stage.smoother.help}"
+    method = tr(stage.smoother.title)
+    title = f"{method} ({', '.join(values)})" if values else method
+    return title, f"{title}: {tr(stage.smoother.help)}"
 
 
 def _value_text(parameter: Parameter, template: str | None, value: str) -> str:

@@ -133,7 +133,7 @@ class RunTable(QAbstractTableModel):
         if role == _Role.ForegroundRole:
             return QBrush(QColor(str(MUTED)))
         if role == _Role.ToolTipRole:
-            help = quantity.help if quantity else (
+            help = tr(quantity.help) if quantity else (
                 tr("Click a run to show its result. Grey runs are dominated: another is no worse in any figure."),
                 tr("Rules of motion, and values of the method and limits that differ from the defaults."),
             )[section]  # fmt: skip

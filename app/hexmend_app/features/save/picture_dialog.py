@@ -128,7 +128,7 @@ class PictureDialog(SaveDialog):
         for title, group in groups:
             column.addWidget(QLabel(f"<b>{title}</b>"))
             column.addWidget(group)
-            if title == "Text":
+            if title == tr("Text"):
                 column.addWidget(captions)
         column.addStretch()
         labels = [label for label in settings.findChildren(QLabel) if label.buddy() is not None]

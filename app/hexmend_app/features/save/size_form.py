@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, 
 
 from hexmend_app.picture import Page
 from hexmend_app.theme.style import set_help
-from hexmend_app.translation import tr
+from hexmend_app.translation import marked, tr
 from hexmend_app.widgets.inputs.combo import ComboBox
 
 #: Title, size in pixels, size in millimetres; one of the sizes is None.
@@ -19,7 +19,7 @@ _PRESETS = (
     ("Full HD, 1920 × 1080 pixels", (1920, 1080), None),
     ("4K, 3840 × 2160 pixels", (3840, 2160), None),
 )
-_MM, _PIXELS = "mm", "pixels"
+_MM, _PIXELS = marked("mm"), marked("pixels")
 
 #: Minimum, maximum and decimals for each unit.
 _RANGES = {_MM: (5.0, 3000.0, 1), _PIXELS: (16.0, 16384.0, 0)}
@@ -54,7 +54,8 @@ class SizeForm(QWidget):
             self.preset.addItem(tr(title), (pixels, mm))
         self.preset.addItem(tr("Custom"), None)
         set_help(self.preset, tr("Preset"), tr("Common picture sizes."))
-        self.unit.addItems([_MM, _PIXELS])
+        for unit in (_MM, _PIXELS):
+            self.unit.addItem(tr(unit), unit)
         set_help(self.unit, tr("Unit"), tr("Millimetres on paper, or pixels."))
         self.width_box, self.height_box, self.dpi = QDoubleSpinBox(), QDoubleSpinBox(), QDoubleSpinBox()
         set_help(self.width_box, tr("Width"), tr("Width of the picture."))
@@ -97,12 +98,12 @@ class SizeForm(QWidget):
             If the page has too many pixels.
         """
         width, height = self.width_box.value(), self.height_box.value()
-        if self.unit.currentText() == _MM:
+        if self.unit.currentData() == _MM:
             return replace(base, width=width, height=height, pixels=None, dpi=self.dpi.value())
         return replace(base, width=None, height=None, pixels=(int(width), int(height)), dpi=None)
 
     def _show(self, unit: str, width: float, height: float) -> None:
-        self.unit.setCurrentText(unit)
+        self.unit.setCurrentIndex(self.unit.findData(unit))
         low, high, decimals = _RANGES[unit]
         for box, value in ((self.width_box, width), (self.height_box, height)):
             box.blockSignals(True)
@@ -116,7 +117,7 @@ class SizeForm(QWidget):
         size = self.width_box.value(), self.height_box.value()
         for at in range(self.preset.count() - 1):
             pixels, mm = self.preset.itemData(at)
-            if size == (pixels if mm is None else mm) and self.unit.currentText() == (_PIXELS if mm is None else _MM):
+            if size == (pixels if mm is None else mm) and self.unit.currentData() == (_PIXELS if mm is None else _MM):
                 self.preset.setCurrentIndex(at)
                 return
         self.preset.setCurrentIndex(self.preset.count() - 1)
@@ -131,7 +132,7 @@ class SizeForm(QWidget):
         """Convert the size to the other unit."""
         mm_per_pixel = 25.4 / self.dpi.value()
         width, height = self.width_box.value(), self.height_box.value()
-        if self.unit.currentText() == _MM:
+        if self.unit.currentData() == _MM:
             self._show(_MM, width * mm_per_pixel, height * mm_per_pixel)
         else:
             self._show(_PIXELS, round(width / mm_per_pixel), round(height / mm_per_pixel))

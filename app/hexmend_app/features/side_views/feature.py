@@ -120,14 +120,14 @@ class FeatureSideViews(Feature):
 
     def _show_in_side_view(self) -> None:
         moment = self.session.timeline.shown_iteration
-        self._views.show("earlier mesh" if moment is None else moment.name, self.session.document.now)
+        self._views.show(tr("earlier mesh") if moment is None else moment.name, self.session.document.now)
 
     def _step_wipe(self, direction: int) -> None:
         if self._views.wipe is not None:
             self._views.move_wipe(self._views.wipe.at + direction * STEP)
 
     def _show_captions(self) -> None:
-        shown = [(NOW, self.session.document.now, BLUE)]
+        shown = [(tr(NOW), self.session.document.now, BLUE)]
         shown += [(view.name, view.state, self._colour(view.state)) for view in self._views.all]
         captions = [Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown]
         self.canvas.show_captions(captions, self._views.wipe)

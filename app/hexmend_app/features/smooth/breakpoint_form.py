@@ -47,10 +47,14 @@ class BreakpointForm(QWidget):
         self._inverts = self._check(grid, 0, tr("A hex inverts"), tr(_INVERTS))
         self._falls = self._check(grid, 1, tr("Minimum q drops"), tr(_FALLS))
         self._node, self._node_box, self._move = self._watch(
-            grid, 2, ("Node moves", "Node number", "Node moves by more than"), tr(_NODE), " edge"
+            grid,
+            2,
+            (tr("Node moves"), tr("Node number"), tr("Node moves by more than")),
+            tr(_NODE),
+            tr(" edge lengths"),
         )
         self._hex, self._hex_box, self._change = self._watch(
-            grid, 4, ("Hex changes", "Hex number", "Hex changes by more than"), tr(_HEX), " q"
+            grid, 4, (tr("Hex changes"), tr("Hex number"), tr("Hex changes by more than")), tr(_HEX), " q"
         )
         self._backtracks = self._check(grid, 6, tr("Line search backtracks"), tr(_BACKTRACKS))
         self._backtracks_box = self._number(QSpinBox(), tr("Maximum backtracks of the line search"), tr(_BACKTRACKS))
@@ -121,9 +125,9 @@ class BreakpointForm(QWidget):
         self, grid: QGridLayout, row: int, names: tuple[str, str, str], help: str, suffix: str
     ) -> tuple[QCheckBox, QSpinBox, QDoubleSpinBox]:
         """Add two rows for a hex or node: a check box, its number, and the limit of its change, with these names."""
-        check = self._check(grid, row, tr(names[0]), help, span=1)
-        number = self._number(QSpinBox(), tr(names[1]), help)
-        amount = self._number(QDoubleSpinBox(), tr(names[2]), help)
+        check = self._check(grid, row, names[0], help, span=1)
+        number = self._number(QSpinBox(), names[1], help)
+        amount = self._number(QDoubleSpinBox(), names[2], help)
         amount.setRange(0, 9.999)
         amount.setDecimals(3)
         amount.setSingleStep(0.01)

@@ -13,6 +13,7 @@ from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.flat_sets import normal_of_set
 from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
 from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import counted
 
 #: Rules of a single set: text and help.
 _RULES = {
@@ -98,13 +99,13 @@ def choices_of(mesh: Mesh, name: str, rules: tuple[Rule, ...]) -> list[Choice]:
 def describe_set(mesh: Mesh, name: str) -> str:
     """Describe a set: its type and the number of its entries."""
     if name in mesh.node_sets:
-        return tr("node set, {count:,} nodes", count=len(mesh.node_sets[name]))
+        return tr("node set, {nodes}", nodes=counted(len(mesh.node_sets[name]), "node"))
     if name in mesh.hex_sets:
-        return tr("hex set, {count:,} hexes", count=len(mesh.hex_sets[name]))
+        return tr("hex set, {hexes}", hexes=counted(len(mesh.hex_sets[name]), "hex"))
     if name in mesh.side_sets:
-        return tr("side set, {count:,} faces", count=len(mesh.side_sets[name]))
+        return tr("side set, {faces}", faces=counted(len(mesh.side_sets[name]), "face"))
     count = sum(len(cells.sets[name]) for cells in mesh.cells if name in cells.sets)
-    return tr("set of {count:,} other cells", count=count) if count else tr("not a set of this mesh")
+    return tr("set of {cells}", cells=counted(count, "other cell")) if count else tr("not a set of this mesh")
 
 
 def _problem(mesh: Mesh, name: str, nodes: np.ndarray, key: str) -> str:

@@ -102,18 +102,18 @@ class StructurePanel(QWidget):
             return
         self._between = between
         self._counts = counts
-        fixed = [(BOUNDARY, False, f"{boundary:,} boundary")] if boundary else []
+        fixed = [(BOUNDARY, False, tr("{count:,} boundary", count=boundary))] if boundary else []
         if between:
-            fixed.append((BOUNDARY, False, f"{between:,} between"))
+            fixed.append((BOUNDARY, False, tr("{count:,} between materials", count=between)))
         if pinned:
-            fixed.append((PINNED, False, f"{pinned:,} pinned"))
+            fixed.append((PINNED, False, tr("{count:,} pinned", count=pinned)))
         self.layers["fixed"].set_entries(fixed)
         self.layers["free"].set_entries([(FREE, False, f"{free:,}")] if free else [])
         self._show_locked()
 
     def set_legend(self, name: str, entries: list[Entry]) -> None:
         """Show the entries of an optional layer, by its name."""
-        self.layers[name].set_entries(entries)
+        self.layers[name].set_entries([(look, line, tr(text)) for look, line, text in entries])
 
     def set_curved(self, mid_nodes: np.ndarray | None) -> None:
         """Show the number of hexes with mid-nodes, (m, 19) int32; None if the mesh has none."""
@@ -137,7 +137,7 @@ class StructurePanel(QWidget):
     def _show_locked(self) -> None:
         """Show the number of locked hexes and, once known, how many of them sliding frees."""
         locked, classes = self._counts[-1] if self._counts else 0, self._classes
-        entries = [(LOCKED, False, f"of {counted(locked, 'hex')}")] if locked else []
+        entries = [(LOCKED, False, tr("of {hexes}", hexes=counted(locked, "hex")))] if locked else []
         if locked and classes is not None and classes.locked == locked:
             entries.append((None, False, tr("{freed:,} freed by sliding", freed=classes.freed)))
         self.layers["locked"].set_entries(entries)
@@ -152,10 +152,12 @@ def _by_valence(valence: np.ndarray) -> list[Entry]:
     """Return the counts of edges by valence; valences without a colour are merged."""
     numbers, counts = np.unique(valence, return_counts=True)
     pairs = list(zip(numbers, counts, strict=True))
-    entries = [(VALENCES[n], True, f"{count:,} of {n}") for n, count in pairs if n in VALENCES]
+    entries = [
+        (VALENCES[n], True, tr("{count:,} of {hexes}", count=count, hexes=n)) for n, count in pairs if n in VALENCES
+    ]
     rest = [(n, count) for n, count in pairs if n not in VALENCES]
     if len(rest) == 1:
-        entries.append((OTHER, True, f"{rest[0][1]:,} of {rest[0][0]}"))
+        entries.append((OTHER, True, tr("{count:,} of {hexes}", count=rest[0][1], hexes=rest[0][0])))
     elif rest:
-        entries.append((OTHER, True, f"{sum(count for _, count in rest):,} others"))
+        entries.append((OTHER, True, tr("{count:,} others", count=sum(count for _, count in rest))))
     return entries

@@ -179,4 +179,4 @@ def _text(record: RunRecord) -> tuple[str, str]:
         if parent and parent.number
         else ""
     )
-    return record.name, f"{record.title}{origin}"
+    return record.name, f"{tr(record.title)}{origin}"

@@ -41,7 +41,7 @@ def command_entries(actions: Mapping[str, QAction]) -> Iterator[PaletteEntry]:
             continue
         name = without_mnemonic(action.text())
         if action.isCheckable():
-            name = f"{name}: {'on' if action.isChecked() else 'off'}"
+            name = f"{name}: {tr('on') if action.isChecked() else tr('off')}"
         yield PaletteEntry(
             name=name,
             run=action.trigger,
@@ -63,7 +63,7 @@ def panel_entries(docks: Docks, panels: Iterable[Panel]) -> Iterator[PaletteEntr
                 name=control.accessibleName(),
                 run=partial(_focus_control, docks, panel, control),
                 help=control.accessibleDescription(),
-                kind=f"In {panel.title}",
+                kind=tr("In {panel}", panel=panel.title),
             )
 
 
@@ -74,12 +74,12 @@ def choice_entries(session: Session) -> Iterator[PaletteEntry]:
     if session.editable:
         for method in METHODS.values():
             stage = Stage(run_setup.smoother_of(method.name), stop)
-            choose = partial(run_setup.choose, stage, tr("{title} selected: press Run.", title=method.title))
-            yield PaletteEntry(name=method.title, run=choose, help=method.help, kind=tr("Method"))
+            choose = partial(run_setup.choose, stage, tr("{title} selected: press Run.", title=tr(method.title)))
+            yield PaletteEntry(name=tr(method.title), run=choose, help=tr(method.help), kind=tr("Method"))
     if session.document.is_open:
         for metric in colour_quantities().values():
             colour = partial(session.view.colour_by, metric.name)
-            yield PaletteEntry(name=metric.title, run=colour, help=metric.meaning, kind=tr("Colour by"))
+            yield PaletteEntry(name=tr(metric.title), run=colour, help=tr(metric.meaning), kind=tr("Colour by"))
 
 
 def _controls(panel: QWidget) -> Iterator[QWidget]:

@@ -29,7 +29,9 @@ class HexCounts(ElidingLabel):
     def refresh(self, session: Session) -> None:
         """Show the counts of the current mesh."""
         summary = session.document.now.summary
-        longest = f"{summary.hexes:,} hexes, {summary.hexes:,} inverted  ·  hex {summary.hexes:,}"
+        counts = {"hexes": summary.hexes, "inverted": summary.hexes}
+        selected = tr("hex {hex:,}: inverted", hex=summary.hexes)
+        longest = f"{tr('{hexes:,} hexes, {inverted:,} inverted', **counts)}  ·  {selected}"
         if longest != self._longest:
             self._longest = longest
             self.updateGeometry()

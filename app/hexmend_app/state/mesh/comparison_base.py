@@ -8,6 +8,7 @@ from hexmend_app.state.mesh import history
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.run_record import CONSTANT
+from hexmend_app.translation import tr
 
 
 class ComparisonBases:
@@ -51,7 +52,7 @@ class ComparisonBases:
             before = history.RecordedIteration(record, int(numbers[numbers < shown.number].max()))
             if before.number:
                 return self._state(before), before.name
-        return record.start, CONSTANT if record.holds_times else f"{record.name} began"
+        return record.start, CONSTANT if record.holds_times else tr("{run} started", run=record.name)
 
     def _state(self, iteration: history.RecordedIteration) -> State:
         if self._iteration is None or self._iteration[0] != iteration:

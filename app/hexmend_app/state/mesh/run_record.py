@@ -18,6 +18,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import State
+from hexmend_app.translation import tr
 
 #: Column of the times of a case in the rows of their record: the time as text, or `CONSTANT` for number 0.
 TIME = "time"
@@ -177,7 +178,7 @@ class RecordedIteration:
         """Name for titles."""
         if self.record.holds_times:
             return f"{self.record.name}, {self.record.label(self.number)}"
-        return f"{self.record.name} {self.number}" if self.number else f"before {self.record.name}"
+        return f"{self.record.name} {self.number}" if self.number else tr("before {run}", run=self.record.name)
 
 
 def balances(row: Mapping[str, Any]) -> bool:

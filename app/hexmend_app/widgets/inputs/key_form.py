@@ -56,8 +56,8 @@ class KeyForm(QWidget):
             option = self._keys[name]
             editor = self.editors[name] = _editor(option)
             editor.changed.connect(self._on_changed)
-            title = name_in_words(option.name) + (f" ({option.unit})" if option.unit else "")
-            set_help(editor, title, helps(self._kind)[name])
+            title = tr(name_in_words(option.name)) + (f" ({tr(option.unit)})" if option.unit else "")
+            set_help(editor, title, tr(helps(self._kind)[name]))
             label = QLabel(title)
             label.setBuddy(editor)
             layout.addRow(label, editor)

@@ -19,7 +19,7 @@ from hexmend_app.theme.style import BLUE, WORSE, icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
 from hexmend_app.widgets.inputs.number_box import LONGEST_UNIT, NumberBox
-from hexmend_app.widgets.wording import label_of, short_number
+from hexmend_app.widgets.wording import label_of, range_of, short_number
 
 
 @dataclass(frozen=True)
@@ -160,7 +160,7 @@ class ParameterForm(QWidget):
         editor = editor_for(declaration)
         default = declaration.default
         shown = _default_text(default)
-        expected = tr("{range}; default {default}.", range=declaration.range.capitalize(), default=shown)
+        expected = tr("{range}; default {default}.", range=range_of(declaration), default=shown)
         if isinstance(default, bool):
             expected = tr("On by default.") if default else tr("Off by default.")
         tip = f"{escape(help)}<br><i>{escape(expected)}</i>"

@@ -226,7 +226,7 @@ def test_a_result_equal_to_the_start_says_so(comparing, qtbot):
         if result.row.iterations:
             kept.append(table.index(row(window, name), COLUMN["outcome"]).data())
     assert kept
-    assert set(kept) == {"kept the start: nothing was better"}
+    assert set(kept) == {"initial mesh kept: no iteration was better"}
 
 
 def test_a_column_has_one_number_of_decimals_and_equal_texts_are_marked_alike():
