@@ -68,7 +68,7 @@ def parse_toml(text: str, label: str, largest: int = MAX_CHARACTERS) -> dict[str
 
 def _check_size(text: str, label: str, largest: int) -> None:
     if len(text) > largest:
-        raise ParameterError(f"has {len(text):,} letters: expected {label}, of {largest:,} at most")
+        raise ParameterError(f"has {len(text):,} characters: expected {label}, of {largest:,} at most")
     # Strings may contain anything and may be keys: each is replaced by an empty one with as many lines.
     bare = _STRING_OR_COMMENT.sub(lambda found: '""' + "\n" * found[0].count("\n"), text)
     if deep := _DEEP_KEY.search(bare):

@@ -146,7 +146,7 @@ FAULTY = {  # end of the entry, module, message
     "leaving": ("", "raise SystemExit('no licence')", "SystemExit: no licence"),
     "torn": ("", "1 /", "SyntaxError"),
     "missing": (":Missing", "", "AttributeError"),
-    "foreign": (":Path", "from pathlib import Path", "TypeError: Path is no hexmend.Smoother"),
+    "foreign": (":Path", "from pathlib import Path", "TypeError: Path is not a hexmend.Smoother"),
     "twice": ("", EXAMPLE.replace('"nonlinear-cg"', '"mend"'), "ValueError: method 'mend' is registered twice"),
     "unsourced": ("", EXAMPLE.replace('    source = "', '    comes_from = "'), "ConjugateGradients has no source"),
 }
@@ -246,9 +246,9 @@ print(*write_reference.methods(), *write_reference.every_command(), sep="\\n")
 
 
 @pytest.mark.parametrize(("text", "complaint"), [
-    ("hexes 8 1\n0 0 0\n", "is no plain mesh: 1 rows follow its first line"),
+    ("hexes 8 1\n0 0 0\n", "is not a plain mesh: 1 rows follow its first line"),
     ("hexes 1 1\n0 0 0\n0 0 0 0 0 0 0 9\n", "numbers from 0 to 0"),
-    ("hexes 8\n", "is no plain mesh"),
+    ("hexes 8\n", "is not a plain mesh"),
 ])  # fmt: skip
 def test_a_malformed_file_of_the_format_is_one_clear_line(extended, tmp_path, text, complaint):
     path = tmp_path / "mesh.hexes"
@@ -271,4 +271,4 @@ def test_an_object_of_another_class_is_left_out_with_a_line(installed, tmp_path,
     (tmp_path / "mesh.vtu.nothing").write_text("nothing")
     done = installed("odd = my_module:x", group, my_module="x = 3")([word.format(mesh=mesh) for word in words])
     kind = {"metrics": "metric", "formats": "format", "gallery": "gallery mesh"}[group]
-    assert f"the {kind} odd of my-methods is left out: TypeError: 3 is no hexmend." in done.stderr
+    assert f"the {kind} odd of my-methods is left out: TypeError: 3 is not a hexmend." in done.stderr

@@ -24,7 +24,7 @@ def parse_ranges(text: str) -> tuple[tuple[int, int], ...]:
     Raises
     ------
     ValueError
-        If the text is no list of ascending ranges.
+        If the text is not a list of ascending ranges.
 
     >>> parse_ranges("0-2, 4")
     ((0, 2), (4, 4))

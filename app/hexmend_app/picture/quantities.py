@@ -16,7 +16,7 @@ MATERIAL = HexQuantity(
     full_range=(-math.inf, math.inf),
     acceptable=(-math.inf, math.inf),
     better=0,
-    meaning="Hexes of one material have one colour.",
+    meaning="Hexes of the same material have the same colour.",
 )
 
 

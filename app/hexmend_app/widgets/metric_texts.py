@@ -30,7 +30,7 @@ def described(metric: HexQuantity) -> str:
 def _bound(value: float) -> str:
     """Return the end of a range.
 
-    >>> _bound(-math.inf), _bound(0.25)
+    >>> _bound(float("-inf")), _bound(0.25)
     ('−∞', '0.25')
     """
     return f"{value:g}".replace("inf", "∞").replace("-", "−")

@@ -48,7 +48,7 @@ def release(now: Situation) -> Suggestion | None:
         return None
     rules = now.mesh.node_rules.rules
     named = " and ".join(f"{name!r}" for name in names)
-    text = f"Run Mend without the rule that fixes the nodes of {named} (fix): it holds hexes inverted."
+    text = f"Run Mend without the rule that fixes the nodes of {named} (fix): it keeps hexes inverted."
     left = replace(rules, fix=tuple(name for name in rules.fix if name not in names))
     smoother = Mend(**now.objective, **now.sliding)
     return Suggestion("Mend without the fixed sets", text, "inverted", smoother, rules=left)
@@ -153,8 +153,8 @@ def restart_longer(now: Situation) -> Suggestion | None:
         return None
     stop, more = larger_limits(now)
     text = (
-        f"Undo the run and repeat it{more}: it ended before the worst corners had improved. The mesh is worse for a "
-        "while in between, and a run from here would pass through that again."
+        f"Undo the run and repeat it{more}: it ended before the worst corners had improved. The method "
+        "makes the mesh worse before it improves it, and a run from here would do so again."
     )
     return Suggestion("Undo, then the same with larger limits", text, "inverted", now.smoother, stop, undo=True)
 
@@ -164,7 +164,7 @@ def suggest_newton(now: Situation) -> Suggestion | None:
     if not _still_optimises(now) or now.unlocked.size or _is_mend(now):
         return None
     text = (
-        f"Run Mend with goal = shape: its Newton steps go to the same optimum as {now.smoother.title} in far fewer "
+        f"Run Mend with goal = shape: its Newton steps reach the same optimum as {now.smoother.title} in far fewer "
         "iterations."
     )
     return Suggestion("Mend, goal = shape", text, now.aim, Mend(**{**now.objective, "goal": "shape"}))

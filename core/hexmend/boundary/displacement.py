@@ -43,7 +43,7 @@ class DisplacementQuantity(HexQuantity):
     full_range: tuple[float, float] = (0.0, np.inf)
     acceptable: tuple[float, float] = (0.0, np.inf)
     better: int = 0
-    meaning: str = "Where the mesh has changed."
+    meaning: str = "Amount by which the nodes of a hex have moved."
     unit: str = _UNIT
 
 
@@ -76,11 +76,11 @@ _QUANTITIES = (
         title="Change of q(H)",
         label="Δq",
         since="change of q(H)",
-        formula="q(H) now, less q(H) then",
+        formula="q(H) now minus q(H) of the reference state",
         full_range=(-1.0, 1.0),
         acceptable=(-np.inf, np.inf),
         better=1,
-        meaning="Which hexes have paid for what others have gained.",
+        meaning="Hexes that became worse while others improved.",
         unit="",
         of=lambda movement: movement.quality.q - movement.before.quality.q,
     ),
@@ -91,7 +91,7 @@ _QUANTITIES = (
         since=f"{_UNIT} off the surface",
         formula="greatest distance, over the boundary nodes of a hex, from the boundary as it was, "
         f"in {_UNIT} of the mesh as it was opened",
-        meaning="Where a boundary that slides has left the surface.",
+        meaning="Distance by which a sliding boundary has left the surface.",
         of=lambda movement: _of_nodes(movement, movement.off_surface, corner_values.largest),
     ),
 )

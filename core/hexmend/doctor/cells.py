@@ -56,7 +56,7 @@ class DegenerateHexes(Problem):
 
     name, title = "degenerate-hexes", "Collapsed hexes"
     rank = 5
-    remedy = "Make them wedges, or mesh them anew."
+    remedy = "Convert them to wedges, or remesh them."
     action = "keep wedges as wedges, whose nodes stay, and remove flat ones, with the sides on them"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:

@@ -34,7 +34,7 @@ class CoincidentNodes(Problem):
         faces = np.sort(_merge_targets(mesh)[mesh.topology.boundary_faces], axis=1)
         pairs = len(faces) - len(np.unique(faces, axis=0))
         blocks = f" {pairs:,} pairs of boundary faces lie on each other: blocks that are not merged." if pairs else ""
-        effect = blocks or " Hexes that should be joined may be apart there."
+        effect = blocks or " Hexes that should be connected may be separate there."
         return self.finding(where, f"{count_phrase(where.size, 'node lies', 'nodes lie')} on others.{effect}")
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -72,8 +72,8 @@ class HangingNodes(Problem):
     items = "nodes"
     rank = 7
     remedy = (
-        "They count as boundary and stay where they are, as the coarse side does; a mesher that makes conforming "
-        "transitions frees them."
+        "They count as boundary nodes and stay in place, like the coarse side; a mesher with conforming transitions "
+        "avoids them."
     )
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:

@@ -11,7 +11,7 @@ from hexmend.mesh.orientation import mirror_hexes, mirrored_parts, whole_parts_a
 from hexmend.quality import corner_determinants
 from hexmend.terminal_text import count_phrase
 
-_RENUMBER = "Number them the other way: nodes stay where they are."
+_RENUMBER = "Reverse their numbering; the nodes stay in place."
 
 
 @register_problem
@@ -21,7 +21,7 @@ class MirroredParts(Problem):
     name, title = "mirrored-parts", "Mirrored parts"
     rank = 0
     remedy = _RENUMBER
-    action = "number their hexes the other way"
+    action = "reverse the numbering of their hexes"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         return np.flatnonzero(mirrored_parts(mesh))
@@ -41,7 +41,7 @@ class FlippedHexes(Problem):
     name, title = "flipped-hexes", "Flipped hexes"
     rank = 2
     remedy = _RENUMBER
-    action = "number them the other way"
+    action = "reverse their numbering"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         return np.flatnonzero(self._which(mesh))
@@ -49,8 +49,8 @@ class FlippedHexes(Problem):
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return self.finding(
             where,
-            f"{count_phrase(where.size, 'hex is', 'hexes are')} numbered left-handed, and sound if turned the other "
-            "way, as the neighbours are.",
+            f"{count_phrase(where.size, 'hex is', 'hexes are')} numbered left-handed, and valid if numbered like "
+            "their neighbours.",
         )
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -98,7 +98,7 @@ class VoxelOrder(Problem):
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return self.finding(
             where,
-            f"{count_phrase(where.size, 'hex is', 'hexes are')} twisted, and sound with corners read in the order of "
+            f"{count_phrase(where.size, 'hex is', 'hexes are')} twisted, and valid with corners read in the order of "
             "voxels (VTK type 11).",
         )
 

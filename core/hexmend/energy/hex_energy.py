@@ -82,7 +82,7 @@ def as_omitted_corners(omitted: np.ndarray | None, hexes: int) -> np.ndarray:
     if omitted is None:
         return np.zeros(hexes, np.uint8)
     if not isinstance(omitted, np.ndarray) or omitted.shape != (hexes,) or omitted.dtype != np.uint8:
-        raise MeshError(f"omitted is no array ({hexes},) of type uint8: expected a byte for each hex")
+        raise MeshError(f"omitted is not an array ({hexes},) of type uint8: expected a byte for each hex")
     return np.ascontiguousarray(omitted)
 
 

@@ -84,7 +84,7 @@ def load_plugins() -> None:
 
 def _take(name: str, found: object) -> None:
     if not (isinstance(found, type) and issubclass(found, GalleryMesh)):
-        raise TypeError(f"{found!r} is no hexmend.gallery.GalleryMesh")
+        raise TypeError(f"{found!r} is not a hexmend.gallery.GalleryMesh")
     if found not in GALLERY.values():  # its module may have registered it
         gallery_mesh(found)
 

@@ -253,7 +253,7 @@ def _check_content(path: Path, original: Original, reason: str) -> None:
     """Raise `LostContentError` where a file is to be written anew in place of an original with more than the mesh."""
     lost = _lost_content(original)
     if lost and is_same_file(path, original.path):
-        problem = f"would lose what it has besides the mesh: {'; '.join(lost)}. It has to be written anew, as {reason}"
+        problem = f"would lose data other than the mesh: {'; '.join(lost)}. It has to be rewritten, as {reason}"
         raise LostContentError(path, problem, REWRITE)
 
 
@@ -265,7 +265,7 @@ def _lost_content(original: Original) -> list[str]:
 def _anew(reason: str, original: Original) -> str:
     """Sentences for a file that was written anew although it has the format of the original."""
     lost = "; ".join([*_lost_content(original), "comments"])
-    return f"The file is written anew: {reason}. It lacks what the original has besides the mesh: {lost}."
+    return f"The file is rewritten: {reason}. Lost data of the original, other than the mesh: {lost}."
 
 
 def writer_for(

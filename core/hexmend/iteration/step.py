@@ -24,9 +24,9 @@ class Outcome(Enum):
     NOTHING_FREE = "Nothing to do: every node is fixed."
     FINISHED = "The method has no further step to make."
     NO_IMPROVEMENT = "Converged: the method no longer improves the mesh."
-    SUFFICIENT = "Done: the quality that was asked for is reached."
-    NO_DESCENT = "Stopped: the line search found no step that descends."
-    NOT_FINITE = "Stopped: a step gave coordinates that are not finite; the result before it is kept."
+    SUFFICIENT = "Done: the requested quality was reached."
+    NO_DESCENT = "Stopped: the line search found no descent step."
+    NOT_FINITE = "Stopped: a step produced coordinates that are not finite; the previous result was kept."
 
     @property
     def key(self) -> str:

@@ -20,7 +20,7 @@ MIRRORED_FACES = np.array([0, 1, 2, 3, 5, 4])
 _CHUNK = 1 << 16
 #: End of the note on hexes that were renumbered, and that of version 0.1.
 _RENUMBERED = "numbered inside out in the file (left-handed), and renumbered on reading."
-_RENUMBERED_BEFORE = "were wound the other way (inside out) in the file, and have been turned."
+_RENUMBERED_BEFORE = "were numbered inside out in the file, and were renumbered on reading."
 
 
 def was_turned(mesh: Mesh) -> bool:

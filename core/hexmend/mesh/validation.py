@@ -283,7 +283,7 @@ def as_index(value: object, count: int, label: str) -> int:
     try:
         found = operator.index(value)  # type: ignore[arg-type]
     except TypeError:
-        raise MeshError(f"{type(value).__name__} is no number of a {label}: {expected}") from None
+        raise MeshError(f"{type(value).__name__} is not the number of a {label}: {expected}") from None
     if isinstance(value, bool | np.bool_) or not 0 <= found < count:
         raise MeshError(f"there is no {label} {value}: {expected}")
     return found

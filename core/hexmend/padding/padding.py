@@ -86,7 +86,7 @@ class Padding:
         words = [f"{layer}." if left else f"{layer} and {self.thickness.min():.3g} at least."]
         asked = self.asked_thickness
         if asked is not None and abs(mean - asked) > _THICKNESS_DIFFERENCE * asked:
-            words.append(f"{asked:g} was asked for: the shape of the mesh leaves room for no other.")
+            words.append(f"{asked:g} was requested, but the shape of the mesh leaves no space for it.")
         if left:
             words.append(f"{count_phrase(left, 'hex is', 'hexes are')} inverted.")
             if self.run is None:
@@ -185,5 +185,5 @@ def _sheet(mesh: Mesh, name: str | None, around: str | None, rings: int) -> Shee
     if around == "locked":
         chosen = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, chosen)
     if not chosen.any():
-        raise MeshError(f"no hex of the mesh is {around}: there is nothing around which a layer could be laid")
+        raise MeshError(f"no hex of the mesh is {around}: there are no hexes to pad around")
     return around_sheet(mesh, np.flatnonzero(chosen), rings)

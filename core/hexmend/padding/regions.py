@@ -34,8 +34,8 @@ def whole_sheet(mesh: Mesh) -> Sheet:
     if solids:
         listed = " and ".join(f"{count:,} {kind} cells" for kind, count in solids.items())
         raise MeshError(
-            f"the mesh has {listed}, and its boundary is theirs too: a layer under it has hexes alone. Pad a set of "
-            "hexes instead (--set NAME), or the hexes that need it (--around inverted)"
+            f"the mesh has {listed}, and its boundary is theirs too: a layer under it consists of hexes only. Pad a "
+            "set of hexes instead (--set NAME), or the hexes that need it (--around inverted)"
         )
     return region_sheet(mesh, np.ones(mesh.n_hexes, dtype=bool))
 
@@ -206,8 +206,8 @@ def _check_rim(sheet: Sheet, name: str) -> None:
         first, count = ends[open_.argmax()], np.count_nonzero(open_)
         raise MeshError(
             f"a layer under the set {name!r} cannot be closed at {count:,} of the {len(open_):,} edges at which it "
-            f"ends, such as that between the nodes {first[0]} and {first[1]}: the boundary goes on there "
-            "flat or into a corner, and a layer that ended so would have hexes with two faces in one plane. Add the "
+            f"ends, such as that between the nodes {first[0]} and {first[1]}: the boundary continues there "
+            "flat or into a corner, and a layer that ends there would have hexes with two faces in one plane. Add the "
             "faces next to it to the set, up to a sharp edge, or pad the whole boundary"
         )
     _check_single_copies(sheet, np.unique(ends), name)
@@ -225,8 +225,8 @@ def _check_rim(sheet: Sheet, name: str) -> None:
     shared = np.intersect1d(sheet.originals, np.concatenate(solid)) if solid else np.empty(0)
     if shared.size:
         raise MeshError(
-            f"node {shared[0]} of the set {name!r} belongs to a cell that is no hex: a layer has hexes alone. Pad a "
-            "set of hexes instead"
+            f"node {shared[0]} of the set {name!r} belongs to a cell that is not a hex: a layer consists of hexes "
+            "only. Pad a set of hexes instead"
         )
 
 

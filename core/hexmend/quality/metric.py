@@ -123,7 +123,7 @@ def load_plugins() -> None:
 
 def _take(name: str, metric: object) -> None:
     if not isinstance(metric, Metric):
-        raise TypeError(f"{metric!r} is no hexmend.quality.Metric")
+        raise TypeError(f"{metric!r} is not a hexmend.quality.Metric")
     if metric not in METRICS.values():  # its module may have registered it
         metric.register()
 

@@ -33,7 +33,7 @@ def output_folder(path: str | Path) -> Path:
         make_folder(folder)
     except OSError as error:
         problem = "is a file" if isinstance(error, FileExistsError) else f"cannot be made: {error.strerror or error}"
-        raise FileError(folder, problem, "Name another folder.") from None
+        raise FileError(folder, problem, "Choose another folder.") from None
     return folder
 
 

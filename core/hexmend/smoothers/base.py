@@ -262,7 +262,7 @@ def method(cls: S) -> S:
         If the name is already registered.
     """
     if not issubclass(cls, Smoother):
-        raise TypeError(f"{cls.__name__} is no hexmend.Smoother")
+        raise TypeError(f"{cls.__name__} is not a hexmend.Smoother")
     _check_texts(cls, "name", "title", "help", "source")
     METHODS.add(cls.name, cls)
     reads_old_names(cls, former_attributes(Smoother) | PARAMETERS.get(cls.name, {}))

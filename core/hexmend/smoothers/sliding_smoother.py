@@ -36,8 +36,8 @@ class SlidingSmoother(Smoother):
         low=1,
         high=180,
         unit="degrees",
-        help="Edges with a larger dihedral angle are features; auto: chains of edges that stand out from the bends of "
-        "the surface around them.",
+        help="Edges with a larger dihedral angle are features; auto: chains of edges that are sharper than the "
+        "curvature of the surface around them.",
         automatic=AUTO,
         advanced=True,
     )
@@ -50,8 +50,8 @@ class SlidingSmoother(Smoother):
         high=10,
         unit="mean edge length",
         help="Largest distance between boundary and surface: with 0 nodes slide only where the surface is flat; "
-        "with unlimited, faces between sliding nodes may cut across curved parts by any distance; auto: 0.3, in mend "
-        "as much as it takes, up to 1, that no hex is inverted.",
+        "with unlimited, faces between sliding nodes may cut across curved parts by any distance; auto: 0.3; in mend "
+        "as large as untangling needs, at most 1.",
         no_limit=UNLIMITED,
         automatic=AUTO,
         percent_of="diagonal",

@@ -21,7 +21,7 @@ class TargetedSmoother(SlidingSmoother):
     target: str = parameter(
         AUTO,
         suggestions=(AUTO, *SPECIFICATIONS),
-        help="What hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the "
+        help="Target of the hexes: cubes, the given shape, size or both, or lengths from data of the "
         "file or a formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
     )
     size_weight: float = parameter(

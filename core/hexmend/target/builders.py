@@ -106,7 +106,7 @@ def _data(mesh: Mesh, name: str) -> np.ndarray:
     values = mesh.hex_data.get(name)
     values = np.asarray(mesh.node_data[name])[mesh.hexes].mean(axis=1) if values is None else np.asarray(values)
     if values.dtype.kind not in "iufb" or values.ndim > 2:
-        raise ParameterError(f"data {name!r} are no lengths: expected one number, or three, for each hex or node")
+        raise ParameterError(f"data {name!r} are not lengths: expected one number, or three, for each hex or node")
     return values.astype(np.float64)
 
 

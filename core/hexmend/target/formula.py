@@ -56,7 +56,7 @@ def evaluate(text: str, values: Mapping[str, np.ndarray]) -> list[np.ndarray]:
     [array([8.]), array([4.])]
     """
     if len(text) > _MAX_LETTERS:
-        raise ParameterError(f"the formula has {len(text)} letters: expected at most {_MAX_LETTERS}")
+        raise ParameterError(f"the formula has {len(text)} characters: expected at most {_MAX_LETTERS}")
     try:
         tree = ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, MemoryError, RecursionError):

@@ -145,7 +145,7 @@ def convergence():
 
 def colours():
     panel = ColourPanel()
-    line = named(panel, NumberBox, "Lowest value").lineEdit()
+    line = named(panel, NumberBox, "Minimum value").lineEdit()
     line.setText("much")
     line.textEdited.emit("much")
     return panel

@@ -122,5 +122,5 @@ def test_the_command_line_reads_chains_of_a_file(mesh, chain, tmp_path, capsys):
     (line,) = capsys.readouterr().err.splitlines()
     assert "curves.txt: line 1: no edge of the boundary joins" in line
     (tmp_path / "curves.txt").write_text("\n3 x\n")
-    with pytest.raises(FileError, match=r"line 2: 'x' is no number of a node"):
+    with pytest.raises(FileError, match=r"line 2: 'x' is not a node number"):
         with_curves_of_file(gallery.make("cube", size=27), tmp_path / "curves.txt")

@@ -79,7 +79,7 @@ def test_fixed_sets_that_hold_hexes_are_named_and_others_stay(tmp_path, capsys):
     path, out = str(tmp_path / "mesh.vtu"), str(tmp_path / "out.vtu")
     io.write(path, folded())
     _, commands, said = advised(["smooth", path, "-o", out, "--fix", "middle", "--fix", "far"], capsys)
-    assert "Run Mend without the rule that fixes the nodes of 'middle' (fix): it holds hexes inverted." in said
+    assert "Run Mend without the rule that fixes the nodes of 'middle' (fix): it keeps hexes inverted." in said
     assert commands == [["hexmend", "smooth", out, "-o", "OUT", "--fix", "far"]]
     assert "slid" not in said.partition("Written")[2]
 

@@ -78,10 +78,8 @@ def test_repair_does_not_replace_a_deck_by_one_without_its_materials(deck, tmp_p
     before = deck.read_bytes()
     assert main(["repair", str(deck), "-o", str(deck)]) == 3
     said = capsys.readouterr()
-    assert "deck.inp: would lose what it has besides the mesh: keywords that define no mesh (*MATERIAL" in said.err
-    assert (
-        "the mesh has other nodes than deck.inp. Choose another name, or write the file anew (--rewrite)." in said.err
-    )
+    assert "deck.inp: would lose data other than the mesh: keywords that define no mesh (*MATERIAL" in said.err
+    assert "the mesh has other nodes than deck.inp. Choose another name, or rewrite the file (--rewrite)." in said.err
     assert "Repaired" not in said.out
     assert deck.read_bytes() == before
     assert sorted(path.name for path in tmp_path.iterdir()) == ["deck.inp"]
@@ -114,7 +112,7 @@ def test_a_file_of_a_format_that_is_written_anew_keeps_what_was_not_read(command
     path.write_text(plain + PROPERTY + "1\n" * 216)
     before = path.read_bytes()
     assert main([command, str(path), "-o", str(path)]) == 3
-    words = "would lose what it has besides the mesh: the property 'marked' (HFProp bool). It has to be written anew"
+    words = "would lose data other than the mesh: the property 'marked' (HFProp bool). It has to be written anew"
     assert words in capsys.readouterr().err
     assert path.read_bytes() == before
     assert spare.exists() == (command != "repair")
@@ -129,7 +127,7 @@ def test_a_result_that_would_lose_content_is_written_beside_the_file(deck, monke
     before = deck.read_bytes()
     monkeypatch.setattr(files, "replace_coordinates", refuse)
     assert smooth(deck, deck) == 3
-    assert "its parts have moved differently. The result was written anew to" in capsys.readouterr().err
+    assert "its parts have moved differently. The result was saved to" in capsys.readouterr().err
     assert deck.read_bytes() == before
     assert io.read(deck.with_name("deck-hexmend.inp")).n_nodes == io.read(deck).n_nodes
 
@@ -143,7 +141,7 @@ def test_a_result_beside_the_file_takes_the_name_of_no_other(deck, monkeypatch, 
     taken.write_text("the only copy of something")
     for name in ("deck-hexmend-2.inp", "deck-hexmend-3.inp"):
         assert smooth(deck, deck) == 3
-        assert f"The result was written anew to {deck.with_name(name)}." in capsys.readouterr().err
+        assert f"The result was saved to {deck.with_name(name)}." in capsys.readouterr().err
         assert io.read(deck.with_name(name)).n_nodes == io.read(deck).n_nodes
     assert taken.read_text() == "the only copy of something"
 

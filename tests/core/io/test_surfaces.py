@@ -163,10 +163,10 @@ BAD = {
     "nan.obj": (TETRAHEDRON.replace("v 1 0 0", "v nan 0 0").encode(), "point 1 .counted from 0. is at .nan"),
     "range.obj": (TETRAHEDRON.replace("f 1 3 2", "f 1 3 9").encode(), "uses the point 8: expected numbers from 0 to 3"),
     "junk.ply": (b"nothing", "no head"),
-    "text-empty.ply": (EMPTY_PLY.encode(), "expected vertices and faces, its head counts no vertex"),
+    "text-empty.ply": (EMPTY_PLY.encode(), "expected vertices and faces, its header declares no vertex"),
     "binary-empty.ply": (
         EMPTY_PLY.replace("ascii", "binary_little_endian").encode(),
-        "expected vertices and faces, its head counts no vertex",
+        "expected vertices and faces, its header declares no vertex",
     ),
     "short.ply": (b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n", "cannot be read as PLY"),
     "junk.vtp": (b"nothing", "does not begin with <VTKFile"),

@@ -150,7 +150,7 @@ def test_rank_0_goes_on_alone_where_untangling_leaves_hexes_unsound(tmp_path):
     run = on_ranks(2, given, "-o", out, "--boundary", "slide", "--json", report)
     assert run.returncode == 0, run.stderr
     assert "rank 0 raises it alone" in run.stderr
-    assert "Rank 0 went on alone for" in run.stdout
+    assert "Rank 0 continued alone for" in run.stdout
     assert json.loads(report.read_text())["ranks"]["iterations_alone"] > 0
     assert figures(out)[0] == 0
 

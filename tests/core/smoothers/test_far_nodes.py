@@ -1,4 +1,4 @@
-"""A node that is absurdly far away: no method warns, gives coordinates that are no numbers, or moves what is fixed."""
+"""A node that is absurdly far away: no method warns, gives coordinates that are not numbers, or moves what is fixed."""
 
 import numpy as np
 import pytest

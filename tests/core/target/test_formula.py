@@ -37,7 +37,7 @@ def test_what_is_no_arithmetic_is_refused(text):
 
 @pytest.mark.parametrize(("text", "complaint"), [
     ("9" * 400, "too large"),
-    ("x" + "+x" * 300, "601 letters: expected at most 500"),
+    ("x" + "+x" * 300, "601 characters: expected at most 500"),
     ("(" * 240 + "x" + ")" * 240, "cannot be parsed"),
     ("sin(x, y)", "sin has 2 arguments: expected 1"),
     ("where(x)", "where has 1 arguments: expected 3"),

@@ -91,7 +91,7 @@ def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
         formula = row.get("objective_formula")
         values.append(f"{tr(quantity.title)} {formula} {text}" if formula else f"{tr(quantity.title)} {text}")
         if balances(row):
-            values.append(tr("may rise while the lowest values are raised"))
+            values.append(tr("may rise while the minima are raised"))
     stored = curve.stored()
     nearest = int(stored[np.abs(stored - number).argmin()])
     thinned = "" if nearest == number else tr(" (nearest stored: {nearest})", nearest=nearest)

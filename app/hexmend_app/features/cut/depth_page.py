@@ -41,8 +41,8 @@ class DepthPage(QWidget):
             ],
         )
         self._low, self._high = (NumberBox(Parameter(name, float, 1.0, 0.0, None, None, "", "")) for name in _ENDS)
-        set_help(self._low, tr("Least depth"), tr("Depth from which on hexes are shown."))
-        set_help(self._high, tr("Greatest depth"), tr("Depth up to which hexes are shown."))
+        set_help(self._low, tr("Minimum depth"), tr("Hexes below this depth are hidden."))
+        set_help(self._high, tr("Maximum depth"), tr("Hexes above this depth are hidden."))
         for box in (self._low, self._high):
             box.setMinimumWidth(_MIN_WIDTH)
         grid = form_grid(self, tr("Thickness"))

@@ -65,7 +65,7 @@ class FeatureDoctor(Feature):
                 place=PanelPlace.DRAWER,
                 group=PanelGroup.FIND,
                 order=60,
-                help=tr("Problems other than quality, with their location and repair."),
+                help=tr("Problems other than quality, with their location and remedy."),
             ),
         )
 

@@ -115,7 +115,7 @@ class FeatureFigures(Feature):
         self._drawing.cancel()
 
     def _on_failed(self, error: Exception) -> None:
-        self.host.messages.show_error(self._not_saved, tr("A figure could not be drawn: {error}", error=error))
+        self.host.messages.show_error(self._not_saved, tr("Figure not drawn: {error}", error=error))
 
     def _on_drawn(self) -> None:
         self.host.messages.show_info(self._saved)

@@ -123,11 +123,11 @@ class FeatureFilm(Feature):
         if self.going_on and self._record not in self.session.history.records:
             self.cancel()
             self.host.messages.show_error(
-                tr("Film not saved"), tr("Its run was deleted before the last frame was drawn.")
+                tr("Film not saved"), tr("The run was deleted before the last frame was drawn.")
             )
 
     def _on_failed(self, error: Exception) -> None:
-        text = tr("A frame could not be drawn: {error}.", error=str(error).rstrip("."))
+        text = tr("Frame not drawn: {error}.", error=str(error).rstrip("."))
         self.host.messages.show_error(tr("Film not saved"), text)
 
     def _write(self, frames: list[Image.Image]) -> None:

@@ -229,7 +229,7 @@ class FeatureHexInspector(Feature):
         if classes.kinds[node] == LEFT and classes.mesh.points is mesh.points:
             left = classes.departures
             return tr(
-                "{distance} mean edge lengths off {place}",
+                "{distance} mean edge lengths from {place}",
                 distance=f"{left.distance[node] / left.edge_length:.2g}",
                 place=tr(_LEFT[left.node_class[node]]),
             )
@@ -276,7 +276,7 @@ class FeatureHexInspector(Feature):
         arguments = Path(path), self._document.now, self.worst_list.chosen_metric
         event = FileExported("worst hexes", write_worst, arguments)
         return self.host.try_and_report(
-            tr("The list was not saved"),
+            tr("List not saved"),
             lambda: self.session.commands.export(event),
             tr("{count} saved to {path}", count=counted(len(self.worst_list.hexes), "hex"), path=path),
         )

@@ -192,7 +192,7 @@ class FeatureHistogram(Feature):
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
         return self.host.try_and_report(
-            tr("The histogram was not saved"),
+            tr("Histogram not saved"),
             lambda: self.session.commands.export(self._export_event(Path(path), style)),
             tr("Histogram saved to {path}", path=path),
         )

@@ -11,7 +11,7 @@ from hexmend_app.theme.style import icon, set_help, tabular
 from hexmend_app.translation import tr
 
 _PROMPTS = (
-    "Click two points of the mesh in the view. Close to a node, its position is taken.",
+    "Click two points of the mesh in the view. A click close to a node takes its position.",
     "Click the second point in the view.",
 )
 

@@ -190,7 +190,7 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
     '1 arrow, true length.'
     """
     if traces.arrows is Arrows.NONE:
-        return tr("At most the {max_arrows:,} longest are drawn.", max_arrows=MAX_ARROWS)
+        return tr("At most the {max_arrows:,} longest arrows are drawn.", max_arrows=MAX_ARROWS)
     if not drawn:
         return tr("No visible node has moved.") if traces.arrows is Arrows.SIGHT else tr("No shown node has moved.")
     number = (

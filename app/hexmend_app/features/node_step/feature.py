@@ -138,7 +138,7 @@ class FeatureNodeStep(Feature):
             self._task.ask(*request)
             self._computing_timer.start()
         elif self._task.error is not None:
-            self._draw_message(tr("The step could not be computed: {error}.", error=str(self._task.error).rstrip(".")))
+            self._draw_message(tr("Step not computed: {error}.", error=str(self._task.error).rstrip(".")))
         elif self._task.step is not None:
             self._show(self._task.step, done=False)
 

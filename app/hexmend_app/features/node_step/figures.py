@@ -29,7 +29,7 @@ class NodeFigures(QTextBrowser):
         self.setTabChangesFocus(True)
         self.viewport().setAutoFillBackground(False)
         self.document().setDocumentMargin(3)
-        set_help(self, tr("Figures of the step"), "")
+        set_help(self, tr("Values of the step"), "")
         on_theme_change(self, self._render)
 
     def show_rows(self, rows: Sequence[Row]) -> None:

@@ -29,7 +29,7 @@ def card(name: str, state: State, findings: Sequence[Finding]) -> tuple[str, str
     hexes = counted(summary.hexes, "hex")
     title = tr("{name}: {hexes}, {inverted} inverted", name=name, hexes=hexes, inverted=figure(summary.inverted))
     least = figure(summary.scaled_jacobian_min, 3)
-    sentences = [tr("{verdict} Least scaled Jacobian {least}.", verdict=_verdict(state), least=least)]
+    sentences = [tr("{verdict} Minimum scaled Jacobian {least}.", verdict=_verdict(state), least=least)]
     if mesh.materials is not None:
         sentences.append(f"{counted(len(mesh.materials.names), 'material')}.")
     sentences += mesh.notes
@@ -43,9 +43,12 @@ def _verdict(state: State) -> str:
     if summary.inverted:
         locked = summary.locked_inverted
         if locked == summary.inverted:
-            return tr("Solvers reject it; fixed nodes lock all inverted hexes: let the boundary slide or unpin nodes.")
-        locked_part = tr(", {count} of them locked by fixed nodes", count=figure(locked)) if locked else ""
-        return tr("Solvers reject inverted hexes{locked}: run Mend to untangle them.", locked=locked_part)
+            return tr(
+                "Solvers reject this mesh. Fixed nodes keep all inverted hexes inverted: let the boundary slide, or "
+                "unpin nodes."
+            )
+        locked_part = tr(", of which fixed nodes lock {count}", count=figure(locked)) if locked else ""
+        return tr("Solvers reject inverted hexes{locked}. Run Mend to untangle them.", locked=locked_part)
     if summary.scaled_jacobian_min < _SOUND:
-        return tr("No hex is inverted, but some are bad: run Mend to improve them.")
+        return tr("No hex is inverted, but some have a low quality. Run Mend to improve them.")
     return tr("No hex is inverted.")

@@ -49,7 +49,7 @@ def restored_message(restored: RestoredPicture) -> tuple[str, ...]:
     return (
         (text + others,)
         if restored.matches
-        else (tr("Not all of {picture} was restored", picture=picture), text + others)
+        else (tr("Part of {picture} was not restored", picture=picture), text + others)
     )
 
 
@@ -76,7 +76,7 @@ def _problem(mesh: RestoredMesh) -> str:
         ),
         RestoreProblem.FILE: tr("{file} was not found", file=mesh.file)
         if mesh.file
-        else tr("the picture does not name its file"),
+        else tr("the picture does not contain the name of its file"),
         RestoreProblem.READING: str(mesh.error).rstrip("."),
         RestoreProblem.RUN: tr(
             "it is an iteration or a result of a run on {file}, which is not stored in that file", file=mesh.file
@@ -94,6 +94,6 @@ def missing_mesh_message(missing: MissingMesh) -> tuple[str, str]:
     reason = (
         tr("{file} is neither at its path nor next to the picture.", file=file)
         if file
-        else tr("The picture names no mesh file.")
+        else tr("The picture does not contain the name of a mesh file.")
     )
     return tr("The mesh of {name} was not found", name=missing.picture.name), reason

@@ -19,7 +19,7 @@ def notice(record: RunRecord, before: Summary, after: Summary) -> tuple[str, str
         Of the mesh before the run and of its result.
     """
     if not record.result:
-        return tr("Kept the mesh before the run: no iteration was better"), record.message
+        return tr("Initial mesh kept: no iteration was better"), record.message
     inverted = figure(after.inverted)
     if before.inverted != after.inverted:
         inverted = f"{figure(before.inverted)} → {inverted}"

@@ -25,7 +25,9 @@ from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.wording import counted, with_minus
 
-_HINT = "No run has finished yet. After a run, this panel shows why it stopped, the bad hexes left, and suggestions."
+_HINT = (
+    "No run has finished yet. After a run, this panel shows why it stopped, the remaining bad hexes, and suggestions."
+)
 #: Maximum number of hexes that are listed by number; the others are counted.
 _MAX_LISTED = 24
 
@@ -60,7 +62,7 @@ class OutcomePanel(QWidget):
         font = QFont(self._title.font())
         font.setBold(True)
         self._title.setFont(font)
-        self._locked = _HexList(tr("Locked"), tr("kept inverted by fixed nodes alone"))
+        self._locked = _HexList(tr("Locked"), tr("that fixed nodes alone keep inverted"))
         self._unlocked = _HexList(tr("Inverted"), tr("that are inverted but not locked"))
         self._surface = self._text()
         self._limiting = _HexList(tr("Limiting"), tr("that limit the minimum scaled Jacobian"))

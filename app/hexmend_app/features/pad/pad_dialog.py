@@ -50,7 +50,7 @@ class PadDialog(QDialog):
         set_help(self.where, tr("Where"), text)
         self.rings.setRange(0, 20)
         self.rings.setValue(1)
-        set_help(self.rings, tr("Rings"), tr("Rings of hexes that a layer around hexes encloses."))
+        set_help(self.rings, tr("Rings"), tr("Number of rings of hexes that a layer around hexes encloses."))
         edge = mesh.mean_edge_length
         self.thickness.setDecimals(max(0, 3 - math.floor(math.log10(edge))) if edge > 0 else 3)
         self.thickness.setRange(0.0, _MAX_THICKNESS * edge)
@@ -67,7 +67,7 @@ class PadDialog(QDialog):
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         column = QVBoxLayout(self)
-        text = tr("Insert a layer of new hexes under the boundary, which does not change, then run Mend.")
+        text = tr("Insert a layer of new hexes under the boundary, then run Mend. The boundary does not change.")
         column.addWidget(note(text))
         column.addLayout(form)
         column.addWidget(buttons)

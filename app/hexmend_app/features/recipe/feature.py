@@ -127,7 +127,7 @@ class FeatureRecipe(Feature):
 
     def load(self, path: str | Path) -> None:
         """Load the recipe of a file; if that fails, show the error and keep the present recipe."""
-        if self.host.try_and_report(tr("The recipe was not loaded"), lambda: self._draft.load(read_recipe(path))):
+        if self.host.try_and_report(tr("Recipe not loaded"), lambda: self._draft.load(read_recipe(path))):
             self._select(0)
 
     def ask_save(self) -> None:
@@ -140,7 +140,7 @@ class FeatureRecipe(Feature):
         """Save the recipe, or show the error."""
         event = FileExported("recipe", write_recipe, (Path(path), self._draft.recipe))
         self.host.try_and_report(
-            tr("The recipe was not saved"),
+            tr("Recipe not saved"),
             lambda: self.session.commands.export(event),
             tr("Recipe saved to {path}", path=path),
         )

@@ -59,8 +59,11 @@ class RunRow:
     def help(self) -> str:
         """Sentence about the dominance of the row."""
         if self.dominated_by:
-            return tr("No worse in any figure, and better in one: {names}.", names=", ".join(self.dominated_by))
-        return tr("Every other result is worse in some figure.")
+            return tr(
+                "Dominated by {names}: no worse in any key figure, and better in at least one.",
+                names=", ".join(self.dominated_by),
+            )
+        return tr("Every other result is worse in at least one key figure.")
 
 
 class RunTable(QAbstractTableModel):
@@ -134,7 +137,10 @@ class RunTable(QAbstractTableModel):
             return QBrush(QColor(str(MUTED)))
         if role == _Role.ToolTipRole:
             help = tr(quantity.help) if quantity else (
-                tr("Click a run to show its result. Grey runs are dominated: another is no worse in any figure."),
+                tr(
+                    "Click a run to show its result. Grey runs are dominated: another run is no worse in any key "
+                    "figure, and better in at least one."
+                ),
                 tr("Rules of motion, and values of the method and limits that differ from the defaults."),
             )[section]  # fmt: skip
             return f"<qt>{help}</qt>"

@@ -158,14 +158,14 @@ class FeatureSave(Feature):
         """Tell whether the file is written anew, or keeps all but its coordinates."""
         if saving.written is None or not saving.written.replaced:
             return tr("Saved to {path}", path=saving.path)
-        return tr("Coordinates replaced in {path}; everything else is as it was", path=saving.path)
+        return tr("Coordinates replaced in {path}; everything else is unchanged", path=saving.path)
 
     def _on_failed(self, saving: SaveTask) -> None:
         self.host.busy.done("save")
         if not isinstance(saving.error, HexmendError):
             raise saving.error
         content = "mesh" if saving.data is None else "session"
-        self.host.messages.show_error(tr("The {content} was not saved", content=content), str(saving.error))
+        self.host.messages.show_error(tr("{content} not saved", content=content), str(saving.error))
 
     def ask_picture(self) -> None:
         """Ask for the settings and path of a picture, and write it."""
@@ -212,7 +212,7 @@ class FeatureSave(Feature):
         """Write a picture of a scene; return True if it was written."""
         width, height = scene.page.size
         written = self.host.try_and_report(
-            tr("The picture was not saved"),
+            tr("Picture not saved"),
             lambda: self.canvas.draw_page(scene).write(path, self._metadata(path, scene)),
             tr("Picture of {width} × {height} pixels saved to {path}", width=width, height=height, path=path),
         )

@@ -69,7 +69,7 @@ class VisibleSaver(QObject):
         self._host.busy.done("save_visible")
         path = event.values[0]
         if isinstance(task.error, HexmendError):
-            self._host.messages.show_error(tr("The visible hexes were not saved"), str(task.error))
+            self._host.messages.show_error(tr("Visible hexes not saved"), str(task.error))
             return
         if task.error is not None:
             raise task.error

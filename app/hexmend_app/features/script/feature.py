@@ -49,7 +49,7 @@ class FeatureScript(Feature):
                 menu="File",
                 part=1,
                 icon="script-text-outline",
-                help=tr("Save the actions in this window as a Python script that repeats them."),
+                help=tr("Save the actions of this window as a Python script that repeats them."),
                 handle=self.ask,
                 enabled=lambda: self.session.document.is_open or bool(self.script.entries),
                 needs_mesh=False,
@@ -66,7 +66,7 @@ class FeatureScript(Feature):
                 place=PanelPlace.DRAWER,
                 group=PanelGroup.REPORT,
                 order=70,
-                help=tr("The actions in this window as a Python script that repeats them."),
+                help=tr("The actions of this window as a Python script that repeats them."),
             ),
         )
 
@@ -95,7 +95,7 @@ class FeatureScript(Feature):
     def copy(self) -> None:
         """Copy the script."""
         QApplication.clipboard().setText(self.script.text)
-        self.host.messages.show_info(tr("The script was copied."))
+        self.host.messages.show_info(tr("Script copied."))
 
     def ask(self) -> None:
         """Ask for a path and save the script."""
@@ -106,5 +106,5 @@ class FeatureScript(Feature):
     def save(self, path: str | Path) -> bool:
         """Write the script; return True if it was written."""
         return self.host.try_and_report(
-            tr("The script was not saved"), lambda: self.script.write(path), tr("Script saved to {path}", path=path)
+            tr("Script not saved"), lambda: self.script.write(path), tr("Script saved to {path}", path=path)
         )

@@ -12,7 +12,7 @@ from hexmend_app.features.script.view_lines import VIEW
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 
-_HELP = "Your actions and the current view as a Python script, which repeats them bit for bit."
+_HELP = "Python script that repeats your actions and the current view bit for bit."
 
 
 class ScriptPanel(QWidget):

@@ -21,7 +21,7 @@ def recovery_offer(crashed: RecoveredSession) -> tuple[str, str]:
     return (
         tr("{name} can be recovered", name=crashed.name or tr("A mesh")),
         tr(
-            "Hexmend ended unexpectedly while this mesh was open. It was last autosaved at {when}{runs}.",
+            "Hexmend ended unexpectedly while this mesh was open. Last autosave: {when}{runs}.",
             when=when,
             runs=runs,
         ),

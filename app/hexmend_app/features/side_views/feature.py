@@ -36,12 +36,12 @@ class FeatureSideViews(Feature):
         return (
             Action(
                 id="beside",
-                text=tr("&Pin a copy in a side view"),
+                text=tr("&Keep a copy in a side view"),
                 menu="Compare",
                 part=1,
                 keys="V",
                 icon="view-split-vertical",
-                help=tr("Pin a copy of the current mesh in a side view, to compare later meshes with it."),
+                help=tr("Keep a copy of the current mesh in a side view, to compare later meshes with it."),
                 handle=self._show_in_side_view,
                 enabled=lambda: not views.full,
                 in_view=True,

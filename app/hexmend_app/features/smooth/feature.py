@@ -126,7 +126,9 @@ class FeatureSmooth(Feature):
                 text=tr("&Copy as command"),
                 menu="Smooth",
                 part=3,
-                help=tr("Copy the command hexmend smooth with this method, its values, limits and rules of motion."),
+                help=tr(
+                    "Copy the hexmend smooth command with this method, its parameters, limits and rules of motion."
+                ),
                 handle=lambda: self.session.run_setup.use(self._copy_command),
                 enabled=lambda: self._ready() and self.session.document.path is not None,
             ),
@@ -202,11 +204,7 @@ class FeatureSmooth(Feature):
         phase, record = self._smoothing.phase, self._smoothing.record
         if phase is Phase.STOPPING:
             started = self._smoothing.record.newest > 0
-            when = (
-                tr("after this iteration")
-                if started
-                else tr("as soon as the method is ready, before its first iteration")
-            )
+            when = tr("after this iteration") if started else tr("when the method is ready, before its first iteration")
             return None, None, tr("Stopping: the run ends {when}.", when=when)
         if phase is Phase.PREPARING:
             return None, None, tr("Preparing the method.")
@@ -286,7 +284,7 @@ class FeatureSmooth(Feature):
         else:
             text = tr("{error}. The mesh is unchanged.", error=text)
         begun = record is not None and bool(record.rows)  # rules of motion are applied before that
-        title = tr("The method failed") if begun else tr("The run did not start")
+        title = tr("The method failed") if begun else tr("Run not started")
         self.host.messages.show_error(title, text, report_of(error))
 
     def _on_hit(self, frame: IterationFrame) -> None:

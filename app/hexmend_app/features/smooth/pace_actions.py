@@ -14,7 +14,7 @@ from hexmend_app.translation import tr
 _PACES = {
     Pace.FASTEST: ("&As fast as possible", "Show the latest iteration; short runs end too quickly to be seen."),
     Pace.EASED: ("&Eased", "Blend successive iterations; a short run is shown over two to three seconds."),
-    Pace.EVERY: ("E&very iteration", "Show every iteration; the run waits until each is drawn."),
+    Pace.EVERY: ("E&very iteration", "Show every iteration; the run waits until it is drawn."),
 }
 
 

@@ -33,7 +33,7 @@ from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import counted
 
 _INTERFACES = {
-    "keep": ("Keep", "Interfaces are like the boundary: fixed where it is fixed; their nodes slide where it slides."),
+    "keep": ("Keep", "Interfaces are treated like the boundary: fixed if it is fixed, sliding if it slides."),
     "slide": ("Slide", "Nodes slide on the interfaces, even if the boundary is fixed."),
     "free": ("Free", "Nodes move as if the mesh had one material; interfaces lose their shape."),
 }

@@ -49,7 +49,7 @@ class StageForm(QObject):
         self._name = ""
         self.method = ComboBox()
         let_shrink(self.method, 14)
-        set_help(self.method, tr("Method"), tr("Smoothing method; it is described below."))
+        set_help(self.method, tr("Method"), tr("Smoothing method, described below."))
         for at, method in enumerate(METHODS.values()):
             self.method.addItem(tr(method.title), method.name)
             title, help = tr(method.title), tr(method.help)

@@ -53,7 +53,7 @@ class FeatureStructure(Feature):
                 group=PanelGroup.LOOK,
                 tab=tr("Look"),
                 order=21,
-                help=tr("Edges and nodes drawn over the mesh."),
+                help=tr("Edges, nodes and surfaces that are drawn over the mesh."),
             ),
         )
 

@@ -84,7 +84,7 @@ class LayerRow:
             self.box.setVisible(offered)
             self.entries.setVisible(offered)
         if failed:
-            reason = tr("The count failed: {error}.", error=str(self._error).rstrip("."))
+            reason = tr("Not counted: {error}.", error=str(self._error).rstrip("."))
         else:
             reason = tr("Counting.") if waiting else self._reason
         set_help(self.box, self._name, self._help if offered else reason)

@@ -79,7 +79,7 @@ class FeatureTimeline(Feature):
                 title=tr("Timeline"),
                 widget=self.panel,
                 place=PanelPlace.BELOW,
-                help=tr("Navigation in the iterations of a run."),
+                help=tr("Navigate through the iterations of a run."),
             ),
         )
 

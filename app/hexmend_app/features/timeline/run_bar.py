@@ -35,8 +35,8 @@ _ENDS = {
     Outcome.MAX_SECONDS: ("Time limit", AMBER),
     Outcome.STOPPED: ("Stopped", AMBER),
     Outcome.NO_DESCENT: ("No descent", AMBER),
-    Outcome.NOT_FINITE: ("Not finite", AMBER),
-    Outcome.NOTHING_FREE: ("Nothing free", AMBER),
+    Outcome.NOT_FINITE: ("Non-finite values", AMBER),
+    Outcome.NOTHING_FREE: ("No free nodes", AMBER),
 }
 
 _FAILED = "Failed", WORSE

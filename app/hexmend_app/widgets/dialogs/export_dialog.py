@@ -71,7 +71,7 @@ class ExportDialog(SaveDialog):
         self.names = {default: QLineEdit(style.names.get(default) or default) for default in names}
         for default, line in self.names.items():
             line.setMaxLength(_MAX_LENGTH)
-            set_help(line, tr("Name of {default}", default=default), tr("Its name in the exported file."))
+            set_help(line, tr("Name of {default}", default=default), tr("Name in the exported file."))
         self._preview_timer = QTimer(self, interval=_PREVIEW_DELAY, singleShot=True)
         self._preview_timer.timeout.connect(self.show_preview)
 

@@ -66,7 +66,7 @@ class SaveDialog(QDialog):
     def accept(self) -> None:
         """Close if the file can be written, else show the problem."""
         if self.target.empty:
-            self.refuse(tr("Enter the file to save {subject} to.", subject=self._subject))
+            self.refuse(tr("Enter the name of the file to save {subject} to.", subject=self._subject))
             return
         try:
             self.check()

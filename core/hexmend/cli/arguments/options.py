@@ -70,7 +70,7 @@ def add_motion(parser: argparse.ArgumentParser) -> None:
     )
     add_repeated(parser, "--fix", "SET", "fix the nodes of this set")
     add_repeated(parser, "--slide", "SET", "let the nodes of this set slide even if the boundary is fixed")
-    add_repeated(parser, "--free", "SET", "free the pinned nodes, and those of interfaces, of this set")
+    add_repeated(parser, "--free", "SET", "release the nodes of this set that are pinned or on an interface")
     add_repeated(parser, "--plane", "SET", "let the nodes of this flat set move in its plane")
     parser.add_argument(
         "--periodic",
@@ -90,13 +90,13 @@ def add_curves(parser: argparse.ArgumentParser) -> None:
 
 def add_rewrite(parser: argparse.ArgumentParser) -> None:
     """Declare the option that writes a file anew where coordinates could be replaced in a copy of the given one."""
-    text = "write the file anew; else, in the format of MESH, only the coordinates change and all else is kept"
+    text = "rewrite the whole file; by default, in the format of MESH, only coordinates change"
     parser.add_argument("--rewrite", action="store_true", help=text)
 
 
 def add_force(parser: argparse.ArgumentParser) -> None:
     """Declare the option that runs a method in spite of a shortage of memory."""
-    parser.add_argument("--force", action="store_true", help="run even if memory will probably not suffice")
+    parser.add_argument("--force", action="store_true", help="run even if memory is probably insufficient")
 
 
 def parse_settings(words: list[str]) -> dict[str, str]:
@@ -134,11 +134,11 @@ def _add_target(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--target",
         metavar="ideal|given-shape|given-size|given|FIELD",
-        help="what hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the "
+        help="target of the hexes: cubes, the given shape, size or both, or lengths from data of the "
         "file or a formula in x, y, z (default: ideal, or given-shape for a mesh with boundary layers)",
     )
     text = "keep the heights of boundary layers (default unless --target is given), leave them free, or keep those on "
-    text += "the walls that these sets are, whether or not heights grow (set:NAME for a set with the name keep)"
+    text += "the walls given by these sets, whether or not heights grow (set:NAME for a set with the name keep)"
     parser.add_argument("--layers", metavar="keep|free|SET[,SET]", help=text)
 
 

@@ -68,7 +68,7 @@ class MeshOutput:
                 raise
             spare = unused_path(self.path)
             write(spare, mesh)
-            remedy = f"The result was written anew to {spare}."
+            remedy = f"The result was saved to {spare}."
             raise FileError(error.path, error.problem, remedy) from None
         for note in written.notes:
             print(f"hexmend: {note}", file=sys.stderr)

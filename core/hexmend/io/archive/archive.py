@@ -120,7 +120,7 @@ def read_archive(path: str | os.PathLike[str], format: str, version: int) -> tup
             found, tree = _check(path, description, format, version)
             return found, _decode(tree, ArrayReader(path, members))
     except (zipfile.BadZipFile, EOFError) as error:
-        raise FileError(path, f"is damaged or not whole: {_decapitalise(error)}", REMEDY) from None
+        raise FileError(path, f"is damaged or incomplete: {_decapitalise(error)}", REMEDY) from None
     except RecursionError:
         raise FileError(path, f"{DESCRIPTION} is nested too deeply", REMEDY) from None
     except MemoryError:
@@ -137,7 +137,7 @@ def _decapitalise(error: Exception) -> str:
 def _check(path: Path, description: Any, format: str, version: int) -> tuple[int, Any]:
     """Check the format and version of a description; returns the version and the tree."""
     if not isinstance(description, dict) or description.get("format") != format:
-        raise FileError(path, f"is no {format}", NOT_OURS)
+        raise FileError(path, f"is not a {format}", NOT_OURS)
     number = description.get("version")
     if type(number) is not int or number < 1:
         raise FileError(path, f"has the version {str(number)[:20]!r}: expected a number from 1 to {version}", REMEDY)

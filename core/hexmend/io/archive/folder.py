@@ -75,7 +75,9 @@ class ArchiveFolder:
             self._remove(at for _, at in fresh)
             if isinstance(error, FileError):
                 raise
-            raise FileError(self.path, f"cannot be written: {error.strerror or error}", "Free the place.") from None
+            raise FileError(
+                self.path, f"cannot be written: {error.strerror or error}", "Check free space and permissions."
+            ) from None
         self._written = {key: (weakref.ref(array), at) for key, (array, at) in used.items()}
         self._remove(set(self._numbers()) - {at for _, at in used.values()})
 
@@ -85,7 +87,9 @@ class ArchiveFolder:
             make_folder(self.path / ARRAYS)
             present = frozenset(self._numbers())
         except OSError as error:
-            raise FileError(self.path, f"cannot be written: {error.strerror or error}", "Free the place.") from None
+            raise FileError(
+                self.path, f"cannot be written: {error.strerror or error}", "Check free space and permissions."
+            ) from None
         if not self._written:
             self._next = max([self._next, *(at + 1 for at in present)])
         return present

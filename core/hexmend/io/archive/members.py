@@ -24,7 +24,7 @@ LARGEST = 256 << 20
 
 #: Remedies for a damaged file, and for a file of another program.
 REMEDY = "Use an earlier copy, or open the mesh that it was made from."
-NOT_OURS = "Name a file that Hexmend wrote."
+NOT_OURS = "Choose a file that Hexmend wrote."
 
 #: Folder of the arrays, in zip files too.
 ARRAYS = "arrays"
@@ -112,7 +112,7 @@ def _checked(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]
             raise FileError(path, f"{name} is compressed: expected what Hexmend wrote, which is not", REMEDY)
         members[name], left = info, left - info.file_size
     if left < 0:
-        raise FileError(path, f"claims to hold {-left:,} bytes more than it has", REMEDY)
+        raise FileError(path, f"declares {-left:,} bytes more than it has", REMEDY)
     return members
 
 
@@ -126,7 +126,7 @@ class ArrayReader:
     def __call__(self, number: Any) -> np.ndarray:
         name = f"{ARRAYS}/{number}.npy"
         if type(number) is not int or name not in self._members.sizes:
-            raise FileError(self._path, f"names {name[:80]}, which is not in it", REMEDY)
+            raise FileError(self._path, f"refers to {name[:80]}, which it does not contain", REMEDY)
         if number not in self._read:
             self._read[number] = self._array(name)
         return self._read[number]
@@ -137,7 +137,7 @@ class ArrayReader:
             length = int.from_bytes(start[-2:], "little")
             header = _HEADER.fullmatch(member.read(length)) if length <= _LONGEST_HEADER else None
             if start[:-2] != _MAGIC or header is None:
-                raise FileError(self._path, f"{name} is no array of numbers or text", REMEDY)
+                raise FileError(self._path, f"{name} is not an array of numbers or text", REMEDY)
             dtype, columns = np.dtype(header["type"].decode()), header["columns"] == b"True"
             shape = tuple(int(length) for length in header["shape"].split(b",") if length.strip())
             left = self._members.sizes[name] - member.tell()

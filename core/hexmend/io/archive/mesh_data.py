@@ -100,7 +100,7 @@ class MeshDecoder:
 def check_fields(label: str, data: Any, known: set[str]) -> None:
     """Raise `MeshError` unless `data` is a dict with exactly the fields `known`; `label` names it in the error."""
     if not isinstance(data, dict):
-        raise MeshError(f"{label} is no table: expected the fields {', '.join(sorted(known))}")
+        raise MeshError(f"{label} is not a table: expected the fields {', '.join(sorted(known))}")
     for name in sorted(data.keys() ^ known):
         raise MeshError(f"{label} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")
 
@@ -118,9 +118,9 @@ def _decode_fields(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
     n, m = mesh.n_nodes, mesh.n_hexes
     for name in ("notes", "cells"):
         if not isinstance(data[name], list):
-            raise MeshError(f"{name} is no list")
+            raise MeshError(f"{name} is not a list")
     if not all(isinstance(line, str) for line in (data["name"], *data["notes"])):
-        raise MeshError("the mesh's name or notes are no text")
+        raise MeshError("the mesh's name or notes are not text")
     field_data = _table(data, "field_data")
     for name, values in field_data.items():
         texts = isinstance(values, list) and all(isinstance(text, str) for text in values)
@@ -162,7 +162,7 @@ def _array(data: Mapping[str, Any], name: str, kind: str, shape: tuple[int, ...]
     """Check an array of int ("i"), float ("f") or bool ("b"); -1 in `shape` stands for any length."""
     array = data[name]
     if not isinstance(array, np.ndarray):
-        raise MeshError(f"{name} is no array")
+        raise MeshError(f"{name} is not an array")
     fits = array.ndim == len(shape) and all(a in (-1, b) for a, b in zip(shape, array.shape, strict=True))
     if not fits or (array.dtype.kind != kind and not (kind == "i" and array.dtype.kind == "u")):
         raise MeshError(f"{name} has the shape {array.shape} of {array.dtype}: expected {shape} of kind {kind!r}")
@@ -172,7 +172,7 @@ def _array(data: Mapping[str, Any], name: str, kind: str, shape: tuple[int, ...]
 def _table(data: Mapping[str, Any], name: str) -> dict[str, Any]:
     table = data[name]
     if not isinstance(table, dict):
-        raise MeshError(f"{name} is no table")
+        raise MeshError(f"{name} is not a table")
     return table
 
 
@@ -180,7 +180,7 @@ def _values(data: Mapping[str, Any], table: str, rows: int) -> dict[str, np.ndar
     values = _table(data, table)
     for name, array in values.items():
         if not isinstance(array, np.ndarray) or array.ndim == 0 or len(array) != rows:
-            raise MeshError(f"{table} {name!r} is no array of {rows} rows")
+            raise MeshError(f"{table} {name!r} is not an array of {rows} rows")
     return values
 
 

@@ -68,7 +68,7 @@ def rounded_integers(mesh: Mesh) -> list[str]:
 
 def non_numeric_data(mesh: Mesh) -> list[str]:
     """Describe data that a format for real numbers cannot store: texts, complex numbers; empty if there are none."""
-    return _describe(mesh, "{} that are no numbers", lambda values: values.dtype.kind not in "biuf")
+    return _describe(mesh, "{} that are not numbers", lambda values: values.dtype.kind not in "biuf")
 
 
 def _describe(mesh: Mesh, description: str, applies: Callable[[np.ndarray], bool]) -> list[str]:

@@ -141,7 +141,7 @@ class ByteCursor:
         Raises
         ------
         FileError
-            For missing numbers, words that are no numbers, and integers of more than 64 bits.
+            For missing numbers, words that are not numbers, and integers of more than 64 bits.
         """
         count = rows * width
         if count == 0:
@@ -303,7 +303,7 @@ def read_text_bytes(path: Path) -> bytes:
     """Read a text file as bytes; raises `FileError` if its first 4,096 bytes hold a zero."""
     with open(path, "rb") as file:
         if b"\0" in file.read(4096):
-            raise FileError(path, "holds bytes that are no text", "Check its suffix, or write the file again.")
+            raise FileError(path, "holds bytes that are not text", "Check its suffix, or write the file again.")
         file.seek(0)
         return file.read()
 

@@ -53,7 +53,7 @@ def read_content(reader: str, path: Path) -> Content:
         while file.read(len(MAGIC)) != MAGIC:  # a user block may precede it
             at = 2 * at or 512
             if at >= size:
-                raise FileError(path, "is no HDF5 file", "Check its suffix, or write it again: it may be damaged.")
+                raise FileError(path, "is not an HDF5 file", "Check its suffix, or write it again: it may be damaged.")
             file.seek(at)
     return run_reader(reader, path)
 

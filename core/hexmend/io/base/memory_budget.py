@@ -43,5 +43,5 @@ class MemoryBudget:
         """
         self.announced += size
         if self.announced > _BASE + _BYTES_PER_BYTE * self.size:
-            problem = f"{label} and the arrays before it are announced to have {self.announced >> 20:,} MB"
+            problem = f"{label} and the arrays before it are declared to have {self.announced >> 20:,} MB"
             raise FileError(self.path, f"{problem}: too many for a file of {max(1, self.size >> 10):,} kB", DAMAGED)

@@ -47,7 +47,7 @@ def interpolate_missing(points: np.ndarray, hexes: Sequence[np.ndarray]) -> tupl
         found = np.flatnonzero(count)
         points[found] = total[found] / count[found, None]
         known[found] = True
-    return points, f"{count_phrase(missing, 'node')} had no finite coordinates: put between neighbours."
+    return points, f"{count_phrase(missing, 'node')} had no finite coordinates: placed between their neighbours."
 
 
 def _neighbours(width: int) -> list[tuple[int, int]]:

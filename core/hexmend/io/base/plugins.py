@@ -18,7 +18,7 @@ def plugin_formats() -> tuple[Format, ...]:
 
     def take(name: str, format: object) -> None:
         if not isinstance(format, Format):
-            raise TypeError(f"{format!r} is no hexmend.io.Format")
+            raise TypeError(f"{format!r} is not a hexmend.io.Format")
         found.append(format)
 
     load_entry_points(GROUP, "format", take)

@@ -19,7 +19,7 @@ from hexmend.mesh.orientation import was_turned
 
 _LOGGER = logging.getLogger(__name__)
 #: Remedy for a file that is not overwritten.
-REWRITE = "Choose another name, or write the file anew (--rewrite)."
+REWRITE = "Choose another name, or rewrite the file (--rewrite)."
 _TURNED = "Only coordinates were replaced: the hexes are numbered inside out in the written file, as in the given one."
 #: Differences of coordinates, relative to the largest, that count as rounding: of a file that keeps seven digits.
 _ROUNDING = 1e-6

@@ -17,6 +17,7 @@ from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.base.format import Capability, register
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.base.numbering import first_out_of_range
+from hexmend.io.base.remedies import check_suffix
 from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, blanked, fields_of_words, word_ranges
 from hexmend.mesh.mesh import Mesh
@@ -64,7 +65,7 @@ def read(path: Path) -> Mesh:
             count = cursor.parse_count(value, "MARKER_ELEMS")
             zones[-1].markers.append((tag, _read_cells(cursor, end, count, quoted(tag))))
     if zones[0].points is None and zones[0].cells is None:
-        raise cursor.error("has neither NELEM= nor NPOIN=", "Is it an SU2 file? Check its suffix.")
+        raise cursor.error("has neither NELEM= nor NPOIN=", check_suffix("an SU2 file"))
     if len(zones) != announced:
         raise cursor.error(f"holds {len(zones)} zones: expected {announced} as NZONE says")
     return mesh_of(path, _merge_zones(cursor, zones))
@@ -89,7 +90,7 @@ def _merge_zones(cursor: ByteCursor, zones: list[_Zone]) -> Content:
             for nodes in cells.values():
                 outside = first_out_of_range(nodes, len(zone.points))
                 if outside is not None:
-                    problem = f"an element of zone {k + 1} names the node {outside}"
+                    problem = f"an element of zone {k + 1} refers to node {outside}"
                     raise cursor.error(f"{problem}: expected numbers from 0 to {len(zone.points) - 1}")
         for kind, nodes in zone.cells.items():
             add(kind, nodes, f"zone {k + 1}" if len(zones) > 1 else "")

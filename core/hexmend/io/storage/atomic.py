@@ -54,7 +54,7 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
         if error.filename is not None and Path(error.filename) not in own:
             raise  # of another file, which the block uses
         problem = f"cannot be written: {error.strerror or error}"
-        raise FileError(path, problem, "Free the place or choose another.") from None
+        raise FileError(path, problem, "Check free space and permissions, or choose another folder.") from None
     finally:
         if temporary is not None:
             temporary.remove()
@@ -91,7 +91,7 @@ def writable_target(path: Path) -> tuple[Path, int | None]:
     target = Path(os.path.realpath(path))
     folder = target.parent
     if not folder.is_dir():
-        raise FileError(path, f"cannot be written: there is no folder {folder}", "Make the folder or choose another.")
+        raise FileError(path, f"cannot be written: there is no folder {folder}", "Create the folder or choose another.")
     if not os.access(folder, os.W_OK | os.X_OK):
         raise FileError(path, f"cannot be written: no permission to write in {folder}", "Choose another folder.")
     if not target.exists():

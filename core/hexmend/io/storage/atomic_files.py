@@ -86,7 +86,9 @@ class AtomicFiles:
                 os.replace(one.temporary.path, one.target)
             except OSError as error:
                 problem = f"cannot be replaced: {error.strerror or error}{_restore(done)}"
-                raise FileError(one.path, problem, "Free the place or choose another.") from None
+                raise FileError(
+                    one.path, problem, "Check free space and permissions, or choose another folder."
+                ) from None
             done.append(one)
 
     def path_of(self, error: OSError) -> Path | None:
@@ -141,7 +143,7 @@ def _named(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         problem = f"cannot be written: {error.strerror or error}"
-        raise FileError(path, problem, "Free the place or choose another.") from None
+        raise FileError(path, problem, "Check free space and permissions, or choose another folder.") from None
 
 
 def _keep(one: _Replacement) -> None:

@@ -22,11 +22,11 @@ def check_readable(path: Path, expected: str) -> None:
     """
     try:
         if path.is_dir():
-            raise FileError(path, f"is a folder: expected {expected}", "Name a file in it.")
+            raise FileError(path, f"is a folder: expected {expected}", "Choose a file in it.")
         if not path.exists():
             raise FileError(path, f"there is no such file in {path.absolute().parent}", _nearest(path))
         if not path.is_file():
-            raise FileError(path, "is no regular file", "Save it to a file first.")
+            raise FileError(path, "is not a regular file", "Save it to a file first.")
         if path.stat().st_size == 0:
             raise FileError(path, "is empty", "Write it again with the program that made it.")
     except (OSError, ValueError) as error:  # a folder without permission, an invalid name

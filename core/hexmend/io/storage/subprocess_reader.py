@@ -185,7 +185,7 @@ def _last_line(path: Path) -> str:
     with open(path, "rb") as file:
         file.seek(max(0, os.path.getsize(path) - 2000))
         lines = file.read().decode(errors="replace").split("\n")
-    last = next((line for line in reversed(lines) if line.strip()), "it does not say why")
+    last = next((line for line in reversed(lines) if line.strip()), "no reason is given")
     return "".join(letter if letter.isprintable() else " " for letter in last)[:200]
 
 

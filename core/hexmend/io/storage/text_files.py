@@ -32,12 +32,14 @@ def read_text(path: str | os.PathLike[str], label: str, largest: int) -> str:
     path = Path(path)
     check_readable(path, label)
     try:
-        with reading(path, "Name a smaller file."), open(path, "rb") as file:
+        with reading(path, "Choose a smaller file."), open(path, "rb") as file:
             data = file.read(4 * largest + 4)  # bytes of `largest` characters
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
-        raise FileError(path, f"is not text: line {line} holds bytes that are not UTF-8", f"Name {label}.") from None
+        raise FileError(path, f"is not text: line {line} holds bytes that are not UTF-8", f"Choose {label}.") from None
     if len(text) > largest:
-        raise FileError(path, f"has {len(text):,} letters: expected {label}, of {largest:,} at most", f"Name {label}.")
+        raise FileError(
+            path, f"has {len(text):,} characters: expected {label}, of {largest:,} at most", f"Choose {label}."
+        )
     return text

@@ -32,7 +32,7 @@ def with_curves_of_file(mesh: Mesh, path: str | os.PathLike[str]) -> Mesh:
     """
     path = Path(path)
     check_readable(path, "a file of curves")
-    with reading(path, "Name a text file of node numbers."):
+    with reading(path, "Choose a text file of node numbers."):
         lines = path.read_text(encoding="utf-8").splitlines()
     for number, line in enumerate(lines, 1):
         words = line.partition("#")[0].replace(",", " ").split()
@@ -48,7 +48,7 @@ def with_curves_of_file(mesh: Mesh, path: str | os.PathLike[str]) -> Mesh:
 def _nodes(words: list[str]) -> list[int]:
     wrong = next((word for word in words if not word.isdecimal()), None)
     if wrong is not None:
-        raise MeshError(f"{wrong!r} is no number of a node: expected whole numbers, counted from 0")
+        raise MeshError(f"{wrong!r} is not a node number: expected whole numbers, counted from 0")
     if len(words) < 2:
         raise MeshError("there is one node: expected two or more, joined by edges")
     return [int(word) for word in words]

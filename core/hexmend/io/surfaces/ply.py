@@ -11,6 +11,7 @@ import re
 from pathlib import Path
 
 from hexmend.errors import FileError
+from hexmend.io.base.remedies import check_suffix
 from hexmend.io.surfaces.format import Polygons, SurfaceFormat, parse_surface, polygons_from_meshlane, register
 
 _END = b"end_header"
@@ -23,10 +24,10 @@ def read(path: Path) -> Polygons:
     data = path.read_bytes()
     head, end, rest = data.partition(_END)
     if not head.startswith(b"ply") or not end:
-        raise FileError(path, "has no head from 'ply' to 'end_header'", "Is it a PLY file? Check its suffix.")
+        raise FileError(path, "has no header from 'ply' to 'end_header'", check_suffix("a PLY file"))
     if not re.search(rb"\n\s*element vertex 0*[1-9]", head):
-        problem = "holds no surface: expected vertices and faces, its head counts no vertex"
-        raise FileError(path, problem, "Name a file of a surface.")
+        problem = "holds no surface: expected vertices and faces, its header declares no vertex"
+        raise FileError(path, problem, "Choose a file with a surface.")
     # The list of vertices has two names in use; meshlane knows one of them.
     head = head.replace(b"\r\n", b"\n").replace(b" vertex_index\n", b" vertex_indices\n")
     rest = b"\n" + rest.lstrip(b"\r")[1:]

@@ -44,7 +44,7 @@ def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
         titles = [f"{suffix} ({known.title})" for known in SURFACE_FORMATS.values() for suffix in known.suffixes]
         remedy = f"Hexmend reads {', '.join(titles)}."
         raise FileError(path, f"the suffix {path.suffix!r} is none of a surface", remedy)
-    with reading(path, "Name a coarser surface."):
+    with reading(path, "Choose a coarser surface."):
         polygons = format.read(path)
     return _to_surface(path, polygons)
 
@@ -65,7 +65,7 @@ def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
     faces = faces[_count_distinct(faces) >= 3]
     if not _relative_area(points, faces) > _MIN_AREA:
         problem = "holds no surface: it has no triangle or quad with an area"
-        raise FileError(path, problem, "Name a file of the surface of the body.")
+        raise FileError(path, problem, "Choose a file with the surface of the body.")
     return SkinSurface(points, np.ascontiguousarray(faces, dtype=np.int32), path.name)
 
 

@@ -26,7 +26,7 @@ def read(path: Path) -> Polygons:
             return _polygons(np.frombuffer(data, TRIANGLE, offset=_HEADER)["corners"])
     if data.lstrip()[:5].lower() != b"solid":
         have = max(len(data) - _HEADER, 0) / TRIANGLE.itemsize
-        problem = f"is no STL: it begins without 'solid' and ends after {have:.1f} binary triangles"
+        problem = f"is not an STL file: it begins without 'solid' and ends after {have:.1f} binary triangles"
         raise FileError(path, problem, DAMAGED)
     return parse_surface(path, "STL", lambda: _polygons(_corners(data.lower())))
 

@@ -13,6 +13,6 @@ CONDITION = Metric(
     full_range=(1.0, math.inf),
     acceptable=(1.0, 3.0),
     better=-1,
-    meaning="High values carry over to the stiffness matrix: iterative solvers take longer and lose digits.",
+    meaning="High values worsen the condition of the stiffness matrix: iterative solvers take longer and lose digits.",
     of=kernel_metric(metrics.corners, rows=2, row=1, worst=math.inf),
 ).register()

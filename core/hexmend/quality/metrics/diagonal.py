@@ -11,6 +11,6 @@ DIAGONAL = Metric(
     full_range=(0.0, 1.0),
     acceptable=(0.65, 1.0),
     better=1,
-    meaning="Low values mean a hex that leans: its answer depends on the direction of the load.",
+    meaning="Low values mean a sheared hex, whose stiffness depends on the direction of the load.",
     of=kernel_metric(metrics.lengths, rows=3, row=2, worst=0.0),
 ).register()

@@ -27,7 +27,7 @@ JACOBIAN = Metric(
     full_range=(-math.inf, math.inf),
     acceptable=(0.0, math.inf),
     better=1,
-    meaning="At 0 and below the map to the hex folds: integrals over it have no meaning, and most solvers stop.",
+    meaning="At 0 and below the map to the hex folds: integrals over it are meaningless, and most solvers stop.",
     of=_least,
     unit="mesh unit³",
 ).register()

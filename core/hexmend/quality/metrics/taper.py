@@ -14,7 +14,8 @@ TAPER = Metric(
     acceptable=(0.0, 0.5),
     better=-1,
     meaning=(
-        "High values mean opposite faces of different size: the map to the hex is far from linear, and quadrature errs."
+        "High values mean opposite faces of different size: the map to the hex is far from linear, which makes "
+        "quadrature inaccurate."
     ),
     of=kernel_metric(metrics.axes, rows=3, row=2, worst=math.inf),
 ).register()

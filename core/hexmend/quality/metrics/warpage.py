@@ -12,8 +12,8 @@ WARPAGE = Metric(
     acceptable=(0.0, 0.7),
     better=-1,
     meaning=(
-        "High values mean faces that are not flat: contact, surface loads and finite volumes see another "
-        "face than the hex has."
+        "High values mean faces that are not flat: contact, surface loads and finite volumes use a "
+        "face that differs from that of the hex."
     ),
     of=kernel_metric(faces.warpage, rows=1, row=0, worst=2.0),
 ).register()

@@ -54,9 +54,9 @@ def limit_message(optimiser: MaxMinOptimiser, active: ActiveCorners) -> str:
         return ""
     places = optimiser.corners.groups(8 * active.hexes + active.corners).max() + 1
     if count == 1:
-        subject = "it can go no further, in hex"
+        subject = "it cannot be raised further, in hex"
     elif places == 1:
-        subject = f"{count} of them hold each other there, in the hexes"
+        subject = f"{count} of them limit each other there, in the hexes"
     else:
         subject = f"it is limited by {count} corners at {places} separate places, in the hexes"
     measure = optimiser.corners.measure

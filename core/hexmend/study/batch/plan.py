@@ -117,7 +117,7 @@ def parse_plan(text: str, folder: Path, title: str = "Study") -> Plan:
     data = migrate(parse_toml(text, "a recipe"))
     check_keys("the study", data, _KEYS)
     if not isinstance(title := data.get("title", title), str):
-        raise ParameterError(f"title = {title!r} is no text: expected a title in quotes")
+        raise ParameterError(f"title = {title!r} is not a text: expected a title in quotes")
     stop, boundary = read_table(data, "stop"), _boundary(read_table(data, "boundary"))
     motion = read_table(data, "motion")
     MotionRules.from_values(motion)  # an error of the study, not of its first method
@@ -154,7 +154,7 @@ def _with_rules(case: Case, motion: Mapping[str, Any]) -> Case:
 def _boundary(table: Mapping[str, Any]) -> dict[str, Any]:
     check_keys("[boundary]", table, ("boundary", "surface", "surface_tolerance"))
     if not isinstance(surface := table.get("surface", ""), str):
-        raise ParameterError(f"surface = {surface!r} is no text: expected the name of a file in quotes")
+        raise ParameterError(f"surface = {surface!r} is not a text: expected the name of a file in quotes")
     return ({"boundary": "slide"} if surface else {}) | dict(table)
 
 
@@ -162,9 +162,9 @@ def _tables(data: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
     """Yield the table of each method, with its place in the file."""
     names, tables = data.get("methods", []), data.get("method", [])
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-        raise ParameterError(f'methods = {names!r} is no list of names: expected such as  ["mend", "chain.toml"]')
+        raise ParameterError(f'methods = {names!r} is not a list of names: expected such as  ["mend", "chain.toml"]')
     if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
-        raise ParameterError('method is no list of tables: expected [[method]] and a line such as  method = "mend"')
+        raise ParameterError('method is not a list of tables: expected [[method]] and a line such as  method = "mend"')
     for name in names:
         yield f"methods, {name}", {"recipe" if name.endswith(".toml") else "method": name}
     for number, table in enumerate(tables, 1):
@@ -189,7 +189,7 @@ def _cases(
         raise ParameterError(f'it has {" and ".join(named) or "no method"}: expected one line such as  method = "mend"')
     for key in (*named, "title"):
         if not isinstance(table.get(key, ""), str):
-            raise ParameterError(f"{key} = {table[key]!r} is no text: expected it in quotes")
+            raise ParameterError(f"{key} = {table[key]!r} is not a text: expected it in quotes")
     stops = _underscored(stop) | _underscored(read_table(table, "stop"))
     if "recipe" in table:
         if "parameters" in table:

@@ -47,7 +47,7 @@ def find_meshes(places: Iterable[Path]) -> list[Path]:
     found: list[Path] = []
     for place in places:
         if not place.exists():
-            raise FileError(place, "there is no such file or folder", "Name a folder of meshes, or meshes.")
+            raise FileError(place, "there is no such file or folder", "Choose a folder of meshes, or mesh files.")
         meshes = list(_meshes_in(place)) if place.is_dir() else [place]
         if not meshes:
             raise FileError(place, "no mesh is in this folder", f"Expected files {', '.join(readable_suffixes())}.")

@@ -54,11 +54,11 @@ def ranges(panel):
 
 
 def low(panel):
-    return named(panel, NumberBox, "Lowest value")
+    return named(panel, NumberBox, "Minimum value")
 
 
 def high(panel):
-    return named(panel, NumberBox, "Highest value")
+    return named(panel, NumberBox, "Maximum value")
 
 
 def reverse(panel):

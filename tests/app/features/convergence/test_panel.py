@@ -181,7 +181,7 @@ def test_the_objective_has_a_gap_where_the_minima_begin_to_rise_and_tooltips_say
     one = curve(balanced, stored=range(9))
     x, _ = one.drawn("objective", by_time=False)
     assert np.flatnonzero(np.isnan(x)).tolist() == [5]
-    text = "objective 200.000, may rise while the lowest values are raised"
+    text = "objective 200.000, may rise while the minima are raised"
     assert describe(CHARTS["objective"], [one], 5, by_time=False) == f"mend 5: {text}"
     assert "may rise" not in describe(CHARTS["objective"], [one], 4, by_time=False)
 

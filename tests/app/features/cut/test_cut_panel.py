@@ -287,7 +287,7 @@ def test_pages_that_are_hidden_change_their_own_cut(panel, emitted):
     named(panel, QRangeSlider, "X extent of the box").setValue((0, 1000))
     named(panel, NumberBox, "Radius").stepBy(1)
     named(panel, NumberBox, "Thickness").stepBy(1)
-    named(panel, NumberBox, "Greatest depth").stepBy(1)
+    named(panel, NumberBox, "Maximum depth").stepBy(1)
     assert set(emitted) == {planes}
     QTest.mouseClick(kind(panel).button("box"), _LEFT)
     assert (emitted[-1].box.low[0], emitted[-1].box.high[0]) == (-1, 3)
@@ -320,10 +320,10 @@ def test_the_ends_of_a_depth_may_be_typed_in_any_order(panel, emitted):
     choose_kind(panel, "depth")
     assert emitted[-1] == Cut(depth=Depth(2, 5))
     assert not named(panel, QCheckBox, "Handles").isVisible()
-    type_into(panel, "Least depth", "7")
+    type_into(panel, "Minimum depth", "7")
     assert emitted[-1].depth == Depth(5, 7)
-    type_into(panel, "Greatest depth", "12")
+    type_into(panel, "Maximum depth", "12")
     assert emitted[-1].depth == Depth(7, 12)
-    assert named(panel, NumberBox, "Greatest depth").lineEdit().text() == "12"
+    assert named(panel, NumberBox, "Maximum depth").lineEdit().text() == "12"
     QTest.mouseClick(named(panel, Segmented, "Unit of depth").button("edges"), _LEFT)
     assert emitted[-1].depth == Depth(7, 12, DepthUnit.EDGES)

@@ -271,7 +271,7 @@ def test_the_saved_histogram_equals_the_drawn_one(window, tmp_path):
 def test_an_error_is_shown_if_a_histogram_cannot_be_saved(window, tmp_path):
     assert not window.features["histogram"].save(tmp_path / "histogram.txt")
     kind, title, text = window.messages.messages()[-1]
-    assert (kind, title) == ("error", "The histogram was not saved")
+    assert (kind, title) == ("error", "Histogram not saved")
     assert ".svg, .pdf, .png" in text
     assert list(tmp_path.glob("histogram*")) == []
 

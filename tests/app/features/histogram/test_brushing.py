@@ -160,9 +160,9 @@ def test_setting_a_range_drops_the_pending_one(histogram, announced, qtbot):
 def test_the_summary_includes_inverted_hexes(histogram, data):
     histogram.set_current(*data)
     histogram.set_range(Show((0.1, 0.9), "q"))
-    assert histogram.summary.text().endswith(" in 0.10 – 0.90")
+    assert histogram.summary.text().endswith(" from 0.10 to 0.90")
     histogram.set_range(Show((0.1, 0.9), "q", inverted=True))
-    assert histogram.summary.text().endswith(f" in 0.10 – 0.90, and the {data[1].sum()} inverted")
+    assert histogram.summary.text().endswith(f" from 0.10 to 0.90, and the {data[1].sum()} inverted")
 
 
 def test_a_range_of_an_unbounded_metric_extends_to_infinity(histogram, announced, drag, condition):

@@ -57,5 +57,5 @@ def test_its_undo_leaves_later_changes_alone(window, qtbot):
 def test_a_run_that_helps_nothing_keeps_the_mesh_and_says_so():
     record = SimpleNamespace(result=0, message="Iteration 0 was kept: later ones were worse.")
     title, text = notice(record, None, None)
-    assert title == "Kept the mesh before the run: no iteration was better"
+    assert title == "Initial mesh kept: no iteration was better"
     assert text == record.message

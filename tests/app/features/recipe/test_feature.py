@@ -238,11 +238,11 @@ def test_an_invalid_file_is_reported_and_the_recipe_stays(window, panel, tmp_pat
     path.write_text('format = 1\n[[stage]]\nmethod = "mned"')
     window.features["recipe"].load(path)
     kind, title, text = window.messages.messages()[-1]
-    assert (kind, title) == ("error", "The recipe was not loaded")
+    assert (kind, title) == ("error", "Recipe not loaded")
     assert "wrong.toml: stage 1: there is no method 'mned': did you mean mend?" in text
     assert window.session.recipe_draft.recipe == before
     window.features["recipe"].save(tmp_path / "no" / "such.toml")
-    assert window.messages.messages()[-1][1] == "The recipe was not saved"
+    assert window.messages.messages()[-1][1] == "Recipe not saved"
 
 
 def test_built_in_recipes_are_listed_by_title(window, panel):

@@ -18,7 +18,7 @@ from tests.app.driving import open_and_wait, phase
 from tests.patience import PATIENCE
 
 GIVEN = {"inverted": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
-ROW_HELP = "Every other result is worse in some figure."
+ROW_HELP = "Every other result is worse in at least one key figure."
 
 
 def run(window, qtbot, name, stop, **values):

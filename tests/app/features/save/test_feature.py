@@ -207,4 +207,4 @@ def test_visible_hexes_that_cannot_be_written_are_reported(window, qtbot, tmp_pa
     saver = window.features["save"].visible
     saver.save(tmp_path / "missing" / "out.vtu", window.canvas.viewport)
     qtbot.waitUntil(lambda: not saver.going_on, timeout=PATIENCE)
-    assert window.messages.messages()[-1][:2] == ("error", "The visible hexes were not saved")
+    assert window.messages.messages()[-1][:2] == ("error", "Visible hexes not saved")

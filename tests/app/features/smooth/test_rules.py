@@ -220,7 +220,7 @@ def test_rules_that_do_not_fit_the_mesh_are_an_error_before_the_run(host, qtbot)
         session.commands.run(Stage(METHODS["local-sd"](), SHORT))
     assert session.document.now is before
     labels = [label.text() for label in host.messages.findChildren(QLabel)]
-    assert any("The run did not start" in text for text in labels)
+    assert any("Run not started" in text for text in labels)
     assert any("there is no set 'nowhere'" in text for text in labels)
 
 

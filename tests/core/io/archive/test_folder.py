@@ -125,7 +125,7 @@ def test_whenever_its_writer_is_killed_the_tree_is_whole(tmp_path):
 @pytest.mark.parametrize(("spoil", "said"), [
     (lambda path: (path / DESCRIPTION).unlink(), "has no description.json"),
     (lambda path: (path / "arrays/0.npy").unlink(), "arrays/0.npy, which is not in it"),
-    (lambda path: (path / "arrays/0.npy").write_bytes(b"\x93NUMPY"), "is no array"),
+    (lambda path: (path / "arrays/0.npy").write_bytes(b"\x93NUMPY"), "is not an array"),
     (lambda path: (path / DESCRIPTION).write_text("{"), "is damaged"),
 ])  # fmt: skip
 def test_a_folder_that_is_damaged_is_refused(tmp_path, spoil, said):

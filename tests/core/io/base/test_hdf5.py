@@ -15,7 +15,7 @@ def test_what_is_no_hdf5_file_is_refused_without_another_process(suffix, tmp_pat
     monkeypatch.setattr(subprocess_reader.subprocess, "run", lambda *_, **__: pytest.fail("a process was started"))
     path = tmp_path / f"a{suffix}"
     path.write_bytes(b"\x89HDF\r\n" + bytes(range(256)) * 8)
-    with pytest.raises(FileError, match="is no HDF5 file"):
+    with pytest.raises(FileError, match="is not an HDF5 file"):
         io.read(path)
 
 

@@ -1,4 +1,4 @@
-"""Data that are no numbers, which formats leave out and say so before."""
+"""Data that are not numbers, which formats leave out and say so before."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from tests.core.grids import grid
 @pytest.mark.parametrize("suffix", [".vtk", ".vtu", ".exo", ".med"])
 def test_texts_among_the_data_are_named_before_they_are_lost(suffix, tmp_path):
     mesh = grid(2).replace(node_data={"label": np.array(["a"] * 27)})
-    assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == ["point data that are no numbers (label)"]
+    assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == ["point data that are not numbers (label)"]
     io.write(tmp_path / f"a{suffix}", mesh)
     assert io.read(tmp_path / f"a{suffix}").n_hexes == 8
 
@@ -28,8 +28,8 @@ def test_data_that_are_no_numbers_are_left_out_as_announced(suffix, values, tmp_
         node_data={"odd": np.resize(values, 27), "t": np.arange(27.0)}, hex_data={"odd": values}, cells=(top,)
     )
     assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == [
-        "point data that are no numbers (odd)",
-        "cell data that are no numbers (odd)",
+        "point data that are not numbers (odd)",
+        "cell data that are not numbers (odd)",
     ]
     io.write(tmp_path / f"a{suffix}", mesh)
     back = io.read(tmp_path / f"a{suffix}")

@@ -65,12 +65,12 @@ def test_of_second_order_the_corners_are_written(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("NDIME= 3", "\0", "holds bytes that are no text"),
+        ("NDIME= 3", "\0", "holds bytes that are not text"),
         ("NDIME= 3", "NDIME= 2", "NDIME is '2': expected 3"),
         ("NELEM= 1", "NELEM= 99999999999", "NELEM holds 10 numbers, which are not 99999999999 elements"),
         ("12 0", "29 0", "NELEM holds 10 numbers, which are not 1 elements of the types"),
         ("NPOIN= 8 8", "NPOIN= 9", "NPOIN holds 24 numbers: expected 3 or 4 for each of 9 nodes"),
-        ("6 7 0\n", "6 8 0\n", "names the node 8: expected numbers from 0 to 7"),
+        ("6 7 0\n", "6 8 0\n", "refers to node 8: expected numbers from 0 to 7"),
         ("1 0 0\n", "1 x 0\n", "NPOIN holds 'x'"),
         ("NDIME= 3", "NZONE= 2\nNDIME= 3", "holds 1 zones: expected 2"),
         (ZONE, "NDIME= 3\n", "has neither NELEM= nor NPOIN="),

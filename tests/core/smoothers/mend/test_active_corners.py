@@ -39,9 +39,9 @@ def test_nothing_is_said_where_nothing_limits():
 @pytest.mark.parametrize(
     ("hexes", "places", "said"),
     [
-        ([7], [0], "it can go no further, in hex 7."),
-        ([7, 5], [0, 0], "2 of them hold each other there, in the hexes 7, 5."),
-        ([7, 5, 7], [0, 0, 0], "3 of them hold each other there, in the hexes 7, 5."),
+        ([7], [0], "it cannot be raised further, in hex 7."),
+        ([7, 5], [0, 0], "2 of them limit each other there, in the hexes 7, 5."),
+        ([7, 5, 7], [0, 0, 0], "3 of them limit each other there, in the hexes 7, 5."),
         ([7, 5, 2], [0, 1, 0], "it is limited by 3 corners at 2 separate places, in the hexes 7, 5, 2."),
         (range(10), range(10), "it is limited by 10 corners at 10 separate places, in the hexes 0, 1, 2, 3, 4, 5, "
          "6, 7."),

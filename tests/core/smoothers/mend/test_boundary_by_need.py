@@ -1,4 +1,4 @@
-"""Boundary by need: nodes leave it where it holds hexes inverted, only they, and a tolerance is a hard limit."""
+"""Boundary by need: nodes leave it where it keeps hexes inverted, only they, and a tolerance is a hard limit."""
 
 from itertools import pairwise
 

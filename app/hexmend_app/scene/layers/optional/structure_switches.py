@@ -61,7 +61,7 @@ for _switch in (
         "locked",
         "Locked nodes",
         "Nodes of hexes that are inverted because of their fixed nodes alone. No method can repair these hexes without"
-        " moving fixed nodes. The legend also counts the hexes that can be unlocked by a sliding boundary.",
+        " moving fixed nodes. The legend also counts the hexes that a sliding boundary unlocks.",
         "None: no hex is inverted because of fixed nodes alone.",
         action="&Locked nodes",
         action_help="Show nodes of hexes that are inverted because of fixed nodes alone.",

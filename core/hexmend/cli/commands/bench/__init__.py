@@ -31,9 +31,9 @@ class BenchCommand:
         parser.add_argument("--json", metavar="FILE", help="write the figures")
         text = "collection: folder of the report and of finished results (default: collection)"
         parser.add_argument("-o", "--output", metavar="DIR", help=text)
-        text = "collection: run the other programs too that are installed"
+        text = "collection: also run the other programs that are installed"
         parser.add_argument("--peers", action="store_true", help=text)
-        text = "collection: the Python that has the packages of other programs (default: this one)"
+        text = "collection: Python with the packages of other programs (default: this one)"
         parser.add_argument("--peer-python", metavar="PYTHON", help=text)
         text = "collection: time limit of a program for a mesh in seconds (default 60)"
         parser.add_argument("--max-seconds", metavar="S", type=float, help=text)

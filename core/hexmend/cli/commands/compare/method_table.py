@@ -64,6 +64,6 @@ def run(args: argparse.Namespace) -> int:
     if comparison.interrupted:
         return progress.signals.status
     if all(row.mesh is None for row in comparison.rows):
-        print("hexmend: every method failed: the table tells why.", file=sys.stderr)
+        print("hexmend: every method failed: see the table for the reasons.", file=sys.stderr)
         return 3
     return 0

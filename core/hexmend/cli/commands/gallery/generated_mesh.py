@@ -23,7 +23,7 @@ def run(args: argparse.Namespace) -> int:
     words = parse_settings(args.set) | ({"size": args.size} if args.size is not None else {})
     recipe = from_strings(generator, words, owner=args.mesh)
     if args.output is None:
-        raise ParameterError("no output is named: expected -o MESH, as in -o five-side.vtu")
+        raise ParameterError("no output file is given: expected -o MESH, as in -o five-side.vtu")
     mesh = recipe.build()
     write(args.output, mesh)
     print(f"{args.output}: {count_phrase(mesh.n_hexes, 'hex', 'hexes')}, {count_phrase(mesh.n_nodes, 'node')}")

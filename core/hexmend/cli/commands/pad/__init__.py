@@ -7,7 +7,9 @@ import argparse
 from hexmend.cli.arguments.options import add_mesh
 from hexmend.cli.command import CoreCommand
 
-_HELP = "Lay a layer of hexes under the boundary, so that inverted hexes can be mended with the boundary as it is."
+_HELP = (
+    "Insert a layer of hexes under the boundary, so that inverted hexes can be repaired without moving the boundary."
+)
 
 
 def _arguments(parser: argparse.ArgumentParser) -> None:

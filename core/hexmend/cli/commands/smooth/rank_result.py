@@ -54,7 +54,7 @@ class RankResult:
             outcome, decisions = alone.outcome, [*run.decisions, alone.decision]
             kept, last = alone.best.number, alone.last.number
             went_on = count_phrase(alone.n_iterations, "iteration")
-            spent += f" Rank 0 went on alone for {went_on} and {alone.last.seconds - run.seconds:.3g} s."
+            spent += f" Rank 0 continued alone for {went_on} and {alone.last.seconds - run.seconds:.3g} s."
         if kept == 0 < last:
             decisions, kept_words = [], "The mesh as given was kept: every iteration was worse."
         elif kept < last and alone is None:  # decisions are of the end

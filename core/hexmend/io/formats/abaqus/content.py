@@ -12,6 +12,7 @@ from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.numbering import find_ids
+from hexmend.io.base.remedies import check_suffix
 from hexmend.io.coordinates.unread import some_names, unread_note
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
@@ -51,7 +52,7 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
     instances = [*instances, Instance("", assembly)]
     node_ids = [_concatenated(instance.part.node_ids) for instance in instances]
     if not sum(map(len, node_ids)):
-        raise deck.error("has no *NODE", "Is it an Abaqus file? Check its suffix.")
+        raise deck.error("has no *NODE", check_suffix("an Abaqus file"))
     points = np.concatenate([instance.points() for instance in instances])
     elements = _Elements(deck, instances, node_ids)
     unread = _unread(instances)
@@ -69,7 +70,7 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
     n_unknown = sum(lookup.n_unknown for lookup in (*of_nodes, *of_elements))
     if n_unknown:
         members = count_phrase(n_unknown, "member of a set does", "members of sets do")
-        notes.append(f"{members} not exist in the file: passed over.")
+        notes.append(f"{members} not exist in the file: ignored.")
     blocks, node_data = tuple(elements.blocks(element_sets)), {ID: np.concatenate(node_ids)}
     fields = {TYPES: elements.types} if elements.types else {}
     unread = {f"type {quoted(type)}": count for type, count in unread.items()}

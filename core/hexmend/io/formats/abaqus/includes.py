@@ -85,7 +85,7 @@ class _Joined:
         folders = (self.root.path.parent, file.path.parent)
         found = [folder / name for folder in folders if name and (folder / name).is_file()]
         if not found:
-            problem, remedy = f"{place}, which is no file in {folders[0].absolute()}", "Copy it there."
+            problem, remedy = f"{place}, which does not exist in {folders[0].absolute()}", "Copy it there."
             raise FileError(self.root.path, problem, remedy)
         if found[0].resolve() in parents or len(parents) > _MAX_DEPTH or self._n_files > _MAX_FILES:
             raise FileError(self.root.path, f"{place}: files include each other without end", "Correct the file.")

@@ -97,7 +97,7 @@ def placement(deck: Deck, lines: list[list[str]]) -> tuple[np.ndarray, np.ndarra
     Raises
     ------
     FileError
-        For fields that are no numbers, or an axis without a direction.
+        For fields that are not numbers, or an axis without a direction.
     """
     try:
         values = [[float(word) if word else 0.0 for word in line] for line in lines[:2]]

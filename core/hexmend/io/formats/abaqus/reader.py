@@ -11,6 +11,7 @@ from typing import NoReturn
 import numpy as np
 
 from hexmend.io.base.cursor import quoted
+from hexmend.io.base.remedies import check_suffix
 from hexmend.io.coordinates.unread import some_names, unread_note
 from hexmend.io.formats.abaqus.content import to_mesh
 from hexmend.io.formats.abaqus.deck import Card, Deck
@@ -76,7 +77,7 @@ class _Reader:
             elif card.name not in _IGNORED:
                 self.other_cards[card.name] += 1
         if not count:
-            raise self.deck.error("has no line that begins with *", "Is it an Abaqus file? Check its suffix.")
+            raise self.deck.error("has no line that begins with *", check_suffix("an Abaqus file"))
         notes = []
         if self.other_cards:
             names = some_names(f"*{quoted(name)[1:-1]}" for name in self.other_cards)

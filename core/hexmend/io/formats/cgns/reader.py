@@ -70,7 +70,7 @@ def _zones(path: Path, root: CGNSNode) -> tuple[list[Zone], list[str]]:
     zones, notes, n_flat = [], [], 0
     bases = root.children("CGNSBase_t")
     if not bases:
-        raise FileError(path, "is HDF5, but holds no CGNSBase_t, as CGNS has", "Name a CGNS file.")
+        raise FileError(path, "is HDF5, but holds no CGNSBase_t, as CGNS has", "Choose a CGNS file.")
     for base in bases:
         sizes = base.integers().ravel()
         for node in base.children("Zone_t"):

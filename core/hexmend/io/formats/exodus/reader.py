@@ -48,7 +48,9 @@ class _Reader:
         self.unread: dict[str, int] = {}  # number of cells left out, by type and block
         self.id_names: list[tuple[str, int, str]] = []  # entity, id and name of every block and set
         if "num_nodes" not in store.dimensions:
-            raise FileError(path, "is NetCDF, but has no dimension num_nodes, as ExodusII has", "Name an Exodus file.")
+            raise FileError(
+                path, "is NetCDF, but has no dimension num_nodes, as ExodusII has", "Choose an Exodus file."
+            )
         self.n_nodes = store.dimensions["num_nodes"]
         self.n_elements = store.dimensions.get("num_elem", 0)
         steps = store.dimensions.get("time_step", 0)

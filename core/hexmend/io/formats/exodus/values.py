@@ -56,7 +56,7 @@ class CheckedVariables:
     def members(self, name: str, dimension: str, count: int, label: str) -> np.ndarray:
         """Members of a set, from 0, int64; `dimension` names their number, `count` is that of all `label`."""
         members = self.integers(name, self.store.dimensions.get(dimension, 0)) - 1
-        check_numbers(self.path, f"{name!r} names the {label}", members, count)
+        check_numbers(self.path, f"{name!r} refers to the {label}", members, count)
         return members
 
     def ids(self, name: str, dimension: str) -> list[int]:

@@ -48,7 +48,7 @@ def read_data(source: ByteCursor, order: str, key: str, sections: Sections) -> N
     else:
         rows = source.read_numbers(key, count, 1 + width, np.float64)
         if not (np.isfinite(rows[:, 0]) & (np.abs(rows[:, 0]) < 2**53)).all():
-            raise source.error(f"{key} holds tags that are no numbers")
+            raise source.error(f"{key} holds tags that are not numbers")
         tags, values = rows[:, 0].astype(np.int64), rows[:, 1:].copy()
     end = f"$End{key[1:]}"
     if source.next_line() != end:
@@ -63,7 +63,7 @@ def _count(source: ByteCursor, key: str) -> int:
     """Number of the tags that follow."""
     count = source.parse_count(source.next_line(), f"a number of {key}")
     if count > _MAX_TAGS:
-        raise source.error(f"{key} announces {count} words: expected a few")
+        raise source.error(f"{key} declares {count} words: expected a few")
     return count
 
 

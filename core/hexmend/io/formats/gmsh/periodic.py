@@ -33,7 +33,7 @@ def read_version_2(source: ByteCursor, order: str, sections: Sections) -> None:
             line = source.next_line()
         count = source.parse_count(line, "the number of periodic nodes")
         if count > len(source.data):
-            raise source.error(f"$Periodic announces {count} nodes before {source.location}")
+            raise source.error(f"$Periodic declares {count} nodes before {source.location}")
         rows = [_integers(source, source.next_line(), 2) for _ in range(count)]
         sections.periodic.append(PeriodicLink(*entity, np.array(rows, np.int64).reshape(-1, 2)))
     if source.next_line() != "$EndPeriodic":

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
+from hexmend.io.base.remedies import check_suffix
 from hexmend.io.coordinates.unread import some_names, unread_note
 from hexmend.io.formats.gmsh import periodic, version_1, version_2, version_4
 from hexmend.io.formats.gmsh.content import to_mesh
@@ -44,7 +45,7 @@ def read(path: Path) -> Mesh:
     """
     with open(path, "rb") as file:
         if not file.read(4096).lstrip().startswith(b"$"):  # found out before a large file is read
-            raise FileError(path, "does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
+            raise FileError(path, "does not begin with $MeshFormat", check_suffix("a Gmsh file"))
     source = ByteCursor(path, FileBytes(path))
     version, order, sections, skipped = 0, "", Sections(), {}
     while not source.at_end:
@@ -62,7 +63,7 @@ def read(path: Path) -> Mesh:
             skip_section(source, key)
             skipped[quoted(key)[1:-1]] = None
         elif not version:
-            raise source.error("does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
+            raise source.error("does not begin with $MeshFormat", check_suffix("a Gmsh file"))
         else:
             raise source.error(f"{quoted(key)} was found where a section should begin, before {source.location}")
     if not version:

@@ -70,7 +70,7 @@ def _binary_elements(source: ByteCursor, order: str) -> list[ElementBlock]:
     while seen < count:
         type, follow, n_tags = source.read_binary("$Elements", 1, 3, f"{order}i4")[0].tolist()
         if follow < 1 or n_tags < 0 or n_tags > len(source.data):
-            raise source.error(f"$Elements announces {follow} elements with {n_tags} groups at {source.location}")
+            raise source.error(f"$Elements declares {follow} elements with {n_tags} groups at {source.location}")
         rows = source.read_binary("$Elements", follow, 1 + n_tags + nodes_per_element(source.path, type), f"{order}i4")
         rows = native(rows)
         tags, nodes = rows[:, 1 : 1 + n_tags].astype(np.int64), rows[:, 1 + n_tags :]

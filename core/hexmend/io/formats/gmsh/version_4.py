@@ -24,11 +24,11 @@ class SectionNumbers:
     def take(self, count: int, code: str) -> np.ndarray:
         """Take the next numbers, (count,); `code` is their binary type: i4, u8 or f8."""
         if count < 0:
-            raise self.source.error(f"${self.name} announces {count} numbers")
+            raise self.source.error(f"${self.name} declares {count} numbers")
         if self.values is None:
             return self.source.read_binary(f"${self.name}", count, 1, f"{self.order}{code}")[:, 0]
         if count > self.values.size - self.at:
-            raise self.source.error(f"${self.name} ends early: {count} numbers more were announced")
+            raise self.source.error(f"${self.name} ends early: {count} numbers more were declared")
         self.at += count
         return self.values[self.at - count : self.at]
 

@@ -31,7 +31,7 @@ def read_array(path: Path, group: Mapping, name: str) -> np.ndarray:
         raise FileError(path, f"{group.name} has no {name}", DAMAGED)
     dataset = group[name]
     if int(np.prod(dataset.shape, dtype=object)) * dataset.dtype.itemsize > max_bytes(path):
-        raise FileError(path, f"{group.name}/{name} claims to be larger than a file of its size can hold", DAMAGED)
+        raise FileError(path, f"{group.name}/{name} declares more data than a file of its size can hold", DAMAGED)
     return np.asarray(dataset[()])
 
 

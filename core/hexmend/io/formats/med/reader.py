@@ -13,7 +13,7 @@ from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.cell_kinds import node_count, to_vtk_order
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
-from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.base.remedies import DAMAGED, check_suffix
 from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.med.arrays import max_bytes, read_array, read_integers
 from hexmend.io.formats.med.elements import KIND_OF_TYPE, ORDER, TYPE_OF_KIND
@@ -48,7 +48,7 @@ def open_med(path: Path) -> Iterator[Mapping]:
 
 def _content(path: Path, file: Mapping) -> Content:
     if "ENS_MAA" not in file or not len(file["ENS_MAA"]):
-        raise FileError(path, "holds no mesh (no ENS_MAA)", "Is it a MED file? Check its suffix.")
+        raise FileError(path, "holds no mesh (no ENS_MAA)", check_suffix("a MED file"))
     meshes, notes = list(file["ENS_MAA"]), []
     if len(meshes) > 1:
         notes.append(unread_note(f"all {len(meshes)} meshes but the first, {meshes[0]}"))
@@ -107,7 +107,7 @@ def _block(path: Path, type: str, cells: Mapping, n_nodes: int, families: Mappin
     nodes = numbers.astype(np.int64).reshape(width, -1).T - 1
     if nodes.size and (nodes.min() < 0 or nodes.max() >= n_nodes):
         wrong = int(nodes[(nodes < 0) | (nodes >= n_nodes)][0]) + 1
-        raise FileError(path, f"{type}/NOD names the node {wrong}: expected 1 to {n_nodes}", DAMAGED)
+        raise FileError(path, f"{type}/NOD refers to node {wrong}: expected 1 to {n_nodes}", DAMAGED)
     nodes = np.ascontiguousarray(to_vtk_order(nodes, kind, ORDER))
     return Block(kind, nodes, _ids(path, cells, len(nodes)), _sets(path, cells, len(nodes), families))
 

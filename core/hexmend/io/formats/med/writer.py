@@ -82,7 +82,7 @@ def limitations(mesh: Mesh) -> list[str]:
     of_cells = [arrays for entity, arrays in fields.items() if entity != "NOE"]
     for label, tables in (("point data", [fields["NOE"]]), ("cell data", of_cells)):
         odd = sorted({name for arrays in tables for name, values in arrays.items() if type_code(values) is None})
-        left += [f"{label} that are no numbers ({', '.join(odd)})"] if odd else []
+        left += [f"{label} that are not numbers ({', '.join(odd)})"] if odd else []
     titles = {name: title for (name, _, _), title in field_titles(fields).items() if title != name}
     return left + altered_names(group_titles(_set_names(content))) + altered_names(titles, "data")
 

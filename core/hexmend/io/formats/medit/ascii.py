@@ -9,6 +9,7 @@ import numpy as np
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.base.format import register
+from hexmend.io.base.remedies import check_suffix
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, blanked, fields_of_words, word_ranges
 from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
@@ -24,7 +25,7 @@ def read(path: Path) -> Mesh:
     data = FileBytes(path)
     cursor = ByteCursor(path, data if data.find(b"#") < 0 else blanked(data[:], b"#"))
     if cursor.next_word() != "MeshVersionFormatted":
-        raise cursor.error("does not begin with MeshVersionFormatted", "Is it a Medit file? Check its suffix.")
+        raise cursor.error("does not begin with MeshVersionFormatted", check_suffix("a Medit file"))
     cursor.parse_count(cursor.next_word(), "the version")
     points = refs = None
     sections: dict[str, np.ndarray] = {}
@@ -49,7 +50,7 @@ def read(path: Path) -> Mesh:
         elif key[:1].isalpha():
             skipped += [quoted(key)[1:-1]] if _skip(cursor) else []  # an unused section
         else:
-            raise cursor.error(f"{quoted(key)} stands where a section should begin ({line})")
+            raise cursor.error(f"{quoted(key)} was found where a section should begin ({line})")
     if points is None:
         raise cursor.error("has no section Vertices")
     if "Hexahedra" not in sections and not cursor.data[:].rstrip().endswith(b"End"):

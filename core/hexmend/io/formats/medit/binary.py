@@ -10,6 +10,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.format import register
+from hexmend.io.base.remedies import check_suffix
 from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, BinaryCoordinates, BinaryPiece
 from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
 from hexmend.io.storage.file_bytes import FileBytes
@@ -37,7 +38,7 @@ def _types(cursor: ByteCursor) -> tuple[str, str, str, str]:
     head = cursor.read_bytes(4, "the head")
     order = {b"\x01\x00\x00\x00": "<", b"\x00\x00\x00\x01": ">"}.get(head)
     if order is None:
-        raise cursor.error("does not begin with the number 1", "Is it a binary Medit file? Check its suffix.")
+        raise cursor.error("does not begin with the number 1", check_suffix("a binary Medit file"))
     (version,) = struct.unpack(f"{order}i", cursor.read_bytes(4, "the version"))
     if not 1 <= version <= 4:
         raise cursor.error(f"is of version {version}: expected 1 to 4")

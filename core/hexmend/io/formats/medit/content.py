@@ -174,7 +174,9 @@ def _mask(path: Path, name: str, members: np.ndarray, length: int) -> np.ndarray
     """Mark members by 1 in (length,) uint8; `name` is their section, for errors."""
     outside = first_out_of_range(members, length)
     if outside is not None:
-        raise FileError(path, f"{name} names {outside + 1}: expected numbers from 1 to {length}", "Correct the file.")
+        raise FileError(
+            path, f"{name} refer to {outside + 1}: expected numbers from 1 to {length}", "Correct the file."
+        )
     mask = np.zeros(length, np.uint8)
     mask[members] = 1
     return mask

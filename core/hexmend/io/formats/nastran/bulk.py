@@ -69,7 +69,7 @@ class BulkData:
                 if name:
                     own_name = head.lstrip("+*").replace(" ", "")
                     if own_name and before and own_name != before:
-                        problem = f"line {k + 1} continues a card as {quoted(head)}, but {name} before it announces"
+                        problem = f"line {k + 1} continues a card as {quoted(head)}, but {name} before it declares"
                         remedy = "Put each continuation behind its card."
                         raise self.error(f"{problem} {quoted(before)}", remedy)
                     fields += own

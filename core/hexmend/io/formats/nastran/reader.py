@@ -12,7 +12,7 @@ from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.base.numbering import find_ids
-from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.base.remedies import DAMAGED, check_suffix
 from hexmend.io.coordinates.unread import some_names, unread_note
 from hexmend.io.formats.nastran.bulk import BulkData
 from hexmend.io.formats.nastran.card_blocks import CardBlock, natural_numbers
@@ -163,7 +163,7 @@ class BulkModel:
         """Return the content that all cards make together."""
         node_ids, notes = self.node_ids.array(), []
         if not len(node_ids):
-            raise self.bulk.error("has no GRID", "Is it a file of Nastran's bulk data? Check its suffix.")
+            raise self.bulk.error("has no GRID", check_suffix("a Nastran bulk data file"))
         if self.n_partial:
             partial = f"{self.n_partial:,} elements have some of their mid-nodes only"
             notes.append(f"{partial}: they are read with their corners only.")

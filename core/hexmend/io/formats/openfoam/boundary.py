@@ -119,7 +119,7 @@ def read_zones(files: CaseFiles, name: str, count: int) -> dict[str, np.ndarray]
         members = _members(file, zone, key)
         outside = members[(members < 0) | (members >= count)]
         if outside.size:
-            problem = f"zone {quoted(zone)} names {outside[0]}"
+            problem = f"zone {quoted(zone)} refers to {outside[0]}"
             raise file.error(f"{problem}: expected numbers from 0 to {count - 1}")
         zones[zone] = members
     return zones
@@ -179,7 +179,7 @@ def _included(file: FoamFile, name: str, required: bool, depth: int) -> Iterator
     """Dictionaries of an included file, which may have no header."""
     path = file.path.parent / name
     if depth >= _MAX_INCLUDES:
-        raise file.error(f"includes {quoted(name)} too deeply", "Does a file include itself?")
+        raise file.error(f"includes {quoted(name)} too deeply", "Check that no file includes itself.")
     if not path.is_file():
         if required:
             raise file.error(f"includes {quoted(name)}, which does not exist", "Copy it, or remove #include.")

@@ -61,5 +61,5 @@ def locate(path: Path) -> CaseCoordinates:
     """Find the points of a case; raises `FileError` where they cannot be read."""
     files = find_case(path)
     if files is None:
-        raise FileError(path, "there is no case of OpenFOAM", "Name the folder of a case.")
+        raise FileError(path, "there is no OpenFOAM case", "Choose the folder of a case.")
     return CaseCoordinates(files, read_vectors(FoamFile(files.points), "points"))

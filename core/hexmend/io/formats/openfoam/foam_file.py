@@ -75,7 +75,9 @@ class FoamFile(ByteCursor):
         self.header: dict[str, Value] = {}
         if has_header or self.peek() == "FoamFile":
             if self.token() != "FoamFile" or self.token() != "{":
-                raise self.error("does not begin with the header FoamFile { ... }", "Is it a file of OpenFOAM?")
+                raise self.error(
+                    "does not begin with the header FoamFile { ... }", "Check that this is an OpenFOAM file."
+                )
             self.header = self.dictionary("the header FoamFile")
         encoding = self.word(self.header, "format", "the header FoamFile", "ascii")
         if encoding not in ("ascii", "binary"):
@@ -175,7 +177,7 @@ class FoamFile(ByteCursor):
         if value is None:
             raise self.error(f"{label} has no entry {key!r}")
         if not isinstance(value, list) or len(value) != 1:
-            raise self.error(f"the entry {key!r} of {label} is no word")
+            raise self.error(f"the entry {key!r} of {label} is not a word")
         return value[0]
 
     def count(self, label: str) -> int:

@@ -55,7 +55,7 @@ def read_vectors(file: FoamFile, label: str) -> np.ndarray:
     """Read a list of points, (n, 3) float64; raises `FileError` as `read_labels`."""
     span = find_list(file, label, file.arch.scalar, 3)
     if not file.is_binary and file.data.count(b"(", span.begin, span.end) > span.count:
-        raise file.error(f"{label} holds more points than the {span.count:,} that it announces")
+        raise file.error(f"{label} holds more points than the {span.count:,} that it declares")
     return _numbers(file, span, label, 3, file.arch.scalar).astype(np.float64)
 
 
@@ -134,7 +134,7 @@ def _numbers(file: FoamFile, span: Span, label: str, width: int, dtype: np.dtype
     kind = np.float64 if dtype.kind == "f" else np.int64
     values = cursor.read_numbers(label, span.count, width, kind)
     if cursor.data[cursor.pos : span.end].strip():
-        raise file.error(f"{label} holds more than the {span.count:,} items that it announces ({cursor.location})")
+        raise file.error(f"{label} holds more than the {span.count:,} items that it declares ({cursor.location})")
     return values
 
 

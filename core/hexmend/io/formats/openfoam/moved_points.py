@@ -75,8 +75,8 @@ def _read_points(path: Path, value: float, n_points: int, remeshed: float | None
         raise FileError(path, f"{at}: {error.problem}", error.remedy) from error
     if len(points) != n_points:
         problem = f"{at}: holds {len(points):,} points, expected {n_points:,} as in constant"
-        raise FileError(path, problem, "Was the case meshed anew meanwhile?")
+        raise FileError(path, problem, "Check whether the case was remeshed in the meantime.")
     if not np.isfinite(points).all():
         row = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
-        raise FileError(path, f"{at}: point {row} is not finite", "Did the solver diverge?")
+        raise FileError(path, f"{at}: point {row} is not finite", "Check whether the solver diverged.")
     return points

@@ -37,7 +37,7 @@ def replaced_points(path: Path, points: np.ndarray) -> bytes:
     span = find_list(file, "points", file.arch.scalar, 3)
     if span.count != len(points):
         problem = f"holds {span.count:,} points: expected {len(points):,}"
-        raise file.error(problem, "Was the case meshed anew meanwhile?")
+        raise file.error(problem, "Check whether the case was remeshed in the meantime.")
     new = points.astype(file.arch.scalar).tobytes() if file.is_binary else b"\n" + vector_rows(points)
     content = b"".join([data[: span.begin], new, data[span.end :]])
     return gzip.compress(content, 6) if file.is_compressed else content

@@ -77,8 +77,8 @@ def read(path: Path) -> Mesh:
     """
     files = find_case(path)
     if files is None:
-        problem = f"there is no mesh of OpenFOAM {'beside it' if path.suffix.lower() in SUFFIXES else 'in it'}"
-        raise FileError(path, problem, "Name the folder of a case, which holds constant/polyMesh.")
+        problem = f"there is no OpenFOAM mesh {'next to it' if path.suffix.lower() in SUFFIXES else 'in it'}"
+        raise FileError(path, problem, "Choose the folder of a case, which holds constant/polyMesh.")
     poly = read_poly_mesh(files)
     cells = poly.cells()
     hex_of = np.full(poly.n_cells, -1)
@@ -114,7 +114,7 @@ def read_poly_mesh(files: CaseFiles) -> PolyMesh:
     path = files.part("faces")
     outside = first_out_of_range(faces.values, len(points))
     if outside is not None:
-        problem = f"a face names the point {outside}: expected 0 to {len(points) - 1}"
+        problem = f"a face refers to point {outside}: expected 0 to {len(points) - 1}"
         raise FileError(path, problem, f"Is {files.points.parent.name}/points of the same mesh?")
     owner = read_labels(FoamFile(files.part("owner")), "owner", len(faces))
     neighbour_path = files.part("neighbour")
@@ -126,8 +126,8 @@ def read_poly_mesh(files: CaseFiles) -> PolyMesh:
         raise FileError(neighbour_path, f"holds {len(neighbour):,} numbers: expected at most {len(owner):,}, as owner")
     for name, labels in (("owner", owner), ("neighbour", neighbour)):
         if first_out_of_range(labels, len(faces)) is not None:  # a cell has a face of its own or more
-            problem = f"names cells from {labels.min()} to {labels.max()}: expected 0 to {len(faces) - 1} at most"
-            raise FileError(files.part(name), problem, "Is it of the same mesh as faces?")
+            problem = f"refers to cells from {labels.min()} to {labels.max()}: expected 0 to {len(faces) - 1} at most"
+            raise FileError(files.part(name), problem, "Check that it belongs to the same mesh as faces.")
     patches = read_patches(files.part("boundary"), len(neighbour), len(owner))
     return PolyMesh(points, faces, owner, neighbour, patches)
 

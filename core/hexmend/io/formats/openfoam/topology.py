@@ -122,7 +122,7 @@ def _check_cells(path: Path, volumes: list) -> None:
     for block in volumes:
         twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
         if twice.size:
-            problem = f"{block.kind} {twice[0]} has a node twice, so that its faces are no polyhedron's"
+            problem = f"{block.kind} {twice[0]} has a node twice, so that its faces do not form a polyhedron"
             raise FileError(path, problem, "Repair it with hexmend repair, or write .vtu instead.")
 
 

@@ -24,7 +24,7 @@ from hexmend.io.storage.temporary_folder import temporary_folder
 from hexmend.mesh.mesh import Mesh
 
 #: Advice where a case holds another mesh than the one to be written.
-_OTHER_MESH = "Name a new folder, or remove the constant/polyMesh of the old one."
+_OTHER_MESH = "Choose a new folder, or remove the constant/polyMesh of the old one."
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
@@ -97,10 +97,10 @@ def _check_same(path: Path, files: CaseFiles, mesh: Mesh) -> None:
 def _check_new(path: Path, folder: Path) -> None:
     """Raise `FileError` unless a folder is empty or does not exist."""
     if folder.is_dir() and any(entry.name != path.name for entry in folder.iterdir()):
-        problem = f"the folder {folder} holds other files, but no mesh of OpenFOAM"
-        raise FileError(path, problem, "Name a new folder for the copy of the case.")
+        problem = f"the folder {folder} holds other files, but no OpenFOAM mesh"
+        raise FileError(path, problem, "Choose a new folder for the copy of the case.")
     if folder.exists() and not folder.is_dir():
-        raise FileError(path, f"{folder} is a file: expected a folder", "Name a new folder.")
+        raise FileError(path, f"{folder} is a file: expected a folder", "Choose a new folder.")
 
 
 def replace_points(path: Path, points: np.ndarray) -> None:
@@ -125,4 +125,4 @@ def file_errors(path: Path) -> Iterator[None]:
     except OSError as error:
         where = f" ({os.fsdecode(error.filename)})" if error.filename else ""
         problem = f"cannot be written: {error.strerror or error}{where}"
-        raise FileError(path, problem, "Free the place or choose another.") from None
+        raise FileError(path, problem, "Check free space and permissions, or choose another folder.") from None

@@ -37,7 +37,7 @@ def read(path: Path) -> Mesh:
     """Read a mesh of polyhedra."""
     cursor = ByteCursor(path, read_text_bytes(path))
     if cursor.next_line().upper() != "OVM ASCII":
-        raise cursor.error("does not begin with OVM ASCII", "Is it an OpenVolumeMesh file? Save it as ASCII.")
+        raise cursor.error("does not begin with OVM ASCII", "Save it as an ASCII OpenVolumeMesh file.")
     points, edges = np.zeros((0, 3)), np.zeros((0, 2), np.int64)
     faces = cells = RaggedArray(np.zeros(1, np.int64), np.zeros(0, np.int64))
     seen: set[object] = set()
@@ -65,10 +65,10 @@ def read(path: Path) -> Mesh:
         elif found := _PROPERTY.match(key):
             first = _REQUIRED_SECTION.get(found[1].upper())
             if first is not None and first.upper() not in seen:
-                raise cursor.error(f"{quoted(key)} stands before {first} ({line})")
+                raise cursor.error(f"{quoted(key)} precedes {first} ({line})")
             _read_property(cursor, found, {"VPROP": (node_data, len(points)), "CPROP": (cell_data, len(cells))}, notes)
         else:
-            raise cursor.error(f"{quoted(key)} stands where a section should begin ({line})")
+            raise cursor.error(f"{quoted(key)} was found where a section should begin ({line})")
     if "POLYHEDRA" not in seen:
         raise cursor.error("ends without Polyhedra")
     loops = RaggedArray(faces.start, edges[faces.values >> 1, faces.values & 1])  # first node of each half-edge
@@ -137,7 +137,7 @@ def _count(cursor: ByteCursor, name: str) -> int:
 def _check(cursor: ByteCursor, name: str, values: np.ndarray, limit: int) -> None:
     outside = first_out_of_range(values, limit)
     if outside is not None:
-        raise cursor.error(f"{name} name {outside}: expected numbers from 0 to {limit - 1}")
+        raise cursor.error(f"{name} refer to {outside}: expected numbers from 0 to {limit - 1}")
 
 
 def _matches(head: bytes) -> bool:

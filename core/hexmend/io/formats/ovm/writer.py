@@ -33,7 +33,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     for block in content.blocks:
         twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
         if twice.size:
-            problem = f"{block.kind} {twice[0]} has a node twice, so that its faces are none of OpenVolumeMesh's"
+            problem = f"{block.kind} {twice[0]} has a node twice, so that OpenVolumeMesh cannot store its faces"
             raise FileError(path, problem, "Repair it with hexmend repair, or write .vtu instead.")
     loops, halves = faces_from_cells([(block.kind, block.nodes) for block in content.blocks])
     edges, around = _edges(loops, len(content.points))

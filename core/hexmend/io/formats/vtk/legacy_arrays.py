@@ -74,7 +74,7 @@ def read_integers(cursor: ByteCursor, section: str, rows: int, kind: str) -> np.
 def read_strings(cursor: ByteCursor, count: int) -> list[str]:
     """Read strings: one a line in text files, each after its length in binary files."""
     if count > len(cursor.data) - cursor.pos:
-        raise cursor.error(f"{count} strings are announced before {cursor.location}: the file ends before")
+        raise cursor.error(f"{count} strings are declared before {cursor.location}: the file ends before")
     if cursor.is_text:
         return [unquote(cursor.rest_of_line()) for _ in range(count)]
     strings = []

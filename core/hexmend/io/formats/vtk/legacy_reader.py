@@ -13,6 +13,7 @@ from hexmend.errors import FileError
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.format import Capability, register
+from hexmend.io.base.remedies import check_suffix
 from hexmend.io.coordinates.unread import unread_note
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells
@@ -54,7 +55,7 @@ class _LegacyReader:
             if not re.match(rb"\s*#\s*vtk\s+datafile", head, re.IGNORECASE):
                 first = head.split(b"\n", 1)[0].decode("utf-8", errors="replace").strip()
                 problem = f"line 1 is {quoted(first)}: expected '# vtk DataFile Version ...'"
-                raise FileError(path, problem, "Is it a VTK file? Check its suffix.")
+                raise FileError(path, problem, check_suffix("a VTK file"))
         self.cursor = ByteCursor(path, FileBytes(path))
         self.sections: dict[str, np.ndarray] = {}
         self.data: dict[str, dict[str, np.ndarray]] = {"POINT_DATA": {}, "CELL_DATA": {}}
@@ -199,7 +200,7 @@ class _LegacyReader:
     def _store(self, name: str, values: np.ndarray) -> None:
         data = self.data.get(self.data_section)
         if data is None:
-            raise self.cursor.error(f"the array {quoted(name)} stands before POINT_DATA and CELL_DATA")
+            raise self.cursor.error(f"the array {quoted(name)} precedes POINT_DATA and CELL_DATA")
         data[_unused_name(name, data)] = values[:, 0] if values.shape[1] == 1 else values
 
     def _read_cells(self, count: int, size: int) -> None:
@@ -215,7 +216,7 @@ class _LegacyReader:
         else:
             cursor.pos = mark
             if count > size:
-                raise cursor.error(f"{count} cells of {size} numbers are announced before {cursor.location}")
+                raise cursor.error(f"{count} cells of {size} numbers are declared before {cursor.location}")
             shape = (count, 9) if size == 9 * count else (size, 1)  # rows of hexahedra give better error messages
             self.sections["CELLS"] = read_array(cursor, "CELLS", *shape, "int").ravel()
 

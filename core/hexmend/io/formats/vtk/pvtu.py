@@ -24,7 +24,7 @@ def read(path: Path) -> Mesh:
     """Read a PVTU file and merge its pieces without their ghost cells."""
     names = piece_names(path)
     if len(set(names)) < len(names):
-        raise FileError(path, "names a piece twice", "Write it again with the program that made it.")
+        raise FileError(path, "lists a piece twice", "Write it again with the program that made it.")
     grids = [grid for name in names for grid in _read_piece(path, name)]
     fields = {name: values for grid in reversed(grids) for name, values in grid.field_data.items()}
     return to_mesh(path, replace(merge_grids(grids, in_files=True), field_data=fields))
@@ -55,7 +55,7 @@ def _piece_path(path: Path, name: str) -> Path:
     """Path of a piece, in the folder of the file or below."""
     relative = PurePosixPath(name.replace("\\", "/"))
     if not name or relative.is_absolute() or ".." in relative.parts or ":" in name or "\0" in name:
-        problem = f"names the piece {printable(name[:80])!r}: expected a file in its folder or below"
+        problem = f"refers to the piece {printable(name[:80])!r}: expected a file in its folder or below"
         raise FileError(path, problem, "Move its pieces there.")
     return path.parent / relative
 

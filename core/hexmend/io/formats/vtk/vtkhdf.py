@@ -18,7 +18,7 @@ from hexmend.io.base import hdf5
 from hexmend.io.base.content import Content, to_mesh
 from hexmend.io.base.format import Capability, register
 from hexmend.io.base.memory_budget import MemoryBudget
-from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.base.remedies import DAMAGED, check_suffix
 from hexmend.io.formats.vtk.grid import Grid, to_content
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtkhdf_writer import names_not_kept, write

@@ -47,7 +47,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 
 def names_not_kept(mesh: Mesh) -> list[str]:
-    """Describe what the file cannot hold as it is: data that are no numbers, and names with a slash."""
+    """Describe what the file cannot hold as it is: data that are not numbers, and names with a slash."""
     groups = with_marks(mesh), mesh.hex_data, mesh.field_data, *(cells.data for cells in mesh.cells)
     sets = mesh.node_sets, mesh.hex_sets, *(cells.sets for cells in mesh.cells)
     names = (name for group in (*groups, *sets) for name in group)

@@ -142,7 +142,7 @@ def _read_decimals(document: Document, array: XMLElement, dtype: np.dtype, count
     wide = np.dtype("f8") if dtype.kind == "f" else np.dtype("u8" if dtype == np.uint64 else "i8")
     values, found = parse_numbers(text, wide), count_words(text)
     if found and (values is None or len(values) < found):
-        raise document.error(f"{array_title(array)} holds words that are no numbers of its type")
+        raise document.error(f"{array_title(array)} holds words that are not numbers of its type")
     if count is not None and found != count:
         raise document.error(f"{array_title(array)} holds {found} numbers: expected {count}")
     if values is None or not found:
@@ -183,7 +183,7 @@ def _read_bytes(document: Document, array: XMLElement, size: int | None) -> byte
             return _read_compressed(document, array, stream, size, COMPRESSORS[compressor])
         return _read_uncompressed(document, array, stream, size)
     except binascii.Error:
-        raise document.error(f"{array_title(array)} is no base64") from None
+        raise document.error(f"{array_title(array)} is not valid base64") from None
 
 
 class _RawStream:
@@ -267,7 +267,7 @@ def _read_header(document: Document, array: XMLElement, stream: _Stream, count: 
 def _take(document: Document, array: XMLElement, stream: _Stream, at: int, size: int) -> bytes:
     data = stream.read(at, size) if size <= stream.left else b""
     if len(data) != size:
-        raise document.error(f"{array_title(array)} goes on behind the end of the data")
+        raise document.error(f"{array_title(array)} continues past the end of the data")
     return data
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.memory_budget import MemoryBudget
-from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.base.remedies import DAMAGED, check_suffix
 from hexmend.terminal_text import printable
 
 #: NumPy types of arrays, without the byte order. Bits are packed: see `hexmend.io.formats.vtk.xml_arrays`.
@@ -94,7 +94,7 @@ class Document:
                 self.file, self._encoding = io.BytesIO(_convert_to_utf8(path, self.file)), "utf-8"
                 head = self.file.read(4096)
             if not head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
-                raise FileError(path, "does not begin with <VTKFile ...>", "Is it a VTK XML file? Check its suffix.")
+                raise FileError(path, "does not begin with <VTKFile ...>", check_suffix("a VTK XML file"))
             self.size = self.file.seek(0, io.SEEK_END)
             self.budget = MemoryBudget(path, self.size)
             self._appended: int | None = None
@@ -204,7 +204,7 @@ class Document:
 
     def _check(self, name: str, attributes: dict[str, str], kind: str) -> None:
         if name != "VTKFile":
-            raise self.error("does not begin with <VTKFile ...>", "Is it a VTK XML file? Check its suffix.")
+            raise self.error("does not begin with <VTKFile ...>", check_suffix("a VTK XML file"))
         found = attributes.get("type", "")
         if found != kind:
             problem = f"is a VTKFile of the type {printable(found[:40])!r}: expected {kind}"
@@ -212,7 +212,7 @@ class Document:
 
 
 def array_title(array: XMLElement) -> str:
-    """Name an array for a message."""
+    """Choose an array for a message."""
     return f"the array {printable(array.get('Name', 'without name'))[:60]!r}"
 
 
@@ -229,4 +229,4 @@ def _convert_to_utf8(path: Path, file: BinaryIO) -> bytes:
         try:
             return file.read().decode("utf-16").encode()
         except UnicodeError:
-            raise FileError(path, "is no text in UTF-16, though it begins as such", DAMAGED) from None
+            raise FileError(path, "begins like text in UTF-16, but is not", DAMAGED) from None

@@ -140,7 +140,7 @@ def test_a_real_file_is_read_and_survives(real_mesh, tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("\0" * 5000, "holds bytes that are no text"),
+        ("\0" * 5000, "holds bytes that are not text"),
         ("hello", "has no line that begins with *"),
         ("*HEADING\n", "has no *NODE"),
         ("*NODE\n1, 0, 0, x\n", "*NODE holds 'x' in row 4 of 4 (line 2)"),

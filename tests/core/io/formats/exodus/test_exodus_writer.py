@@ -165,8 +165,8 @@ def test_unsupported_data_and_names_are_reported(tmp_path):
         side_sets={"": np.array([[0, 0]])},
     )
     assert io.unsupported_data(tmp_path / "a.exo", mesh) == [
-        "point data that are no numbers (phase)",
-        "cell data that are no numbers (label)",
+        "point data that are not numbers (phase)",
+        "cell data that are not numbers (label)",
         "names of point data as they are ( t, v)",
         "names of sets as they are (,  lead)",
     ]

@@ -97,5 +97,5 @@ def test_repair_does_not_drop_the_pairs_of_its_own_file(tmp_path, capsys):
     text = (version_2(CUBE) + text_2(PAIRS)).replace("$Nodes\n64\n", "$Nodes\n65\n999 0 0 77\n")
     path.write_text(text)
     assert main(["repair", str(path), "-o", str(path)]) == 3
-    assert "would lose what it has besides the mesh: periodic pairs." in capsys.readouterr().err
+    assert "would lose data other than the mesh: periodic pairs." in capsys.readouterr().err
     assert path.read_text() == text

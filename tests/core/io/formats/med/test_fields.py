@@ -67,7 +67,7 @@ def test_unsupported_names_and_values_are_reported(tmp_path):
     data = {name: np.full(8, k) for k, name in enumerate(names)}
     mesh = grid(1).replace(node_data={**data, "words": np.array(["x"] * 8)})
     said = io.unsupported_data(tmp_path / "a.med", mesh)
-    assert said[0] == "point data that are no numbers (words)"
+    assert said[0] == "point data that are not numbers (words)"
     assert said[1].startswith("names of data as they are (., a/b, ")
     io.write(tmp_path / "a.med", mesh)
     back = io.read(tmp_path / "a.med").node_data

@@ -90,7 +90,7 @@ def test_hexes_with_some_mid_nodes_are_read_with_their_corners(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("GRID,2,,", "\0", "holds bytes that are no text"),
+        ("GRID,2,,", "\0", "holds bytes that are not text"),
         ("GRID,2,,", "GRID,2,5,", "GRID in line 3 is in the coordinate system 5: expected 0"),
         ("GRID,2,,1.0", "GRID,2,,one", "GRID in line 3 holds 'one': expected a number"),
         ("GRID,2,", "GRID,1,", "node 1 is given twice"),
@@ -162,5 +162,5 @@ def test_continuations_behind_all_cards_are_an_error_and_behind_theirs_are_read(
     path.write_text("\n".join(["BEGIN BULK", *sum(zip(heads, tails, strict=True), ()), *hexes, "ENDDATA\n"]))
     np.testing.assert_array_equal(io.read(path).points, mesh.points)
     path.write_text("\n".join(["BEGIN BULK", *heads, *tails, *hexes, "ENDDATA\n"]))
-    with pytest.raises(FileError, match=r"line 10 continues a card as '\*G1', but GRID before it announces 'G8'"):
+    with pytest.raises(FileError, match=r"line 10 continues a card as '\*G1', but GRID before it declares 'G8'"):
         io.read(path)

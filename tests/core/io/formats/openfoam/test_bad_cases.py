@@ -34,11 +34,11 @@ def spoil(mesh, name, *changes):
     ("points", b"FoamFile", b"Foam", "does not begin with the header FoamFile"),
     ("points", b"format ascii", b"format cipher", "its format is 'cipher': expected ascii or binary"),
     ("points", b"format ascii;", b"format ascii", "the entry 'format' of the header FoamFile is no word"),
-    ("faces", b"4(0 4 6 2)", b"4(0 4 6 9)", "a face names the point 9: expected 0 to 7"),
+    ("faces", b"4(0 4 6 2)", b"4(0 4 6 9)", "a face refers to point 9: expected 0 to 7"),
     ("faces", b"4(0 4 6 2)", b"3(0 4 6 2)", "faces holds"),
     ("faces", b"4(0 4 6 2)", b"4(0 4 6)", "faces holds"),
-    ("owner", b"\n0\n", b"\n7\n", "owner: names cells from 0 to 7: expected 0 to 5"),
-    ("owner", b"\n0\n", b"\n-1\n", "names cells from -1 to 0"),
+    ("owner", b"\n0\n", b"\n7\n", "owner: refers to cells from 0 to 7: expected 0 to 5"),
+    ("owner", b"\n0\n", b"\n-1\n", "refers to cells from -1 to 0"),
     ("owner", b"6\n(", b"5\n(", "owner holds more than the 5 items"),
     ("owner", b"6\n(\n0\n", b"5\n(\n", "owner holds 5 numbers: expected 6"),
     ("neighbour", b"0\n(", b"9\n(", "neighbour ends after 0 of 9 rows"),
@@ -48,7 +48,7 @@ def spoil(mesh, name, *changes):
     ("boundary", b"nFaces 4;", b"nFaces 4", "the entry 'nFaces' of patch 'walls' is no word"),
     ("boundary", b"type patch;", b"type cyclic; neighbourPatch gone;", "the neighbourPatch 'gone', which does not exist"),
     ("boundary", b"    ends", b'#include "gone"\n    ends', "includes 'gone', which does not exist"),
-    ("boundary", b"    ends", b'#include "boundary"\n    ends', "Does a file include itself?"),
+    ("boundary", b"    ends", b'#include "boundary"\n    ends', "Check that no file includes itself."),
 ])  # fmt: skip
 def test_what_is_wrong_is_named(name, old, new, words, tmp_path):
     mesh = write_cube(tmp_path / "cube")

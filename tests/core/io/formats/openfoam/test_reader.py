@@ -229,7 +229,7 @@ def test_a_decomposed_or_foreign_folder_is_refused_with_advice(tmp_path):
     with pytest.raises(io.files.FileError, match="is a folder: expected a mesh file or the folder of an OpenFOAM case"):
         io.read(tmp_path / "cube")
     (tmp_path / "cube" / "cube.foam").touch()
-    with pytest.raises(io.files.FileError, match="there is no mesh of OpenFOAM beside it"):
+    with pytest.raises(io.files.FileError, match="there is no OpenFOAM mesh next to it"):
         io.read(tmp_path / "cube" / "cube.foam")
     shutil.rmtree(tmp_path / "cube")
 

@@ -113,7 +113,7 @@ def test_a_folder_with_other_files_is_left_alone(tmp_path):
     (tmp_path / "other").mkdir()
     (tmp_path / "other/precious").write_text("kept")
     given = io.read(tmp_path / "cube")
-    with pytest.raises(FileError, match="holds other files, but no mesh of OpenFOAM"):
+    with pytest.raises(FileError, match="holds other files, but no OpenFOAM mesh"):
         io.write(tmp_path / "other", given, like=tmp_path / "cube")
     assert tree(tmp_path / "other") == {"precious": b"kept"}
     assert sorted(os.listdir(tmp_path)) == ["cube", "other"]

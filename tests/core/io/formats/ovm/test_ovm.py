@@ -97,7 +97,7 @@ def test_a_real_file_is_read(real_mesh):
         ("Faces\n6\n4 ", "Faces\n6\n4 99 ", "Faces holds"),
         ("Faces\n6\n4 ", "Faces\n6\n-4 ", "Faces holds 0 whole rows of 6"),
         ("Polyhedra\n1\n6 ", "Polyhedra\n1\n7 99 ", "Polyhedra name 99: expected numbers from 0 to 11"),
-        ("Edges", "Hedges", "'Hedges' stands where a section should begin (line 12)"),
+        ("Edges", "Hedges", "'Hedges' was found where a section should begin (line 12)"),
     ],
 )
 def test_what_is_wrong_is_named(old, new, words, tmp_path):

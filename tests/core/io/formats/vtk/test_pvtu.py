@@ -64,9 +64,9 @@ def test_what_vtk_writes_in_parallel_is_read(tmp_path):
 @pytest.mark.parametrize(
     ("pieces", "words"),
     [
-        ("", "names no pieces"),
+        ("", "lists no pieces"),
         ('<Piece Source="none.vtu"/>', r"whole\.pvtu: its piece none\.vtu: there is no such file"),
-        ('<Piece Source="half_0.vtu"/><Piece Source="half_0.vtu"/>', "names a piece twice"),
+        ('<Piece Source="half_0.vtu"/><Piece Source="half_0.vtu"/>', "lists a piece twice"),
         ('<Piece Source="/etc/passwd"/>', "expected a file in its folder or below"),
         ('<Piece Source="../half_0.vtu"/>', "expected a file in its folder or below"),
         ('<Piece Source="."/>', "is a folder"),

@@ -196,7 +196,7 @@ def test_a_small_file_cannot_fill_the_memory(tmp_path):
     def change(root):
         root.create_dataset("PointData/zeros", (16, 1 << 26), "f8", chunks=(1, 1 << 20))
 
-    with pytest.raises(FileError, match="are announced to have"):
+    with pytest.raises(FileError, match="are declared to have"):
         io.read(hand_made(tmp_path / "a.vtkhdf", change))
 
 
