@@ -30,6 +30,7 @@ from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.picking import Hit
 from hexmend_app.state.view.side_views import Wipe
 from hexmend_app.theme.palette import BLUE, THEME
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import on_theme_change
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ class Canvas(CameraView):
         self.box = BoxWidget(self.panes.pane, self.box_dragged.emit)
         self.sphere = SphereWidget(self.panes.pane, self.sphere_dragged.emit)
         self._handle_widgets = self.plane, self.box, self.sphere
-        layout = QVBoxLayout(self)
+        layout = on_grid(QVBoxLayout(self))
         layout.setContentsMargins(_RING, _RING, _RING, _RING)
         self.frame = ViewFrame(self.interactor)
         self._legend = ViewLegend(self.interactor, self.panes, self.frame)

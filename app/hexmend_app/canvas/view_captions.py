@@ -9,6 +9,7 @@ from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
 
 from hexmend_app.theme.palette import Role
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import MUTED, WORSE, icon, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -132,7 +133,7 @@ class WipeRow(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        row = QHBoxLayout(self)
+        row = on_grid(QHBoxLayout(self))
         row.setContentsMargins(8, 0, 8, 0)
         self._sides, self._figures = [], []
         for side in ("left", "right"):

@@ -10,6 +10,7 @@ from PySide6.QtGui import QAccessible, QAccessibleEvent, QGuiApplication, QKeySe
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QToolButton, QWidget
 
 from hexmend_app.theme.palette import AMBER, BLUE, WORSE
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import icon, on_theme_change, set_help, set_variant
 from hexmend_app.translation import marked, tr
 
@@ -115,7 +116,7 @@ class MessageBar(QFrame):
         layout.addWidget(self.title, 0, 1)
         layout.addLayout(buttons, 0, 2, Qt.AlignmentFlag.AlignTop)
         layout.addWidget(self.text, 1, 1, 1, 2)
-        self._choices = QHBoxLayout()
+        self._choices = on_grid(QHBoxLayout())
         self._choices.addStretch()
         layout.addLayout(self._choices, 2, 1, 1, 2)
         self.hide()

@@ -17,6 +17,7 @@ from hexmend_app.features.convergence.line import MAX_POINTS, RunLine
 from hexmend_app.features.convergence.point_texts import reason_if_blank, titled
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.palette import TEXT
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import note, on_theme_change, set_help, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot
@@ -101,7 +102,7 @@ class ConvergencePlot(QWidget):
         self._blank.setAccessibleName(tr("Why the chart of {title} is empty", title=tr(chart.title)))
         self._blank.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._blank.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        QVBoxLayout(self.plot).addWidget(self._blank)
+        on_grid(QVBoxLayout(self.plot)).addWidget(self._blank)
         self.marker = pg.InfiniteLine(0, movable=False)
         self.marker.setZValue(20)
         self.plot.addItem(self.marker, ignoreBounds=True)

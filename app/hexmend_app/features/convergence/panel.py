@@ -17,6 +17,7 @@ from hexmend_app.features.convergence.point_texts import describe
 from hexmend_app.features.convergence.run_legend import RunLegend
 from hexmend_app.scene.colour.ticks import nice_ticks
 from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import note
 from hexmend_app.translation import tr
 from hexmend_app.widgets.scrolled import scrolled
@@ -85,7 +86,7 @@ class ConvergencePanel(QWidget):
 
     def _lay_out(self) -> None:
         stack = QWidget()
-        charts = self._charts = QBoxLayout(QBoxLayout.Direction.TopToBottom, stack)
+        charts = self._charts = on_grid(QBoxLayout(QBoxLayout.Direction.TopToBottom, stack))
         charts.setContentsMargins(0, 0, 0, 0)
         charts.setSpacing(4)
         for plot in self.plots.values():
@@ -93,13 +94,13 @@ class ConvergencePanel(QWidget):
         self._empty = note(tr(_EMPTY))
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.plotting, self._runs = scrolled(stack), scrolled(self.legend)
-        side = QVBoxLayout()
+        side = on_grid(QVBoxLayout())
         side.setContentsMargins(0, 0, 0, 0)
         side.addWidget(self.head)
         side.addWidget(self._runs, 1)
         self.side = QWidget()
         self.side.setLayout(side)
-        self._layout = QBoxLayout(QBoxLayout.Direction.RightToLeft, self)
+        self._layout = on_grid(QBoxLayout(QBoxLayout.Direction.RightToLeft, self))
         self._layout.setContentsMargins(8, 4, 8, 4)
         for widget, stretch in ((self.side, 0), (self.plotting, 1), (self._empty, 1)):
             self._layout.addWidget(widget, stretch)

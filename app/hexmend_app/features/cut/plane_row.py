@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QTabBar, QWidget
 
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import icon, set_help
 from hexmend_app.translation import tr
 
@@ -54,7 +55,7 @@ class PlaneRow(QWidget):
         set_help(self._snap, tr("Snap to axes"), tr(_SNAP))
         label = QLabel(tr("Plane"))
         label.setBuddy(self._tabs)
-        row = QHBoxLayout(self)
+        row = on_grid(QHBoxLayout(self))
         row.setContentsMargins(0, 0, 0, 0)
         for widget in (label, self._tabs, self._add, self._remove):
             row.addWidget(widget)

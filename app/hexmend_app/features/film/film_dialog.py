@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -117,7 +118,7 @@ class FilmDialog(QDialog):
         buttons.addButton(tr("Save as…"), QDialogButtonBox.ButtonRole.AcceptRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        column = QVBoxLayout(self)
+        column = on_grid(QVBoxLayout(self))
         column.addWidget(
             note(tr("{count:,} iterations, with the cut, colours and arrows of the view.", count=iterations + 1))
         )

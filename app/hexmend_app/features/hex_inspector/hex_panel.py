@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 from superqt import QFlowLayout
 
 from hexmend.quality import METRICS, HexDetails, Metric, NodeDetails
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import (
     INVERTED_TEXT,
     MUTED,
@@ -129,7 +130,7 @@ class HexPanel(QWidget):
         return label
 
     def _lay_out(self, page: QWidget) -> None:
-        head = QHBoxLayout()
+        head = on_grid(QHBoxLayout())
         head.addWidget(self._title, 1)
         head.addWidget(self._zoom)
         metrics = metrics_offered()
@@ -148,7 +149,7 @@ class HexPanel(QWidget):
                 corners.addWidget(label, row, column)
         for label in (self._state, self._neighbours, self._about_node):
             label.setWordWrap(True)
-        texts = QVBoxLayout()
+        texts = on_grid(QVBoxLayout())
         texts.addLayout(head)
         for widget in (self._state, self._in_view, self._neighbours, self._about_node, self._pin):
             texts.addWidget(widget)
@@ -166,7 +167,7 @@ class HexPanel(QWidget):
 
     def _metric_grid(self, metrics: Sequence[Metric]) -> QGridLayout:
         """Lay out titles and values of metrics, one below the other."""
-        grid = QGridLayout()
+        grid = on_grid(QGridLayout())
         grid.setVerticalSpacing(4)
         for row, metric in enumerate(metrics):
             title = QLabel(tr(metric.title))

@@ -15,6 +15,7 @@ from hexmend_app.features.histogram.bins import Distribution, decades, round_up
 from hexmend_app.features.histogram.brush import BrushView, ColourRange
 from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import BROKEN_TOP, Heights, Outline, Series
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import BLUE, INVERTED_TEXT, MUTED, on_theme_change, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot
@@ -69,7 +70,7 @@ class HistogramPlot(QWidget):
             self.plot.addItem(number, ignoreBounds=True)
         self.plot.getAxis("left").label.setFont(smaller(self.font()))
         self.plot.getAxis("bottom").setHeight(self.fontMetrics().height() + 6)  # its title is in the legend
-        layout = QVBoxLayout(self)
+        layout = on_grid(QVBoxLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.plot)
         self._legend = legend
@@ -179,7 +180,7 @@ class HistogramPlot(QWidget):
         else:
             ticks = [(n, f"{n:,.0f}") for n in np.linspace(0, high, 5) if n == round(n)]
         left.setTicks([ticks])
-        left.setLabel(tr("% of hexes") if self.cumulative else "hexes")
+        left.setLabel(tr("% of hexes") if self.cumulative else tr("hexes"))
         left.resizeEvent()  # centres the label, which pyqtgraph does only when the plot is resized
         widest = max((self.fontMetrics().horizontalAdvance(text) for _, text in ticks), default=0)
         left.setWidth(max(widest, self.fontMetrics().horizontalAdvance("00,000")) + 26)

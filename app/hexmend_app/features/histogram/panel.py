@@ -23,6 +23,7 @@ from hexmend_app.features.histogram.outline import Gradient, Series
 from hexmend_app.features.histogram.range_row import RangeRow
 from hexmend_app.picture.visibility import Show
 from hexmend_app.theme.palette import KEPT
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import MUTED, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -79,7 +80,7 @@ class QualityHistogram(QWidget):
         layout.setSpacing(4)
         layout.addWidget(self.head)
         layout.addWidget(self.plot, 1)
-        self._bottom = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self._bottom = on_grid(QBoxLayout(QBoxLayout.Direction.LeftToRight))
         self._bottom.setSpacing(4)
         self._bottom.addWidget(self.range_row)
         self._bottom.addWidget(self.summary, 1)

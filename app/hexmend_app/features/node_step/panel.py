@@ -21,6 +21,7 @@ from hexmend_app.features.node_step.figures import NodeFigures
 from hexmend_app.features.node_step.step_plot import NodePlot
 from hexmend_app.features.node_step.step_texts import rows
 from hexmend_app.theme.palette import DESCENT, OTHERWISE, SEARCH, TAKEN, TRIED
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
 from hexmend_app.translation import marked, tr
 from hexmend_app.widgets.action_button import ActionButton
@@ -127,7 +128,7 @@ class NodePanel(QWidget):
         self._stack = QStackedLayout()
         self._stack.addWidget(self._message)
         page = QWidget()
-        middle = QHBoxLayout(page)
+        middle = on_grid(QHBoxLayout(page))
         middle.setContentsMargins(0, 0, 0, 0)
         middle.addWidget(self.plot, 1)
         middle.addWidget(self._no_plot, 1)

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend.node_step import NodeStep
 from hexmend_app.theme.palette import AMBER, MUTED, PANEL, SEARCH, TAKEN, TEXT, TRIED
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import on_theme_change, set_help, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot
@@ -44,7 +45,7 @@ class NodePlot(QWidget):
         super().__init__(parent)
         self._plot = calm_plot()
         self._plot.getPlotItem().setContentsMargins(0, 4, 8, 0)
-        for name, text in (("bottom", "α"), ("left", "Δ energy")):
+        for name, text in (("bottom", "α"), ("left", tr("Δ energy"))):
             self._plot.getAxis(name).setLabel(text)
             self._plot.getAxis(name).label.setFont(smaller(self.font()))
         self._plot.getAxis("left").setWidth(self.fontMetrics().horizontalAdvance("−00.00") + 26)
@@ -55,7 +56,7 @@ class NodePlot(QWidget):
         self.numbers: list[pg.TextItem] = []
         self._step: NodeStep | None = None
         set_help(self._plot, tr("Energy along the direction"), tr(_HELP))
-        layout = QVBoxLayout(self)
+        layout = on_grid(QVBoxLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._plot)
         on_theme_change(self, lambda: self.show_step(self._step))
@@ -94,7 +95,7 @@ class NodePlot(QWidget):
         power = 0 if largest == 0 or 1e-2 <= largest < 1e3 else math.floor(math.log10(largest))
         axis = self._plot.getAxis("left")
         axis.setScale(10.0**-power)
-        axis.setLabel("Δ energy" + (f" [10{str(power).translate(_SUPERSCRIPT)}]" if power else ""))
+        axis.setLabel(tr("Δ energy") + (f" [10{str(power).translate(_SUPERSCRIPT)}]" if power else ""))
 
     def _draw_dots(self, step: NodeStep, bottom: float, top: float, right: float) -> None:
         spots = [_spot(0.0, 0.0, TEXT, "o", 0)]

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWi
 
 from hexmend_app.features.open.recent_menu import elide
 from hexmend_app.state.settings.recent_files import RecentFiles
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import MUTED, icon, set_help, set_variant, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_folder
@@ -53,7 +54,7 @@ class Welcome(QWidget):
         buttons.addWidget(self._open)
         buttons.addWidget(self._demo)
         buttons.addStretch()
-        layout = QVBoxLayout(self)
+        layout = on_grid(QVBoxLayout(self))
         layout.setSpacing(16)
         layout.addStretch()
         for label in (self._title, self._hint):

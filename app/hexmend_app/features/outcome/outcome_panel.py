@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.advice import Advice, Suggestion
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, icon, note, set_help, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
@@ -193,7 +194,7 @@ class _HexList(QWidget):
                 description=description,
             ),
         )
-        row = QHBoxLayout(self)
+        row = on_grid(QHBoxLayout(self))
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self._links, 1)
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignTop)

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.state.tasks.mesh_padder import PaddingChoice
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -58,7 +59,7 @@ class PadDialog(QDialog):
         self.thickness.setSpecialValueText(tr("Automatic"))
         text = tr("Thickness of the layer in mesh units. Automatic: best for the quality of the hexes.")
         set_help(self.thickness, tr("Thickness"), text)
-        form = QFormLayout()
+        form = on_grid(QFormLayout())
         form.addRow(tr("Where"), self.where)
         form.addRow(tr("Rings"), self.rings)
         form.addRow(tr("Thickness"), self.thickness)
@@ -66,7 +67,7 @@ class PadDialog(QDialog):
         buttons.addButton(tr("Pad"), QDialogButtonBox.ButtonRole.AcceptRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        column = QVBoxLayout(self)
+        column = on_grid(QVBoxLayout(self))
         text = tr("Insert a layer of new hexes under the boundary, then run Mend. The boundary does not change.")
         column.addWidget(note(text))
         column.addLayout(form)

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, regressions
 from hexmend.quantity import Quantity
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import (
     BETTER,
     MUTED,
@@ -119,7 +120,7 @@ class StatisticsTable(QWidget):
         self._copy.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         self._copy.triggered.connect(self.copy)
         self.addAction(self._copy)
-        layout = QVBoxLayout(self)
+        layout = on_grid(QVBoxLayout(self))
         layout.setContentsMargins(4, 4, 4, 4)
         layout.addWidget(table)
         layout.addStretch()

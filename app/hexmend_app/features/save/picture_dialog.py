@@ -24,6 +24,7 @@ from hexmend_app.features.save.size_form import SizeForm
 from hexmend_app.picture import Camera, ConfigTable, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.named_cameras import merged
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_scene, ask_scene_target
@@ -115,9 +116,9 @@ class PictureDialog(SaveDialog):
 
     def _lay_out(self) -> None:
         settings = QWidget()
-        column = QVBoxLayout(settings)
+        column = on_grid(QVBoxLayout(settings))
         captions = QWidget()
-        rows = QFormLayout(captions)
+        rows = on_grid(QFormLayout(captions))
         rows.setContentsMargins(0, 0, 0, 0)
         for number, line in enumerate(self.captions, 1):
             title = tr("Caption {number}", number=number) if len(self.captions) > 1 else tr("Caption")
@@ -134,10 +135,10 @@ class PictureDialog(SaveDialog):
         labels = [label for label in settings.findChildren(QLabel) if label.buddy() is not None]
         for label in labels:  # align the fields of all groups
             label.setMinimumWidth(max(other.sizeHint().width() for other in labels))
-        left = QVBoxLayout()
+        left = on_grid(QVBoxLayout())
         left.addWidget(self.preview, 1)
         left.addWidget(self._page_size)
-        columns = QHBoxLayout()
+        columns = on_grid(QHBoxLayout())
         columns.addLayout(left, 1)
         area = scrolled(settings)
         area.setMinimumWidth(settings.sizeHint().width() + 28)

@@ -8,6 +8,7 @@ from PySide6.QtCore import QSize, Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QWidget
 
 from hexmend_app.picture import Page
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import marked, tr
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -64,11 +65,11 @@ class SizeForm(QWidget):
         self.dpi.setRange(5, 4800)
         self.dpi.setDecimals(0)
         self.dpi.setSuffix(tr(" dpi"))
-        row = QHBoxLayout()
+        row = on_grid(QHBoxLayout())
         for widget in (self.width_box, QLabel("×"), self.height_box, self.unit):
             row.addWidget(widget)
         row.addStretch()
-        layout = QFormLayout(self)
+        layout = on_grid(QFormLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addRow(self.preset)
         layout.addRow(row)

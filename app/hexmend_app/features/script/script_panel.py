@@ -9,6 +9,7 @@ from PySide6.QtGui import QFontDatabase, QTextCursor
 from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
 from hexmend_app.features.script.view_lines import VIEW
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 
@@ -46,12 +47,12 @@ class ScriptPanel(QWidget):
         save = QPushButton(icon("content-save-outline"), tr("Save as…"))
         set_help(save, tr("Save the script"), tr("Save the script as a Python file: python FILE repeats the actions."))
         save.clicked.connect(self.save_requested)
-        head = QHBoxLayout()
+        head = on_grid(QHBoxLayout())
         head.addWidget(note(tr(_HELP)), 1)
         head.addWidget(restart)
         head.addWidget(copy)
         head.addWidget(save)
-        column = QVBoxLayout(self)
+        column = on_grid(QVBoxLayout(self))
         column.setContentsMargins(8, 8, 8, 8)
         column.addLayout(head)
         column.addWidget(self._text, 1)

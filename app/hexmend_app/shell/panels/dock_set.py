@@ -14,6 +14,7 @@ from hexmend_app.shell.panels.dock import Dock
 from hexmend_app.shell.panels.group_row import GroupRow
 from hexmend_app.shell.panels.saved_layout import SavedLayout
 from hexmend_app.shell.panels.tab_bars import TabBars
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.translation import tr
 
 #: Order of places in which panels are added and reached by Tab.
@@ -80,7 +81,7 @@ class DockSet(QObject):
         self.view.setContentsMargins(0, 0, 0, 0)
         self.view.setSpacing(0)
         self.bars = QWidget()
-        self._bar_layout = QHBoxLayout(self.bars)
+        self._bar_layout = on_grid(QHBoxLayout(self.bars))
         self._bar_layout.setContentsMargins(0, 0, 0, 0)
         self.row = GroupRow(tr("Tasks"))
         main.setCentralWidget(self.centre)
@@ -212,7 +213,7 @@ class DockSet(QObject):
 def _wrapped(widget: QWidget) -> QWidget:
     """Return a container of a widget: the feature shows and hides the widget, the user the container."""
     container = QWidget()
-    layout = QVBoxLayout(container)
+    layout = on_grid(QVBoxLayout(container))
     layout.setContentsMargins(0, 0, 0, 0)
     layout.addWidget(widget)
     return container

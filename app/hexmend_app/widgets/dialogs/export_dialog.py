@@ -24,6 +24,7 @@ from hexmend.errors import HexmendError, ParameterError
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import declared
 from hexmend.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, Chart, ChartStyle, chart_png
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
@@ -78,10 +79,10 @@ class ExportDialog(SaveDialog):
     def lay_out(self, preview: QWidget, *forms: QWidget) -> None:
         """Lay out a preview next to forms, title and names."""
         settings = QWidget()
-        column = QVBoxLayout(settings)
+        column = on_grid(QVBoxLayout(settings))
         for form in forms:
             column.addWidget(form)
-        rows = QFormLayout()
+        rows = on_grid(QFormLayout())
         rows.addRow(tr("Title"), self.title)
         if self.names:
             rows.addRow(QLabel(tr("<b>Names</b>")))
@@ -93,7 +94,7 @@ class ExportDialog(SaveDialog):
         column.addStretch()
         area = scrolled(settings)
         area.setMinimumWidth(max(280, settings.sizeHint().width() + 28))
-        upper = QHBoxLayout()
+        upper = on_grid(QHBoxLayout())
         upper.addWidget(preview, 1)
         upper.addWidget(area)
         self.lay_out_below(upper)

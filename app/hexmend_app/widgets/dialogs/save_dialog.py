@@ -7,6 +7,7 @@ import re
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLayout, QPushButton, QVBoxLayout, QWidget
 
 from hexmend.errors import FileError, ParameterError
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import WORSE, note
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.target_row import TargetRow
@@ -52,7 +53,7 @@ class SaveDialog(QDialog):
             buttons.addButton(button, QDialogButtonBox.ButtonRole.ResetRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        layout = QVBoxLayout(self)
+        layout = on_grid(QVBoxLayout(self))
         layout.addLayout(upper, 1)
         layout.addWidget(self.target)
         layout.addWidget(self._problem)

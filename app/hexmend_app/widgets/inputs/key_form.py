@@ -16,6 +16,7 @@ from hexmend.parameters import Parameter
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import WORSE, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, Text, editor_for
@@ -50,7 +51,7 @@ class KeyForm(QWidget):
         self._kind = type(table)
         self._keys = {option.field: option for option in options_of(self._kind) if option.field in names}
         self.editors: dict[str, Editor | SuggestionBox] = {}
-        layout = QFormLayout(self)
+        layout = on_grid(QFormLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         for name in names:
             option = self._keys[name]

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QAbstractSpinBox, QHBoxLayout, QLabel, QWidget
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.theme.palette import MUTED
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import on_theme_change, set_variant, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_number
@@ -60,7 +61,7 @@ class NumberBox(QAbstractSpinBox):
         suffix.setFont(smaller(suffix.font()))
         suffix.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         on_theme_change(suffix, lambda: _colour_unit(suffix))
-        layout = QHBoxLayout(line)
+        layout = on_grid(QHBoxLayout(line))
         layout.setContentsMargins(0, 0, 4, 0)
         layout.addStretch()
         layout.addWidget(suffix)

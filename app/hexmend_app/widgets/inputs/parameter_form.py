@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QTo
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import BLUE, WORSE, icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
@@ -106,12 +107,12 @@ class ParameterForm(QWidget):
         self._advanced = self._button(tr("Advanced"), "tune-variant", tr("Show the advanced parameters as well."))
         self._advanced.setCheckable(True)
         self._advanced.toggled.connect(self._show_rows)
-        foot = QHBoxLayout()
+        foot = on_grid(QHBoxLayout())
         foot.addWidget(self._advanced)
         foot.addStretch()
         foot.addWidget(self._explain)
         foot.addWidget(self._defaults)
-        layout = QVBoxLayout(self)
+        layout = on_grid(QVBoxLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addLayout(self._grid)
         layout.addWidget(self.none)

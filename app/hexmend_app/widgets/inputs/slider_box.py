@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSlider, QSpinBox, QWidget
 
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import set_help, tabular
 
 
@@ -37,7 +38,7 @@ class SliderBox(QWidget):
         self._box.setSuffix(suffix)
         self._box.setFont(tabular(self._box.font()))
         self._box.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        layout = QHBoxLayout(self)
+        layout = on_grid(QHBoxLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._slider, 1)
         layout.addWidget(self._box)

@@ -8,6 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QLineEdit, QPushButton, QWidget
 
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_replacing, folder, named, remember_folder
@@ -44,7 +45,7 @@ class TargetRow(QWidget):
         self.line.textChanged.connect(lambda: self.edited.emit())
         browse = QPushButton(tr("Browse…"))
         browse.clicked.connect(self._browse)
-        row = QHBoxLayout(self)
+        row = on_grid(QHBoxLayout(self))
         row.setContentsMargins(0, 0, 0, 0)
         label = QLabel(tr("File"))
         label.setBuddy(self.line)
