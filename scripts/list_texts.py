@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import ast
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import is_dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.iteration import Outcome
@@ -43,6 +43,8 @@ from hexmend_app.state.mesh.hex_groups import GROUPS
 from hexmend_app.state.view.side_views import NOW
 from hexmend_app.translation import section_of
 from hexmend_app.widgets.wording import name_in_words
+
+Entry = TypeVar("Entry")
 
 ROOT = Path(__file__).resolve().parents[1]
 APP = ROOT / "app/hexmend_app"
@@ -211,10 +213,10 @@ def declarations() -> dict[str, list[Module]]:
         ],
         "layers": [
             Module(f"Layer {one.name}", _texts(one.title, one.help, one.empty, one.action, one.action_help))
-            for one in LAYERS.values()
+            for one in by_name(LAYERS)
         ],
         "methods": [
-            *(Module(f"Method {one.name}", _texts(one.title, one.help, *_parameters(one))) for one in METHODS.values()),
+            *(Module(f"Method {one.name}", _texts(one.title, one.help, *_parameters(one))) for one in by_name(METHODS)),
             Module("Limits of a run", _texts(*_parameters(StoppingCriteria))),
             Module("Recipes", _texts(*(read_recipe(path).title for path in recipes()))),
         ],
@@ -222,9 +224,9 @@ def declarations() -> dict[str, list[Module]]:
             Module(
                 f"Metric {one.name}", _texts(one.title, getattr(one, "label", ""), one.formula, one.meaning, one.unit)
             )
-            for one in (*METRICS.values(), *DISPLACEMENT_QUANTITIES.values(), MATERIAL)
+            for one in (*by_name(METRICS), *DISPLACEMENT_QUANTITIES.values(), MATERIAL)
         ],
-        "colour maps": [Module(f"Colour map {one.name}", _texts(one.title, one.help)) for one in COLOUR_MAPS.values()],
+        "colour maps": [Module(f"Colour map {one.name}", _texts(one.title, one.help)) for one in by_name(COLOUR_MAPS)],
         "quantities": [Module(f"Quantity {one.key}", _texts(one.title, one.label, one.help)) for one in quantities],
         "charts": [Module(f"Chart {one.key}", _texts(one.title, one.help)) for one in CHARTS.values()],
         "states": [
@@ -241,6 +243,11 @@ def _parameters(of: type) -> Iterator[str]:
         yield from (one.label or name_in_words(one.name), one.help, one.unit, *one.titles, one.percent_of)
         if not one.titles:
             yield from map(name_in_words, one.choices or ())
+
+
+def by_name(registry: Mapping[str, Entry]) -> list[Entry]:
+    """Return the entries of a registry sorted by name: their order depends on what is imported first."""
+    return [registry[name] for name in sorted(registry)]
 
 
 def _keys(table: type) -> Iterator[str]:

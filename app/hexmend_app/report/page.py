@@ -201,7 +201,7 @@ def _worse(case: Case) -> list[str]:
     worse = [(one.name, describe_regressions(case.initial.summary, one.summary)) for one in results]
     sentences = [f"{name}: {text}" for name, text in worse if text]
     return sentences or [
-        "No method made the number of inverted hexes, q min or the least scaled Jacobian worse."
+        "No method made the number of inverted hexes, q min or the minimum scaled Jacobian worse."
     ] * bool(results)
 
 

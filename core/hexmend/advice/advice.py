@@ -35,7 +35,7 @@ class Advice:
     surface : str
         Change of the boundary, as a sentence; empty if no method let it slide.
     limiting, locked_below : (k,) int64
-        Hexes whose corners prevent the least scaled Jacobian (or time step) from rising further, and hexes with a
+        Hexes whose corners prevent the minimum scaled Jacobian (or time step) from rising further, and hexes with a
         lower corner whose nodes are all fixed.
     suggestions : tuple of Suggestion
         The most urgent first; may be empty.
@@ -127,7 +127,7 @@ def _state(now: Situation) -> str:
         mended = f" {count_phrase(before.inverted, 'was', 'were')} inverted at the start." if before.inverted else ""
         least = f"{after.q_min:.3f}"
         if now.result.active is not None:
-            least += f", the least scaled Jacobian is {after.scaled_jacobian_min:.4f}"
+            least += f", the minimum scaled Jacobian is {after.scaled_jacobian_min:.4f}"
         return f"No hex is inverted; the worst has q = {least}.{mended}{done}"
     hexes = f"of {count_phrase(after.hexes, 'hex', 'hexes')}"
     words = [f"{count_phrase(after.inverted, f'{hexes} is', f'{hexes} are')} inverted."]

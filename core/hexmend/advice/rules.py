@@ -187,7 +187,7 @@ def optimum(now: Situation) -> Suggestion | None:
     heuristic = not now.smoother.optimises and not isinstance(now.smoother, SequentialGETMe)
     if not (heuristic or now.result.outcome is Outcome.SUFFICIENT) or not _sound_below(now, PERFECT):
         return None
-    text = "Run Mend: it raises q min, q mean and the least scaled Jacobian together; none of them falls."
+    text = "Run Mend: it raises q min, q mean and the minimum scaled Jacobian together; none of them falls."
     return Suggestion("Mend", text, "figures", Mend(**now.objective))
 
 
@@ -218,7 +218,7 @@ def guard(now: Situation) -> Suggestion | None:
         return None
     text = (
         f"Undo the run, in which q min fell from {before.q_min:.3f} to {after.q_min:.3f}, and run Mend with guard: it "
-        "keeps the best iteration that lowers neither q min nor the least scaled Jacobian."
+        "keeps the best iteration that lowers neither q min nor the minimum scaled Jacobian."
     )
     return Suggestion("Undo, then Mend with guard", text, "q_min", replace(now.smoother, guard=True), undo=True)
 

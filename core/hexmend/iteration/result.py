@@ -71,7 +71,7 @@ class Iteration:
         """The objective of `norm`, at delta = 0, against the target of the mesh; None while any hex is inverted.
 
         Where the quads of the boundary count, their term is in it, and it is None while one of them is flipped. It may
-        rise where a step does not minimise it, such as while mend raises the least scaled Jacobian.
+        rise where a step does not minimise it, such as while mend raises the minimum scaled Jacobian.
         """
         return self.objective_by(self.norm)
 
@@ -99,7 +99,7 @@ class Iteration:
 
     @property
     def scaled_jacobian_min(self) -> float:
-        """Least scaled Jacobian."""
+        """Minimum scaled Jacobian."""
         return float(self.quality.scaled_jacobian.min())
 
     def __repr__(self) -> str:

@@ -36,7 +36,7 @@ class Outcome(Enum):
 
 @dataclass(frozen=True, eq=False)
 class ActiveSet:
-    """Corners that let the least scaled Jacobian, or the smallest time step, rise no further.
+    """Corners that let the minimum scaled Jacobian, or the smallest time step, rise no further.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES, FACES
 from hexmend.mesh.mesh import Mesh
 
-#: Least scaled Jacobian of a hex that is free.
+#: Minimum scaled Jacobian of a hex that is free.
 SOUND = 0.01
 #: Steps of the search, and length of the first and the last of them in edges.
 _STEPS, _FIRST_STEP, _LAST_STEP = 200, 0.15, 0.005

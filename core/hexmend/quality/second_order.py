@@ -23,7 +23,7 @@ class SecondOrderSummary:
     non_positive : int
         Number of hexes with a Jacobian of 0 or less at a node or a point of the 3 x 3 x 3 Gauss rule.
     scaled_jacobian_min : float
-        Least scaled Jacobian of all.
+        Minimum scaled Jacobian of all.
     """
 
     hexes: int

@@ -83,7 +83,7 @@ class RankRun(Iterator[RankFigures]):
 
     @property
     def unsound(self) -> bool:
-        """The stages ended because the least scaled Jacobian was not sound after untangling."""
+        """The stages ended because the minimum scaled Jacobian was not sound after untangling."""
         return self._stages.unsound
 
     def __next__(self) -> RankFigures:

@@ -57,7 +57,7 @@ class RankStages(Stages):
     Attributes
     ----------
     unsound : bool
-        The least scaled Jacobian is not sound after untangling, so that the stages ended there.
+        The minimum scaled Jacobian is not sound after untangling, so that the stages ended there.
     """
 
     def __init__(self, settings: Mend, part: RankPart, sliding: RankSliding | None):
@@ -99,7 +99,7 @@ class RankStages(Stages):
         return RankEnergy(self._part, norm) if sliding is None else RankSlidingEnergy(sliding, norm)
 
     def _is_unsound(self, mesh: Mesh, points: np.ndarray, sliding: RankSliding | None) -> bool:
-        """Return True if the least scaled Jacobian of what can be moved is too low for the barrier of floors."""
+        """Return True if the minimum scaled Jacobian of what can be moved is too low for the barrier of floors."""
         energy = self._sound_energy(mesh, points, sliding)
         least = MovableHexes(energy).jacobians(energy.to_edge_units(points)).min(initial=np.inf)
         return energy.ranks.least(float(least)) < MAXMIN.barrier_safe

@@ -58,10 +58,12 @@ class ChartStyle(Parametrised):
         For a value out of range, and for a picture of too many pixels.
     """
 
-    width: float = parameter(170.0, low=WIDTHS[0], high=WIDTHS[1], unit="mm", help="Of the whole figure.")
-    height: float = parameter(0.0, low=0, high=1000, unit="mm", help="Of the whole figure; 0 as its width suits.")
-    letters: float = parameter(8.0, low=4, high=40, unit="pt", help="The size of all that is written.")
-    resolution: float = parameter(300.0, low=50, high=1200, unit="dpi", help="Pixels per inch of a PNG.")
+    width: float = parameter(170.0, low=WIDTHS[0], high=WIDTHS[1], unit="mm", help="Width of the whole figure.")
+    height: float = parameter(
+        0.0, low=0, high=1000, unit="mm", help="Height of the whole figure; 0: to suit the width."
+    )
+    letters: float = parameter(8.0, low=4, high=40, unit="pt", label="Font size", help="Size of all texts.")
+    resolution: float = parameter(300.0, low=50, high=1200, unit="dpi", help="Pixels per inch of a PNG file.")
     title: str | None = None
     names: Mapping[str, str] = field(default_factory=dict)
 

@@ -77,5 +77,5 @@ def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(tmp_path, monk
 
     monkeypatch.setattr(checkpoint, "write", full)
     assert main(["smooth", str(given), "-o", str(out), "--checkpoint", "1e-9"]) == 0
-    assert "no checkpoint was written, and the run goes on" in capsys.readouterr().err
+    assert "no checkpoint was written, and the run continues" in capsys.readouterr().err
     assert out.exists()

@@ -65,7 +65,7 @@ def test_repair_writes_anew_where_nodes_go_and_says_why(deck, tmp_path, capsys):
     deck.write_text(deck.read_text().replace("*NODE\n", "*NODE\n999999, 0., 0., 77.\n"))
     assert main(["repair", str(deck), "-o", str(tmp_path / "out.inp")]) == 0
     said = capsys.readouterr()
-    assert "written anew: the mesh has other nodes than deck.inp" in said.err
+    assert "rewritten: the mesh has other nodes than deck.inp" in said.err
     assert io.read(tmp_path / "out.inp").n_nodes == io.read(deck).n_nodes - 1
 
 
@@ -85,7 +85,7 @@ def test_repair_does_not_replace_a_deck_by_one_without_its_materials(deck, tmp_p
     assert sorted(path.name for path in tmp_path.iterdir()) == ["deck.inp"]
     assert main(["repair", str(deck), "-o", str(tmp_path / "other.inp")]) == 0
     assert (
-        "besides the mesh: keywords that define no mesh (*MATERIAL, *STEP, *END STEP); comments."
+        "other than the mesh: keywords that define no mesh (*MATERIAL, *STEP, *END STEP); comments."
         in capsys.readouterr().err
     )
     assert deck.read_bytes() == before
@@ -112,7 +112,7 @@ def test_a_file_of_a_format_that_is_written_anew_keeps_what_was_not_read(command
     path.write_text(plain + PROPERTY + "1\n" * 216)
     before = path.read_bytes()
     assert main([command, str(path), "-o", str(path)]) == 3
-    words = "would lose data other than the mesh: the property 'marked' (HFProp bool). It has to be written anew"
+    words = "would lose data other than the mesh: the property 'marked' (HFProp bool). It has to be rewritten"
     assert words in capsys.readouterr().err
     assert path.read_bytes() == before
     assert spare.exists() == (command != "repair")

@@ -151,7 +151,7 @@ EMPTY_PLY = (
 BAD = {
     "empty.stl": (b"", "is empty"),
     "no-facets.stl": (b"solid a\nendsolid a\n", "holds no surface"),
-    "junk.stl": (b"\0" * 200, "is no STL"),
+    "junk.stl": (b"\0" * 200, "is not an STL file"),
     "cut-short.stl": (
         b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n",
         "cannot be read as STL",

@@ -225,7 +225,7 @@ def test_a_damaged_file_is_an_error_of_one_line(given, tmp_path):
     (tmp_path / "a.vtu").write_bytes(data[: len(data) // 2])
     run = on_ranks(3, tmp_path / "a.vtu", "-o", tmp_path / "out.pvtu")
     assert run.returncode != 0
-    assert run.stderr.count("goes on behind the end of the data") == 1
+    assert run.stderr.count("continues past the end of the data") == 1
     assert "Traceback" not in run.stderr
 
 

@@ -164,7 +164,7 @@ def thinned(x: np.ndarray, y: np.ndarray, most: int = 2000) -> tuple[np.ndarray,
 
 
 def _balance_starts(rows: Sequence[Mapping[str, Any]]) -> list[int]:
-    """Return the iterations at which a stage begins that raises the least scaled Jacobian and q(H)."""
+    """Return the iterations at which a stage begins that raises the minimum scaled Jacobian and q(H)."""
     in_balance = [balances(row) for row in rows]
     return [at for at in range(1, len(in_balance)) if in_balance[at] and not in_balance[at - 1]]
 

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.doctor import PROBLEMS, Finding
 from hexmend.mesh.mesh import Mesh
+from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.scrolled import scrolled

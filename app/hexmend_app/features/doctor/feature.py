@@ -81,9 +81,7 @@ class FeatureDoctor(Feature):
         findings, error = session.mesh_checker.of(mesh), session.mesh_checker.error
         if self._seen.changed("findings", findings, error, mesh):
             self._listed = findings or ()
-            self.panel.show_findings(
-                findings, tr("The mesh could not be checked: {error}", error=error) if error else "", mesh
-            )
+            self.panel.show_findings(findings, tr("Mesh not checked: {error}", error=error) if error else "", mesh)
             self.panel.set_busy(not session.editable)
 
     def _show(self, row: int) -> None:

@@ -128,7 +128,8 @@ class FilmDialog(QDialog):
     def _show_sizes(self) -> None:
         for row, width in enumerate(WIDTHS):
             choice = FilmChoice(width, histogram=self._histogram.isChecked(), before=self._before.isChecked())
-            self._size.setItemText(row, "{} × {} pixels".format(*choice.size(self._view)))
+            width, height = choice.size(self._view)
+            self._size.setItemText(row, tr("{width} × {height} pixels", width=width, height=height))
 
     def choice(self) -> FilmChoice:
         """Return the selected options."""

@@ -209,7 +209,7 @@ class HexPanel(QWidget):
             for face, h in zip(_FACES, details.neighbours.tolist(), strict=True)
         )
         of_file = "" if details.file_id is None else tr("Number in the file: {id}", id=details.file_id) + "<br>"
-        self._neighbours.setText(of_file + "Neighbours: " + " &nbsp;&nbsp;".join(links))
+        self._neighbours.setText(of_file + tr("Neighbours: {links}", links=" &nbsp;&nbsp;".join(links)))
 
     def show_node(self, details: NodeDetails | None, busy: bool = False, boundary_class: str = "") -> None:
         """Show a node of the hex; for None, a hint how to select a node.

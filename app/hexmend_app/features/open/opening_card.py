@@ -9,7 +9,7 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted, figure
 
-#: Least scaled Jacobian above which a mesh without inverted hexes is called sound.
+#: Minimum scaled Jacobian above which a mesh without inverted hexes is called sound.
 _SOUND = 0.2
 
 

@@ -165,7 +165,7 @@ class FeatureSave(Feature):
         if not isinstance(saving.error, HexmendError):
             raise saving.error
         content = "mesh" if saving.data is None else "session"
-        self.host.messages.show_error(tr("{content} not saved", content=content), str(saving.error))
+        self.host.messages.show_error(tr("The {content} was not saved", content=content), str(saving.error))
 
     def ask_picture(self) -> None:
         """Ask for the settings and path of a picture, and write it."""

@@ -182,5 +182,5 @@ class RecordedIteration:
 
 
 def balances(row: Mapping[str, Any]) -> bool:
-    """Return True if an iteration raises the least scaled Jacobian and q(H); the objective may rise meanwhile."""
+    """Return True if an iteration raises the minimum scaled Jacobian and q(H); the objective may rise meanwhile."""
     return "least" in row and "least_q" in row

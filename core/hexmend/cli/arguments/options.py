@@ -123,8 +123,8 @@ def _add_boundary(parser: argparse.ArgumentParser) -> None:
     text = "keep the nodes of the boundary fixed (default) or let them slide on the surface"
     parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
     text = (
-        "the best shape that lowers no figure (balanced, the default), the optimum of shape, the greatest least scaled "
-        "Jacobian, or the greatest smallest explicit time step"
+        "the best shape that lowers no key figure (balanced, the default), the optimum of shape, the highest minimum "
+        "scaled Jacobian, or the longest explicit time step"
     )
     parser.add_argument("--goal", choices=("balanced", "shape", "scaled-jacobian", "time-step"), help=text)
 

@@ -76,7 +76,7 @@ def move_mid_nodes(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid
 
 
 def scaled_jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
-    """Compute the least scaled Jacobian of second-order hexes over their nodes and the 3 x 3 x 3 Gauss points.
+    """Compute the minimum scaled Jacobian of second-order hexes over their nodes and the 3 x 3 x 3 Gauss points.
 
     Parameters
     ----------

@@ -85,7 +85,7 @@ _SEARCH = LineSearch(backtrack_factor=0.5)
 
 @dataclass(frozen=True)
 class Least:
-    """Least scaled Jacobian and least q(H) of what can be moved, or floors of them; -inf: no floor."""
+    """Minimum scaled Jacobian and least q(H) of what can be moved, or floors of them; -inf: no floor."""
 
     jacobian: float
     quality: float

@@ -1,4 +1,4 @@
-"""Least scaled Jacobians and qualities of the hexes of a mesh that can be improved, as nodes move."""
+"""Minimum scaled Jacobians and qualities of the hexes of a mesh that can be improved, as nodes move."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class MovableHexes:
         self._judged = self._moves & (energy.omitted == 0)
 
     def jacobians(self, x: np.ndarray) -> np.ndarray:
-        """Compute the least scaled Jacobian of the movable corners of each hex at points x (n, 3), (m,); inf: none."""
+        """Compute the minimum scaled Jacobian of each hex's movable corners at points x (n, 3), (m,); inf: none."""
         hexes = self.energy.mesh.hexes
         least = measure(x, hexes).scaled_jacobian.copy()
         corners = scaled_jacobians(x, hexes[self._partly])

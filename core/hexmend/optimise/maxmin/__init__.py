@@ -1,1 +1,1 @@
-"""Maximise the least scaled Jacobian of a mesh by sequential linear programming."""
+"""Maximise the minimum scaled Jacobian of a mesh by sequential linear programming."""

@@ -1,4 +1,4 @@
-"""Settings of the sequential linear programming that raises the least scaled Jacobian."""
+"""Settings of the sequential linear programming that raises the minimum scaled Jacobian."""
 
 from __future__ import annotations
 

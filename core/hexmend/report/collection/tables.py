@@ -44,7 +44,7 @@ def programs_table(record: CollectionRecord) -> Table:
     lines = [_program_line(record, program) for program in record.programs]
     notes = [
         "Results: of how many meshes. Valid: results without an inverted hex. Untangled: of the results of meshes "
-        "that had inverted hexes. Better and worse: meshes on which the least scaled Jacobian is higher, or lower, "
+        "that had inverted hexes. Better and worse: meshes on which the minimum scaled Jacobian is higher, or lower, "
         "than that of mend with a fixed boundary. Seconds: of whole processes, over all results."
     ]
     for program in record.programs:
@@ -95,7 +95,7 @@ def meshes_table(record: CollectionRecord) -> Table:
         line += [_jacobian(record.result(mesh, program), record.row(mesh, program)) for program in others]
         lines.append([*line, record.reason(mesh) or remark(record, mesh, fixed)])
     notes = (
-        "Columns with the name of a program: the least scaled Jacobian of its result, with the number of inverted "
+        "Columns with the name of a program: the minimum scaled Jacobian of its result, with the number of inverted "
         "hexes in brackets if there are any. Distance: of the boundary of the result of mend, slide from that of the "
         "mesh, in per cent of the diagonal. q min, q mean and seconds of mend, fixed. Worse: other programs with the "
         "same boundary that leave no more inverted hexes, and the mesh as given, where they are better.",
@@ -155,7 +155,7 @@ def _counts(given: Mapping[str, Any]) -> list[str]:
 
 
 def _jacobian(result: Mapping[str, Any] | None, row: Mapping[str, Any] | None = None) -> str:
-    """Format the least scaled Jacobian of a result, with its inverted hexes; for a failure its status."""
+    """Format the minimum scaled Jacobian of a result, with its inverted hexes; for a failure its status."""
     if not result:
         return row["status"] if row else _NONE
     inverted = result["inverted_after"]

@@ -33,7 +33,7 @@ class BalanceConfig:
     Parameters
     ----------
     kept_share : tuple of float
-        Shares of the highest least scaled Jacobian that are tried as its floor, until the mean of q(H) is no lower than
+        Shares of the highest minimum scaled Jacobian tried as its floor, until the mean of q(H) is no lower than
         at the start.
     quality_margin : float
         Share by which the least q(H) is raised above its floor at first.
@@ -44,11 +44,11 @@ class BalanceConfig:
     returns : tuple of float
         Shares of the way from the given mesh to the result that are tried where the mean of q(H) is lower all the same.
     much : float
-        Multiple of the floor of the least scaled Jacobian above which the first rise is followed by a patient one.
+        Multiple of the floor of the minimum scaled Jacobian above which the first rise is followed by a patient one.
     worth_rising : float
         Share by which that has to raise the least.
     sound : float
-        Least scaled Jacobian from which on nothing is to be gained.
+        Minimum scaled Jacobian from which on nothing is to be gained.
     target_fall : float
         Share by which the least values may fall where a mesh has a target.
     path : CentralPathConfig
@@ -115,7 +115,7 @@ def floors_of(energy: MeshEnergy, points: np.ndarray) -> Floors:
 def balance(
     energy: MeshEnergy, points: np.ndarray, given: np.ndarray, config: BalanceConfig = BALANCE
 ) -> Generator[Step, None, Balanced]:
-    """Raise the least scaled Jacobian and the least q(H), then improve the shape above floors just below them.
+    """Raise the minimum scaled Jacobian and the least q(H), then improve the shape above floors just below them.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ def _message(path: CentralPath, top: Least, mean_without: float) -> str:
     kept, quality = path.least, measure(path.points, path.energy.mesh.hexes)
     mean, fixed = path.energy.mean(quality.q), float(quality.scaled_jacobian.min())
     message = (
-        f"The least scaled Jacobian of the corners that can be moved can be {top.jacobian:.4f}; it is kept at "
+        f"The minimum scaled Jacobian of the corners that can be moved can be {top.jacobian:.4f}; it is kept at "
         f"{kept.jacobian:.4f} at least, and the least q(H) at {kept.quality:.4f}."
     )
     if 0 < fixed < kept.jacobian - 5e-5:
@@ -227,7 +227,7 @@ def _is_above(least: Least, floor: Least, margin: float) -> bool:
 def raise_jacobian(
     energy: MeshEnergy, points: np.ndarray, config: BalanceConfig = BALANCE
 ) -> Generator[Step, None, np.ndarray]:
-    """Raise the least scaled Jacobian of what can be moved from points (n, 3) on; returns the points reached."""
+    """Raise the minimum scaled Jacobian of what can be moved from points (n, 3) on; returns the points reached."""
     path = CentralPath(energy, points, config.path)
     target = Least(np.inf, -np.inf)
     yield from _steps(path, path.rise(target))

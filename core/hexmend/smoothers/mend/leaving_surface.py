@@ -1,4 +1,4 @@
-"""Stages of mend in which nodes leave the surface where it keeps hexes inverted or the least scaled Jacobian down."""
+"""Stages of mend in which nodes leave the surface where it keeps hexes inverted or the minimum scaled Jacobian down."""
 
 from __future__ import annotations
 

@@ -23,9 +23,9 @@ class MaxMinConfig:
     Parameters
     ----------
     barrier_safe : float
-        Least scaled Jacobian above which the energy's barrier can be used.
+        Minimum scaled Jacobian above which the energy's barrier can be used.
     acceptable : float
-        Least scaled Jacobian below which nodes leave their curves and the surface, and groups are frozen.
+        Minimum scaled Jacobian below which nodes leave their curves and the surface, and groups are frozen.
     programs_per_iteration : int
         Number of linear programs per iteration of the run.
     max_groups, max_groups_off_surface : int

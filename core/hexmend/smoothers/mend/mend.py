@@ -1,4 +1,4 @@
-"""Mend: untangling, the optimum of shape, and the least scaled Jacobian; see `hexmend.smoothers.mend.stages`."""
+"""Mend: untangling, the optimum of shape, and the minimum scaled Jacobian; see `hexmend.smoothers.mend.stages`."""
 
 from __future__ import annotations
 
@@ -24,9 +24,7 @@ class Mend(MendSettings):
 
     name = "mend"
     title = "Mend"
-    help = (
-        "Untangles as far as the fixed nodes allow, then finds the best shape in which no figure is lower than before."
-    )
+    help = "Untangles as far as the fixed nodes allow, then finds the best shape that lowers no key figure."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     iteration_limit = 1000
     bytes_per_hex = 1400
@@ -78,7 +76,7 @@ class Mend(MendSettings):
         return inverted, harmed, after > before
 
     def _lowers(self, ranks: Ranks, start: ElementQuality, now: ElementQuality) -> bool:
-        """Return True if q min, the least scaled Jacobian or, of a sound mesh, q mean is lower than at the start."""
+        """Return True if q min, the minimum scaled Jacobian or, of a sound mesh, q mean is lower than at the start."""
         share = 1 - BALANCE.target_fall if now.against_target else 1.0
         judged = ~(start.inverted & now.inverted)
         count = ranks.sum(int(np.count_nonzero(judged)))
@@ -102,7 +100,7 @@ class Mend(MendSettings):
         if self.balances or self.maximises_minimum or "inverted" in worse:
             return ""
         if "scaled_jacobian" in worse:
-            return "With goal=scaled-jacobian the least scaled Jacobian rises instead; with guard=true neither falls."
+            return "With goal=scaled-jacobian the minimum scaled Jacobian rises instead; with guard=true neither falls."
         return "With guard=true it does not fall." if worse else ""
 
 

@@ -17,9 +17,9 @@ class MendSettings(ObjectiveSmoother):
     goal: str = parameter(
         "balanced",
         choices=("balanced", "shape", "scaled-jacobian", "time-step"),
-        titles=("Balanced", "Best mean shape", "Least scaled Jacobian", "Longest time step"),
-        help="balanced: the best mean shape above floors of the least scaled Jacobian and q(H), which rise first; "
-        "shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian; time-step: or the "
+        titles=("Balanced", "Best mean shape", "Minimum scaled Jacobian", "Longest time step"),
+        help="balanced: the best mean shape above floors of the minimum scaled Jacobian and q(H), which rise first; "
+        "shape: minimise (3.3); scaled-jacobian: then also maximise the minimum scaled Jacobian; time-step: or the "
         "smallest explicit time step, the least height of a hex.",
     )
     p: float = parameter(
@@ -49,7 +49,7 @@ class MendSettings(ObjectiveSmoother):
     )
     guard: bool = parameter(
         False,
-        help="Keep the best iterate that lowers neither the least q(H) nor the least scaled Jacobian.",
+        help="Keep the best iterate that lowers neither the least q(H) nor the minimum scaled Jacobian.",
         label="Keep the best result",
     )
     solver_iterations: int = parameter(
@@ -60,8 +60,8 @@ class MendSettings(ObjectiveSmoother):
     def norm(self) -> ObjectiveNorm:
         """The highest p and the offset: the objective at whose optimum a run ends.
 
-        Steps with a lower p record the objective with that p instead. Steps that raise the least scaled Jacobian do not
-        minimise an energy: they record this one, for comparison, and it may rise.
+        Steps with a lower p record the objective with that p instead. Steps that raise the minimum scaled Jacobian do
+        not minimise an energy: they record this one, for comparison, and it may rise.
         """
         return ObjectiveNorm(max(self.first_norm.p, self.p_limit), self.offset)
 
@@ -87,7 +87,7 @@ class MendSettings(ObjectiveSmoother):
 
     @property
     def maximises_jacobian(self) -> bool:
-        """The least scaled Jacobian is the goal."""
+        """The minimum scaled Jacobian is the goal."""
         return self.goal == "scaled-jacobian"
 
     @property

@@ -18,7 +18,7 @@ _POSITIVE = float(np.finfo(float).tiny)
 
 @dataclass(frozen=True, eq=False)
 class MaxMinResult:
-    """Result of raising the least scaled Jacobian: the optimiser, and the corners that limit it.
+    """Result of raising the minimum scaled Jacobian: the optimiser, and the corners that limit it.
 
     None are named where it was not raised as far as it goes.
     """
@@ -103,7 +103,7 @@ def improve_off_surface(
     reached : MaxMinResult
         The result so far.
     wanted : float
-        Least scaled Jacobian from which on there are no further detours.
+        Minimum scaled Jacobian from which on there are no further detours.
     other : MaxMinOptimiser, optional
         Another start, with nodes off the surface already, where a hex is inverted after the first detour.
     config : MaxMinConfig

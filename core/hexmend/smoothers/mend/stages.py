@@ -114,7 +114,7 @@ class Stages:
     ) -> Generator[Step, None, tuple[MaxMinResult | None, np.ndarray, ElementQuality | None]]:
         """Raise with the boundary fixed, from the last of some points (n, 3), what sliding is to end no lower than.
 
-        Returns the result of raising the least scaled Jacobian, the points whose figures the result is not to lower,
+        Returns the result of raising the minimum scaled Jacobian, the points whose figures the result is not to lower,
         `given` unless the goal is balanced, and their quality then.
         """
         optimum = candidates[-1]
@@ -171,7 +171,7 @@ class Stages:
         sliding: SlidingBoundary | None,
         fixed: MaxMinResult | None = None,
     ) -> Generator[Step, None, MaxMinResult | None]:
-        """Raise the least scaled Jacobian from the best of some points (n, 3), where it is the goal or not sound.
+        """Raise the minimum scaled Jacobian from the best of some points (n, 3), where it is the goal or not sound.
 
         None where shape is the goal and the least is sound. The result is no lower than `fixed`, that with the boundary
         fixed.

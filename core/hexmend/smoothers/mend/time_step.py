@@ -31,7 +31,7 @@ def maximise_time_step(
     sliding : SlidingBoundary or None
         None where the boundary is fixed.
     untangled : MaxMinResult or None
-        Where the least scaled Jacobian of all candidates was too low, the result of raising it: then the start.
+        Where the minimum scaled Jacobian of all candidates was too low, the result of raising it: then the start.
 
     Yields
     ------

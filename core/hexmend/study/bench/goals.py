@@ -1,4 +1,4 @@
-"""Benchmark of the goals of mend with a fixed boundary: q min, q mean and the least scaled Jacobian of each."""
+"""Benchmark of the goals of mend with a fixed boundary: q min, q mean and the minimum scaled Jacobian of each."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import Any
 
 from hexmend.study.bench.section import BenchSection
 
-#: Measured before: q min, q mean and least scaled Jacobian that hexsmoothing reaches, by file.
+#: Measured before: q min, q mean and minimum scaled Jacobian that hexsmoothing reaches, by file.
 HEXSMOOTHING = {
     "swivel2_7494.mesh": (0.4788, 0.8963, 0.2122),
     "pierrot_32735.mesh": (0.3603, 0.8936, 0.2340),

@@ -103,7 +103,7 @@ def test_headings_name_runs_that_do_not_report_a_quantity(panel):
     panel.head.charts["delta"].trigger()
     panel.head.charts["gradient_norm"].trigger()
     assert panel.plots["delta"].title.text() == "delta: not reported by getme"
-    assert panel.plots["gradient_norm"].title.text() == "gradient norm: not reported by getme and local-sd"
+    assert panel.plots["gradient_norm"].title.text() == "gradient norm: not reported by getme, local-sd"
     assert "not reported" not in panel.plots["objective"].title.text()
 
 

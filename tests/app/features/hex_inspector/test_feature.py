@@ -203,7 +203,9 @@ def test_the_distance_of_a_node_that_was_moved_off_its_corner_is_shown(window, q
     session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
     window.refresh()
     labels = window.features["hex_inspector"].panel.findChildren(QLabel)
-    assert any(f"Node {node:,}: boundary, 0.017 mean edge lengths off its corner, " in label.text() for label in labels)
+    assert any(
+        f"Node {node:,}: boundary, 0.017 mean edge lengths from its corner, " in label.text() for label in labels
+    )
     window.show_panel("histogram")
     window.refresh()
     session.commands.reset()  # the classes are not wanted and stay those of the moved node

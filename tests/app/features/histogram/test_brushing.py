@@ -19,7 +19,7 @@ def test_dragging_over_the_plot_brushes_the_range_under_it(histogram, announced,
     assert (low, high) == pytest.approx((0.3, 0.45), abs=0.011)
     now = data[0] ** 0.5
     inside = np.count_nonzero((now >= low) & (now <= high))
-    assert histogram.summary.text() == f"{inside} of 2,000 hexes in {low:.2f} – {high:.2f}"
+    assert histogram.summary.text() == f"{inside} of 2,000 hexes from {low:.2f} to {high:.2f}"
 
 
 def test_a_drag_beyond_the_ends_stays_within_zero_and_one(histogram, announced, drag):

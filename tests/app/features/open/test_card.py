@@ -20,17 +20,17 @@ def text_of(mesh):
 def test_it_counts_and_says_what_to_do():
     title, text = card("a.vtu", State.of(make("bridge-sharp", size=864, scramble=0.6)), ())
     assert title.startswith("a.vtu: 864 hexes, ")
-    assert "run Mend to untangle them" in text
-    assert text_of(make("cube", size=27)) == "No hex is inverted. Least scaled Jacobian 1.000."
+    assert "Run Mend to untangle them" in text
+    assert text_of(make("cube", size=27)) == "No hex is inverted. Minimum scaled Jacobian 1.000."
     flat = make("cube", size=27)
-    assert "some are bad" in text_of(
+    assert "some have a low quality" in text_of(
         flat.with_points(flat.points * [1, 1, 1] + 1.3 * np.sin(flat.points[:, ::-1] * 7) / 7)
     )
 
 
 def test_it_says_what_fixed_nodes_hold():
     mesh = with_locked_corner(gallery.make("five-side", size=300))
-    assert "fixed nodes" in text_of(mesh)
+    assert "Fixed nodes" in text_of(mesh)
 
 
 def test_it_counts_materials():

@@ -148,7 +148,7 @@ def test_a_mesh_that_differs_from_the_picture_is_reported(window, qtbot, files, 
     open_and_wait(qtbot, window, path)
     assert [view.name for view in window.session.side_views.all] == shown
     kind, title, text = message(window)
-    assert (kind, title) == ("warning", "Not all of p.png was restored")
+    assert (kind, title) == ("warning", "Part of p.png was not restored")
     assert expected in text
 
 

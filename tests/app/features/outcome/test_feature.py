@@ -181,7 +181,7 @@ def test_the_camera_moves_to_the_hexes_that_limit_the_least_scaled_jacobian(wind
     limiting = np.unique(ended[0].limits.hexes).tolist()
     assert "Limiting: " in texts(window)
     assert f'<a href="{limiting[0]}">{limiting[0]}</a>' in texts(window)
-    assert f"the least scaled Jacobian is {ended[0].after.scaled_jacobian_min:.4f}" in texts(window)
+    assert f"the minimum scaled Jacobian is {ended[0].after.scaled_jacobian_min:.4f}" in texts(window)
     with qtbot.waitSignal(window.session.selection.visited) as visited:
         press(window, "Show the limiting hexes")
     assert visited.args == [tuple(limiting)]

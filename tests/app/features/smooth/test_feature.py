@@ -142,7 +142,7 @@ def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_metho
     assert "Preparing" in sentence(window)
     click(window, "Stop")
     assert window.session.run.phase is Phase.STOPPING
-    assert "as soon as the method is ready" in sentence(window)
+    assert "when the method is ready" in sentence(window)
     assert not window.action("stop").isEnabled()
     slow_method.set()
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)

@@ -49,7 +49,7 @@ def test_a_failed_classification_is_reported(panel):
     panel.set_classes(None, ValueError("no boundary"))
     assert texts(panel, "kinds") == ["failed"]
     assert not panel.offered()["kinds"]
-    assert "The count failed: no boundary." in panel.layers["kinds"].box.toolTip()
+    assert "Not counted: no boundary." in panel.layers["kinds"].box.toolTip()
     panel.set_classes(None)
     assert texts(panel, "kinds") == ["counting…"]
     assert panel.offered()["kinds"]

@@ -270,7 +270,7 @@ def test_choices_have_their_declared_titles_and_a_word_stands_for_a_number(shown
     goal, p = form.editor("goal"), form.editor("p")
     assert goal.currentText() == "Balanced"
     assert [goal.itemData(at) for at in range(goal.count())][:2] == ["balanced", "shape"]
-    assert goal.itemText(2) == "Least scaled Jacobian"
+    assert goal.itemText(2) == "Minimum scaled Jacobian"
     assert p.value() == "auto"
     assert p.lineEdit().text() == "auto"
     type_into(p, "2")

@@ -96,15 +96,15 @@ ARRAY = ("arrays/0.npy", npy(np.arange(3)))
 
 
 @pytest.mark.parametrize(("description", "said"), [
-    ({"format": "another", "version": 1, "data": 1}, "is no test tree"),
-    ([1], "is no test tree"),
+    ({"format": "another", "version": 1, "data": 1}, "is not a test tree"),
+    ([1], "is not a test tree"),
     ({"format": KIND, "version": 2, "data": 1}, "is of version 2: this Hexmend reads up to 1. Use a newer Hexmend."),
     ({"format": KIND, "version": "1", "data": 1}, "expected a number"),
     ({"format": KIND, "version": True, "data": 1}, "expected a number"),
     ({"format": KIND, "version": 1}, "has no data"),
     ({"format": KIND, "version": 1, "data": 1, "code": "x"}, "unknown field 'code'"),
-    ({"format": KIND, "version": 1, "data": {"$array": 5}}, "arrays/5.npy, which is not in it"),
-    ({"format": KIND, "version": 1, "data": {"$array": "../0"}}, "which is not in it"),
+    ({"format": KIND, "version": 1, "data": {"$array": 5}}, "arrays/5.npy, which it does not contain"),
+    ({"format": KIND, "version": 1, "data": {"$array": "../0"}}, "which it does not contain"),
     ("{", "is damaged"),
     ("[" * 200_000, "nested too deeply"),
     ("9" * 10_000, "is damaged"),

@@ -124,7 +124,7 @@ def test_whenever_its_writer_is_killed_the_tree_is_whole(tmp_path):
 
 @pytest.mark.parametrize(("spoil", "said"), [
     (lambda path: (path / DESCRIPTION).unlink(), "has no description.json"),
-    (lambda path: (path / "arrays/0.npy").unlink(), "arrays/0.npy, which is not in it"),
+    (lambda path: (path / "arrays/0.npy").unlink(), "arrays/0.npy, which it does not contain"),
     (lambda path: (path / "arrays/0.npy").write_bytes(b"\x93NUMPY"), "is not an array"),
     (lambda path: (path / DESCRIPTION).write_text("{"), "is damaged"),
 ])  # fmt: skip
@@ -141,5 +141,5 @@ def test_no_link_is_followed(tmp_path):
     ArchiveFolder(path).write(KIND, 1, [np.arange(3)])
     (path / "arrays/0.npy").rename(tmp_path / "elsewhere.npy")
     (path / "arrays/0.npy").symlink_to(tmp_path / "elsewhere.npy")
-    with pytest.raises(FileError, match="which is not in it"):
+    with pytest.raises(FileError, match="which it does not contain"):
         read_archive(path, KIND, 1)

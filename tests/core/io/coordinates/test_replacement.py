@@ -127,7 +127,7 @@ def test_a_file_that_is_gone_is_written_anew_and_it_is_said(tmp_path):
     written = write_as_given(tmp_path / "b.inp", given, Original(source, given))
     assert not written.replaced
     assert "a.inp does not exist any more" in written.notes[0]
-    assert "besides the mesh: comments" in written.notes[0]
+    assert "other than the mesh: comments" in written.notes[0]
     assert write_as_given(tmp_path / "b.vtu", given, Original(source, given)).notes == ()
 
 

@@ -1,4 +1,4 @@
-"""The least scaled Jacobian is raised as far as it goes; what stops it is told."""
+"""The minimum scaled Jacobian is raised as far as it goes; what stops it is told."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""When the raising of the least scaled Jacobian ends: where steps gain little, and how little depends on the least."""
+"""When the raising of the minimum scaled Jacobian ends: where steps gain little, and how little depends on the least."""
 
 import itertools
 

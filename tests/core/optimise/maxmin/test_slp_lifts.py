@@ -1,4 +1,4 @@
-"""Nodes that leave the surface where that raises the least scaled Jacobian, and how they are brought back near it."""
+"""Nodes that leave the surface where that raises the minimum scaled Jacobian, and how they are brought back near it."""
 
 import itertools
 

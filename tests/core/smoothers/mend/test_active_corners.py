@@ -1,4 +1,4 @@
-"""What lets the least scaled Jacobian rise no further, in sentences and as arrays, for every count of corners."""
+"""What lets the minimum scaled Jacobian rise no further, in sentences and as arrays, for every count of corners."""
 
 from types import SimpleNamespace
 
@@ -11,7 +11,7 @@ from hexmend.smoothers.mend.maxmin import active_set
 from hexmend.smoothers.mend.messages import limit_message
 from tests.core.grids import grid
 
-BEGIN = "The least scaled Jacobian of the corners that can be moved is 0.2500: "
+BEGIN = "The minimum scaled Jacobian of the corners that can be moved is 0.2500: "
 
 
 def stand_in(places=(), locked=()):

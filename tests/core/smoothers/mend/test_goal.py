@@ -1,4 +1,4 @@
-"""What mend is after: the least scaled Jacobian is raised where it is told to, and no harm is done in any case."""
+"""What mend is after: the minimum scaled Jacobian is raised where it is told to, and no harm is done in any case."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ MESHES = {
 
 
 def figures(mesh, judged=slice(None)):
-    """The number of inverted hexes, the least scaled Jacobian and the least quality of some hexes of a mesh."""
+    """The number of inverted hexes, the minimum scaled Jacobian and the least quality of some hexes of a mesh."""
     measured = measure(mesh.points, mesh.hexes)
     return measured.n_inverted, measured.scaled_jacobian[judged].min(initial=1), measured.q[judged].min(initial=1)
 
@@ -93,7 +93,7 @@ def test_what_limits_the_least_is_told():
     assert result.outcome is Outcome.NO_IMPROVEMENT
     movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
     least = scaled_jacobians(result.mesh.points, mesh.hexes)[movable].min()
-    assert f"The least scaled Jacobian of the corners that can be moved is {least:.4f}" in result.message
+    assert f"The minimum scaled Jacobian of the corners that can be moved is {least:.4f}" in result.message
     held = np.unique(result.active.hexes)
     assert held.size
     assert ", ".join(f"{h}" for h in dict.fromkeys(result.active.hexes[:8].tolist())) in result.message
@@ -103,7 +103,7 @@ def test_what_limits_the_least_is_told():
     np.testing.assert_allclose(values[result.active.hexes][corner], least, atol=1e-3)
     assert (values[result.active.locked].min(axis=1) < least).all()
     shaped = smooth(mesh, Mend(goal="shape"))
-    assert "The least scaled Jacobian" not in shaped.message
+    assert "The minimum scaled Jacobian" not in shaped.message
     assert shaped.active is None
 
 
@@ -189,6 +189,6 @@ def test_where_the_optimum_of_shape_lowers_the_least_the_goal_that_raises_it_is_
     mesh = read(real_mesh("CAD4.vtk"))
     shaped, raised = (smooth(mesh, Mend(goal=goal)) for goal in ("shape", "scaled-jacobian"))
     assert shaped.worse == ("scaled_jacobian",)
-    assert "With goal=scaled-jacobian the least scaled Jacobian rises instead" in shaped.message
+    assert "With goal=scaled-jacobian the minimum scaled Jacobian rises instead" in shaped.message
     assert raised.worse == ()
     assert "rises instead" not in raised.message

@@ -65,7 +65,7 @@ class Checkpoints:
     def note_failure(self, error: Exception, quiet: bool = False) -> None:
         """Print a warning that it could not be written, unless another process does."""
         if not quiet:
-            print(f"hexmend: no checkpoint was written, and the run goes on: {error}", file=sys.stderr, flush=True)
+            print(f"hexmend: no checkpoint was written, and the run continues: {error}", file=sys.stderr, flush=True)
         self._last = monotonic()
 
     def remove(self) -> None:

@@ -116,8 +116,8 @@ def with_target(mesh: Mesh, method: Smoother) -> Mesh:
 
 
 def finish_alone(mesh: Mesh, points: np.ndarray, run: RankRun) -> StageRun:
-    """Go on in one process from points (n, 3), where the ranks have left the least scaled Jacobian unsound."""
-    print("hexmend: the least scaled Jacobian is not sound: rank 0 raises it alone", file=sys.stderr, flush=True)
+    """Go on in one process from points (n, 3), where the ranks have left the minimum scaled Jacobian unsound."""
+    print("hexmend: the minimum scaled Jacobian is not sound: rank 0 raises it alone", file=sys.stderr, flush=True)
     quality = measure(points, mesh.hexes)
     judged = measure_against_target(mesh, points, quality)
     start = Iteration(run.number, as_immutable(points), quality, run.seconds, 0.0, {}, run.smoother.norm, judged)

@@ -21,5 +21,5 @@ def piece_names(path: Path) -> list[str]:
     with Document(path, "PUnstructuredGrid") as document:
         names = [piece.get("Source") for piece in document.root.first("PUnstructuredGrid").all("Piece")]
         if not names:
-            raise document.error("names no pieces")
+            raise document.error("lists no pieces")
     return names

@@ -46,7 +46,7 @@ class PieceFiles:
         stem = re.sub(r"[:\\]", "_", path.stem)
         stem = stem if stem.strip(".") else "mesh"
         used: list[str] = []
-        with suppress(FileError, OSError):  # a file that names no pieces has none that are to be kept
+        with suppress(FileError, OSError):  # a file that lists no pieces has none that are to be kept
             used = piece_names(path)
         first = f"{stem}_"
         taken = any(re.fullmatch(re.escape(f"{stem}/{first}") + r"\d+\.vtu", name) for name in used)
@@ -74,7 +74,7 @@ class PieceFiles:
             folder.mkdir(exist_ok=True)
         except OSError as error:
             problem = f"cannot be written: its pieces need the folder {folder} ({error.strerror or error})"
-            raise FileError(self.path, problem, "Free the place or choose another name.") from None
+            raise FileError(self.path, problem, "Check free space and permissions, or choose another name.") from None
         flush_folder(self.path.parent)
 
     def write_piece(self, k: int, grid: Grid, encoding: str = "binary") -> None:
@@ -148,7 +148,7 @@ def remove(path: Path) -> None:
 
 
 def names_not_kept(mesh: Mesh) -> list[str]:
-    """Describe what the file cannot hold: data that are no numbers, and those with the names of its own numbers."""
+    """Describe what the file cannot hold: data that are not numbers, and those with the names of its own numbers."""
     cells = any(CELL_ID in data for data in (mesh.hex_data, *(cells.data for cells in mesh.cells)))
     taken = [f"point data ({NODE_ID})"] * (NODE_ID in mesh.node_data) + [f"cell data ({CELL_ID})"] * cells
     return [*non_numeric_data(mesh), *(f"{one}, a name that it uses itself" for one in taken)]

@@ -40,7 +40,7 @@ def content(path: Path) -> Content:
         with hdf5.open_file(path) as file:
             root = group_of(file, "VTKHDF")
             if root is None:
-                raise FileError(path, "has no group VTKHDF", "Is it a VTKHDF file? Check its suffix.")
+                raise FileError(path, "has no group VTKHDF", check_suffix("a VTKHDF file"))
             grids = VTKHDFReader(path, root).read_grids()
     except (FileError, MemoryError):
         raise

@@ -138,7 +138,7 @@ def test_errors_name_the_file_and_the_line(tmp_path):
     for text, words in (
         ("*NODE\n1, 0, 0, 0\n*NGEN\n1, 2, 3\n", r"line 3 of a\.inp"),
         ("*INCLUDE, INPUT=in.inp\n", "include each other without end"),
-        ("*INCLUDE, INPUT=no.inp\n", r"line 1 of a\.inp reads 'no\.inp', which is no file"),
+        ("*INCLUDE, INPUT=no.inp\n", r"line 1 of a\.inp reads 'no\.inp', which does not exist"),
     ):
         (tmp_path / "a.inp").write_text(text)
         with pytest.raises(FileError, match=words):

@@ -96,7 +96,7 @@ def test_a_real_file_is_read(real_mesh):
         ("Vertices\n8\n0.0 ", "Vertices\n8\nx ", "Vertices holds 'x' in row 1 of 8 (line 4)"),
         ("Faces\n6\n4 ", "Faces\n6\n4 99 ", "Faces holds"),
         ("Faces\n6\n4 ", "Faces\n6\n-4 ", "Faces holds 0 whole rows of 6"),
-        ("Polyhedra\n1\n6 ", "Polyhedra\n1\n7 99 ", "Polyhedra name 99: expected numbers from 0 to 11"),
+        ("Polyhedra\n1\n6 ", "Polyhedra\n1\n7 99 ", "Polyhedra refer to 99: expected numbers from 0 to 11"),
         ("Edges", "Hedges", "'Hedges' was found where a section should begin (line 12)"),
     ],
 )
@@ -122,5 +122,5 @@ def test_properties_of_what_is_not_there_yet_are_refused(prop, section, tmp_path
     path = tmp_path / "a.ovm"
     io.write(path, grid(2))
     path.write_text(path.read_text().replace(section, f'{prop} double "x"\n{section}', 1))
-    with pytest.raises(FileError, match=f"{prop}.* stands before {section}"):
+    with pytest.raises(FileError, match=f"{prop}.* precedes {section}"):
         io.read(path)

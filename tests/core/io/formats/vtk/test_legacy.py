@@ -51,9 +51,9 @@ def new(ends="0 8", nodes="0 1 2 3 4 5 6 7", kind="vtktypeint64"):
         (old(more="CELL_TYPES 1\n12\n"), "has a second section CELL_TYPES"),
         (old(more="CELL_DATA 1\nSCALARS a float\nLOOKUP_TABLE default\n1\nCELL_TYPES 2\n12\n12\n"), "has a second section CELL_TYPES"),
         (old(more="SCALARS a float\nLOOKUP_TABLE default\n1\n"), "the array 'a' precedes POINT_DATA and CELL_DATA"),
-        (old(f"CELLS {10**15} 9\n8 0 1 2 3 4 5 6 7"), "cells of 9 numbers are announced"),
+        (old(f"CELLS {10**15} 9\n8 0 1 2 3 4 5 6 7"), "cells of 9 numbers are declared"),
         (old(points=f"POINTS {10**15} double\n0 0 0\n"), "POINTS ends after 1 of 1000000000000000 rows: line 7 continues with 'CELLS'"),
-        (old(more=f"FIELD FieldData 1\na 1 {10**15} string\nx\n"), "1000000000000000 strings are announced"),
+        (old(more=f"FIELD FieldData 1\na 1 {10**15} string\nx\n"), "1000000000000000 strings are declared"),
         (old(more="POINT_DATA 8\nFIELD FieldData 1\na 1 8 unsigned_long\n0 1 2 3 4 5 6 -1\n"), "array a holds '-1'"),
     ],
 )  # fmt: skip

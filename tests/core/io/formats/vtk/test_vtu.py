@@ -237,7 +237,7 @@ def test_appended_data_are_never_taken_for_xml_and_may_not_be_shared_by_too_many
     (tmp_path / "many.vtu").write_bytes(content.replace(one, many))
     assert len(io.read(tmp_path / "many.vtu").node_data) == 2000
     for bad, words in (
-        (content[:-3000], "goes on behind"),
+        (content[:-3000], "continues past"),
         (content.replace(b"   _", b"   x"), "do not begin with '_'"),
     ):
         (tmp_path / "bad.vtu").write_bytes(bad)
