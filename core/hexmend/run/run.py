@@ -201,7 +201,8 @@ class Run(Iterator[Iteration]):
         at, inverted = self.last, self.best.quality.n_inverted
         text = self.outcome.value if self.outcome is not None else "Running."
         left = f"{count_phrase(inverted, 'hex', 'hexes')} still inverted" if inverted else "no hex is inverted"
-        move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
+        longest = at.largest_move if at.number else 0.0
+        move = f"the last one moved nodes by up to {longest:.2g} mean edge lengths; " if longest else ""
         decided = self.decisions
         if not self._kept_last and decided and decided[-1] == self._stage_run.decision:
             decided = decided[:-1]  # it is about the last iteration, which is not the result

@@ -160,5 +160,5 @@ def test_a_table_is_written_as_a_whole_or_not_at_all(tmp_path):
 def test_a_folder_that_cannot_be_is_said(tmp_path):
     (tmp_path / "file").write_text("")
     for path in (tmp_path / "file", tmp_path / "file" / "below"):
-        with pytest.raises(FileError, match="Name another folder"):
+        with pytest.raises(FileError, match="Choose another folder"):
             output_folder(path)

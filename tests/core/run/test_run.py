@@ -177,9 +177,15 @@ def test_the_message_counts_iterations_and_inverted_hexes(inverted, said):
     points[ends] += 0.7 * (points.mean(axis=0) - points[ends])
     run = iterate(mesh.with_points(points), "laplacian", StoppingCriteria(max_iterations=2, tolerance=0))
     assert f"{said} inverted" in run.message
-    assert "moved a node" not in run.message
+    assert "moved nodes" not in run.message
     assert run.message.startswith("Running. 0 iterations in 0 s; ")
     next(run)
-    assert f"1 iteration in {run.last.seconds:.3g} s; the last one moved a node by" in run.message
+    assert f"1 iteration in {run.last.seconds:.3g} s; " in run.message
     list(run)
     assert run.message.startswith(Outcome.MAX_ITERATIONS.value + " 2 iterations in ")
+
+
+def test_the_message_names_the_longest_move_of_the_last_iteration():
+    run = iterate(make("cube", size=64, scramble=0.2), "laplacian", StoppingCriteria(max_iterations=2, tolerance=0))
+    list(run)
+    assert f"; the last one moved nodes by up to {run.last.largest_move:.2g} mean edge lengths; " in run.message

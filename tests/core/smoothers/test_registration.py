@@ -26,7 +26,7 @@ def nothing_stays(monkeypatch):
 
 
 def test_a_class_that_is_no_smoother_is_refused():
-    with pytest.raises(TypeError, match=r"Toy is no hexmend\.Smoother"):
+    with pytest.raises(TypeError, match=r"Toy is not a hexmend\.Smoother"):
         method(named(object))
 
 
@@ -58,7 +58,7 @@ def announce(monkeypatch, module, *found):
 
 
 def test_what_is_no_metric_is_refused(monkeypatch):
-    with pytest.raises(TypeError, match=r"3 is no hexmend\.quality\.Metric"):
+    with pytest.raises(TypeError, match=r"3 is not a hexmend\.quality\.Metric"):
         announce(monkeypatch, metrics, 3)
 
 

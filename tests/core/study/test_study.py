@@ -258,7 +258,7 @@ def test_the_command_runs_a_table(tmp_path, capsys, monkeypatch):
 
 def test_an_unknown_table_is_wrong_usage(tmp_path, capsys):
     assert main(["study", "thesis", "--only", "9", "-o", str(tmp_path / "x")]) == 2
-    assert "there is not a table '9'" in capsys.readouterr().err
+    assert "there is no table '9'" in capsys.readouterr().err
     assert not (tmp_path / "x").exists()
 
 

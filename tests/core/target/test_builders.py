@@ -59,7 +59,7 @@ def test_data_of_hexes_and_nodes_are_lengths():
     ("1, 2", "has 2 values a hex: expected one length, or three"),
     ("log(0) * x", "is -inf at hex 0"),
     ("pair", "has 2 values a hex"),
-    ("word", "data 'word' are no lengths"),
+    ("word", "data 'word' are not lengths"),
 ])  # fmt: skip
 def test_what_is_wrong_is_named(specification, complaint):
     mesh = stack()

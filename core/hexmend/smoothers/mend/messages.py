@@ -60,7 +60,7 @@ def limit_message(optimiser: MaxMinOptimiser, active: ActiveCorners) -> str:
     else:
         subject = f"it is limited by {count} corners at {places} separate places, in the hexes"
     measure = optimiser.corners.measure
-    least = f"The least {measure.title} of the corners that can be moved is {measure.text(active.least)}"
+    least = f"The minimum {measure.title} of the corners that can be moved is {measure.text(active.least)}"
     sentence = f"{least}: {subject} {_first_hexes(optimiser.mesh, active.hexes)}."
     locked = locked_below(optimiser, active)
     if not locked.size:

@@ -82,7 +82,7 @@ def select_tables(thesis: Experiments, tables: Sequence[str]) -> Experiments:
     known = list(dict.fromkeys(named))
     for table in tables:
         if table not in known:
-            raise ParameterError(f"there is not a table {table!r}: expected one of {', '.join(known)}")
+            raise ParameterError(f"there is no table {table!r}: expected one of {', '.join(known)}")
     experiments = tuple(experiment for experiment in thesis.experiments if experiment.table in tables)
     outlooks = tuple(outlook for outlook in thesis.outlooks if outlook.section in tables)
     return replace(thesis, experiments=experiments, outlooks=outlooks)

@@ -12,7 +12,7 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.colour.colouring import INVERTED, Colouring, resolve
 from hexmend_app.scene.colour.hex_colours import HexColours
 from hexmend_app.scene.colour.material_colours import material_names, material_table
-from hexmend_app.scene.film.film_histogram import histogram
+from hexmend_app.scene.film.film_histogram import count_bars, draw_histogram
 from hexmend_app.scene.film.frame_parts import colour_bar
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
@@ -71,7 +71,8 @@ def test_a_page_has_a_legend_with_the_materials(place):
 
 def test_a_film_has_a_legend_and_a_histogram_with_the_materials():
     bar = colour_bar(NAMED, [("inverted", 0, INVERTED)], (640, 40))
-    chart = histogram(np.repeat([0.0, 1.0], 32), np.zeros(64, bool), NAMED, (300, 300), 1.0)
+    counts = count_bars(np.repeat([0.0, 1.0], 32), np.zeros(64, np.int8), NAMED)
+    chart = draw_histogram(counts, NAMED, (300, 300), 1.0)
     for colour in material_table(2):
         assert has(bar, colour)
         assert has(chart, colour)

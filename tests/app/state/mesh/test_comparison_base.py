@@ -44,7 +44,7 @@ def test_the_reference_depends_on_the_iteration_that_is_shown(session, qtbot):
     assert before(session, Since.OPENED).points is opened
     assert before(session, Since.OPENED).name == "the file was opened"
     assert before(session, Since.RUN).points is second.points(0)
-    assert before(session, Since.RUN).name == f"{second.name} began"
+    assert before(session, Since.RUN).name == f"{second.name} started"
     np.testing.assert_array_equal(before(session, Since.ITERATION).points, second.points(4))
     assert before(session, Since.ITERATION).name == f"{second.name} 4"
     timeline.go(second, 1)
@@ -58,6 +58,6 @@ def test_if_the_previous_iteration_was_dropped_the_nearest_earlier_one_is_the_re
     numbers = session.history.recorded_numbers(record).tolist()
     earlier, at = next((m, n) for m, n in pairwise(numbers) if n - m > 1)
     session.timeline.go(record, at)
-    name = f"{record.name} {earlier}" if earlier else f"{record.name} began"
+    name = f"{record.name} {earlier}" if earlier else f"{record.name} started"
     assert before(session, Since.ITERATION).name == name
     assert session.comparison_bases.displacement(Since.ITERATION).counts.moved > 0

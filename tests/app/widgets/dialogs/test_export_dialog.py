@@ -54,7 +54,7 @@ def test_an_impossible_path_is_left_to_the_writer(dialog, qtbot, file):
     assert not dialog.isVisible()
 
 
-@pytest.mark.parametrize(("file", "problem"), [("", "Enter the file"), ("a.gif", ".gif")])
+@pytest.mark.parametrize(("file", "problem"), [("", "Enter the name of the file"), ("a.gif", ".gif")])
 def test_a_missing_or_unsupported_file_name_is_a_problem(dialog, qtbot, file, problem):
     dialog.target.line.setText(file)
     dialog.accept()
