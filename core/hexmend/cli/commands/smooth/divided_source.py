@@ -106,9 +106,13 @@ class DividedSource:
         """Write all pieces, then the file that names them; see `agreed` for errors."""
         comm = self.part.ranks.comm
         files = comm.bcast(None if comm.rank else PieceFiles.new(path))
-        agreed(comm, files.make_folder)
-        agreed(comm, lambda: self._mesh.write(files, points))
-        agreed(comm, lambda: None if comm.rank else self._mesh.finish(files))
+        try:
+            agreed(comm, files.make_folder)
+            agreed(comm, lambda: self._mesh.write(files, points))
+            agreed(comm, lambda: None if comm.rank else self._mesh.finish(files))
+        except AgreedError:
+            files.discard(comm.rank)
+            raise
 
 
 def _suits(args: argparse.Namespace, method: Smoother) -> bool:

@@ -142,8 +142,9 @@ def _merge_nodes(grid: Grid, piece: np.ndarray | None) -> tuple[Grid, str]:
 
     Returns the grid and a phrase about nodes for a note. Without `piece`, places do not count.
     """
-    name = next((name for name in _GLOBAL_IDS if name in grid.node_data), None)
-    if name is not None and np.ndim(grid.node_data[name]) == 1:
+    known = [name for name in _GLOBAL_IDS if np.ndim(grid.node_data.get(name)) == 1]
+    if known:
+        name = NODE_ID if NODE_ID in known and piece is not None else known[0]  # others may have come with the mesh
         keys, phrase = np.asarray(grid.node_data[name]), f" where their {name} agree"
     else:
         keys = _keys_of_places(grid.points, piece)

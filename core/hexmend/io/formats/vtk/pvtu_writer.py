@@ -1,15 +1,17 @@
 """Writing of PVTU: pieces in a folder of their own, and then the file that names them.
 
-A new file has other pieces than the one that it replaces, so that one of the two is whole at any time. Pieces number
-their nodes and cells by `NODE_ID` and `CELL_ID`, from which the order of the mesh is restored.
+Pieces are new files: no file is overwritten that the folder has, so that the file that is replaced is whole until the
+new one is, and files of the same names that belong to others stay. Pieces number their nodes and cells by `NODE_ID` and
+`CELL_ID`, from which the order of the mesh is restored.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Set
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import chain, count
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +25,9 @@ from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.io.storage.temporary_files import flush_folder
 from hexmend.mesh.mesh import Mesh
 
+#: Characters that the name of a piece cannot have: those that XML or UTF-8 has not, and those of paths of Windows.
+_UNSUITABLE = re.compile("[:\\\\\x00-\x1f\ud800-\udfff\ufffe\uffff]")
+
 
 @dataclass(frozen=True)
 class PieceFiles:
@@ -34,23 +39,33 @@ class PieceFiles:
         The PVTU file.
     folder, prefix : str
         Piece k is the file `folder`/`prefix`k.vtu beside it.
+    replaced : tuple of Path
+        Pieces of the file that is replaced, which Hexmend has written.
     """
 
     path: Path
     folder: str
     prefix: str
+    replaced: tuple[Path, ...] = ()
 
     @classmethod
     def new(cls, path: Path) -> PieceFiles:
-        """Choose names that the pieces of an existing file do not have."""
-        stem = re.sub(r"[:\\]", "_", path.stem)
+        """Choose names that no file has."""
+        stem = _UNSUITABLE.sub("_", path.stem)
         stem = stem if stem.strip(".") else "mesh"
-        used: list[str] = []
-        with suppress(FileError, OSError):  # a file that lists no pieces has none that are to be kept
-            used = piece_names(path)
-        first = f"{stem}_"
-        taken = any(re.fullmatch(re.escape(f"{stem}/{first}") + r"\d+\.vtu", name) for name in used)
-        return cls(path, stem, f"{stem}-2_" if taken else first)
+        named: list[str] = []
+        with suppress(FileError, OSError):  # a file that lists no pieces has none that are to be removed
+            named = piece_names(path)
+        own = re.compile(re.escape(f"{stem}/{stem}") + r"(-\d+)?_\d+\.vtu")
+        folder = path.parent / stem
+        there = [file.name for file in folder.iterdir()] if folder.is_dir() else []
+        prefixes = (f"{stem}{end}_" for end in chain([""], (f"-{number}" for number in count(2))))
+        free = next(
+            prefix
+            for prefix in prefixes
+            if not any(re.fullmatch(re.escape(prefix) + r"\d+\.vtu", name, re.IGNORECASE) for name in there)
+        )
+        return cls(path, stem, free, tuple(path.parent / name for name in named if own.fullmatch(name)))
 
     def name(self, k: int) -> str:
         """Return the name of a piece in the file."""
@@ -86,15 +101,19 @@ class PieceFiles:
         """Write the file that names the pieces, whose arrays are those of one piece, and remove those of an old one."""
         with atomic_write(self.path) as temporary:
             temporary.write_bytes(self._header(count, grid).encode("utf-8", "replace"))
-        self.remove_pieces({self.piece(k) for k in range(count)})
+        self.remove_replaced()
 
-    def remove_pieces(self, kept: Set[Path] = frozenset()) -> None:
-        """Remove the files of pieces, old and new ones, that are not to be kept."""
-        ours = re.compile(re.escape(self.folder) + r"(-2)?_\d+\.vtu")
-        folder = self.path.parent / self.folder
-        for file in list(folder.iterdir()) if folder.is_dir() else ():
-            if file not in kept and ours.fullmatch(file.name):
-                file.unlink(missing_ok=True)
+    def remove_replaced(self) -> None:
+        """Remove the pieces of the file that is replaced; those that cannot be removed stay."""
+        for piece in self.replaced:
+            with suppress(OSError):
+                piece.unlink()
+
+    def discard(self, k: int) -> None:
+        """Remove a new piece, and the folder if nothing else is in it, where the file that names it is not written."""
+        with suppress(OSError):
+            self.piece(k).unlink(missing_ok=True)
+            self.piece(k).parent.rmdir()
 
     def _header(self, count: int, grid: Grid) -> str:
         root = 'VTKFile type="PUnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"'
@@ -134,15 +153,19 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     grid, files = from_mesh(mesh), PieceFiles.new(path)
     grid = numbered(grid, np.arange(len(grid.points)), np.arange(len(grid.types)))
     files.make_folder()
-    files.write_piece(0, grid, encoding)
-    files.finish(1, grid)
+    try:
+        files.write_piece(0, grid, encoding)
+        files.finish(1, grid)
+    except BaseException:
+        files.discard(0)
+        raise
 
 
 def remove(path: Path) -> None:
     """Remove a file, then its pieces, and their folder if nothing else is in it."""
     files = PieceFiles.new(path)
     path.unlink(missing_ok=True)
-    files.remove_pieces()
+    files.remove_replaced()
     with suppress(OSError):
         (path.parent / files.folder).rmdir()
 

@@ -1,5 +1,7 @@
 """PVTU: the pieces in its folder, merged without ghost cells, and written again."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -206,6 +208,54 @@ def test_files_of_others_in_the_folder_of_the_pieces_stay(tmp_path):
     write_in_pieces(tmp_path / "a.pvtu", grid(2), 2)
     remove(tmp_path / "a.pvtu")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_meshes_of_others_with_the_names_of_pieces_stay(tmp_path):
+    (tmp_path / "a").mkdir()
+    series = [tmp_path / "a" / f"a_{k}.vtu" for k in range(3)]
+    for k, path in enumerate(series):
+        io.write(path, grid(k + 1))
+    for n in (4, 5):
+        io.write(tmp_path / "a.pvtu", grid(n))
+        assert io.read(tmp_path / "a.pvtu").n_hexes == n**3
+    remove(tmp_path / "a.pvtu")
+    assert sorted((tmp_path / "a").iterdir()) == series
+    assert [io.read(path).n_hexes for path in series] == [1, 8, 27]
+
+
+def test_a_file_that_was_renamed_keeps_its_pieces(tmp_path):
+    io.write(tmp_path / "a.pvtu", grid(2))
+    (tmp_path / "a.pvtu").rename(tmp_path / "b.pvtu")
+    for _ in range(3):
+        io.write(tmp_path / "a.pvtu", grid(3))
+    assert io.read(tmp_path / "b.pvtu").n_hexes == 8
+    assert len(list((tmp_path / "a").iterdir())) == 2
+
+
+def test_a_file_that_cannot_be_written_leaves_no_pieces(tmp_path, monkeypatch):
+    def full(*_):
+        raise FileError(tmp_path / "a.pvtu", "cannot be written: no space left", "Free the place.")
+
+    monkeypatch.setattr(PieceFiles, "finish", full)
+    with pytest.raises(FileError):
+        io.write(tmp_path / "a.pvtu", grid(2))
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["caf\udce9.pvtu", "a\x01b.pvtu", "a:b.pvtu", 'a b&"<ö.pvtu'])
+def test_names_of_files_that_xml_cannot_hold(tmp_path, name):
+    if os.name == "nt":
+        pytest.skip("Windows has no files of these names")
+    io.write(tmp_path / name, grid(2))
+    assert io.read(tmp_path / name).n_hexes == 8
+
+
+def test_other_numbers_of_nodes_do_not_count_where_those_of_the_file_are_there(tmp_path):
+    mesh = rich()
+    ids = np.arange(mesh.n_nodes) // 2  # as a file may have them, of no meaning for its pieces
+    mesh = mesh.replace(node_data={"GlobalNodeIds": ids, **mesh.node_data})
+    write_in_pieces(tmp_path / "a.pvtu", mesh, 3)
+    assert_same(io.read(tmp_path / "a.pvtu"), mesh)
 
 
 def test_a_file_in_place_of_the_folder_is_an_error(tmp_path):
