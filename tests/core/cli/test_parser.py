@@ -22,6 +22,7 @@ def complaint(words, capsys):
         (["smooth", "a.vtu"], "missing: -o OUT (the smoothed mesh to write)."),
         (["smooth"], "missing: MESH (the mesh file), and -o OUT (the smoothed mesh to write)."),
         (["smooth", "a.vtu", "b.vtu", "-o", "c.vtu"], "'b.vtu' is one word too many."),
+        (["smooth", "a.vtu", "-o", "b.vtu", "--BOUNDARY", "slide"], "no option --BOUNDARY: did you mean --boundary?"),
         (["smooth", "a.vtu", "-o", "b.vtu", "--only"], "argument --only: expected one argument."),
     ],
 )
@@ -35,3 +36,7 @@ def test_a_mistake_is_one_line_with_the_nearest_name(words, problem, capsys):
 def test_a_command_that_is_misspelt_is_named_right(capsys):
     assert "'smoth' is neither a command nor a file: did you mean hexmend smooth?" in complaint(["smoth", "a"], capsys)
     assert "did you mean" not in complaint(["xyzzy"], capsys)
+
+
+def test_arguments_that_may_be_left_out_are_not_missing(capsys):
+    assert "MESH (" not in complaint(["study"], capsys)

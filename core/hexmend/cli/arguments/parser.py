@@ -60,13 +60,14 @@ class Parser(argparse.ArgumentParser):
 
     def _missing(self, names: Sequence[str]) -> str:
         """Return the sentence for arguments that are missing, each with its help."""
-        missing = [one for one in self._actions if _identity(one) in names]
+        missing = [one for one in self._actions if _identity(one) in names and one.nargs != "*"]
         return "missing: " + ", and ".join(f"{_usage(one)} ({one.help})" for one in missing)
 
 
 def _nearest(name: str, known: Iterable[str]) -> str:
-    near = difflib.get_close_matches(name, list(known), n=1)
-    return f"did you mean {near[0]}? " if near else ""
+    names = {one.casefold(): one for one in known}
+    near = difflib.get_close_matches(name.casefold(), names, n=1)
+    return f"did you mean {names[near[0]]}? " if near else ""
 
 
 def _identity(one: argparse.Action) -> str:
