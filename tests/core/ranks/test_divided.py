@@ -11,6 +11,8 @@ import pytest
 
 from hexmend.gallery import make
 from hexmend.io import read, write
+from hexmend.io.formats.vtk.grid import from_mesh
+from hexmend.io.formats.vtk.pvtu_writer import PieceFiles, numbered
 from hexmend.io.slices import open_slices, slice_of
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
@@ -174,6 +176,10 @@ def test_left_handed_parts_are_renumbered_as_in_one_process(tmp_path):
             make("cube", size=64).replace(cells=(Cells("tetra", np.array([[0, 1, 5, 25]], dtype=np.int32)),)),
             "it has cells other than hexes",
         ),
+        (
+            make("cube", size=64).replace(hex_data={"vtkGhostType": np.arange(64, dtype=np.uint8) % 2}),
+            "it has ghost cells",
+        ),
     ],
 )
 def test_rank_0_reads_what_only_the_whole_mesh_tells(tmp_path, mesh, reason):
@@ -181,6 +187,22 @@ def test_rank_0_reads_what_only_the_whole_mesh_tells(tmp_path, mesh, reason):
     run = on_ranks(2, tmp_path / "a.vtu", "-o", tmp_path / "out.pvtu", "--goal", "shape", "--max-iterations", "2")
     assert run.stderr.count(f"rank 0 reads the whole mesh: {reason}") == 1
     np.testing.assert_array_equal(read(tmp_path / "out.pvtu").hexes, read(tmp_path / "a.vtu").hexes)
+
+
+@needs_mpi
+@pytest.mark.slow
+def test_nodes_of_one_number_at_different_places_stay_apart(tmp_path):
+    mesh = make("cube", size=64)
+    grid, files = from_mesh(mesh), PieceFiles.new(tmp_path / "a.pvtu")
+    ids = np.arange(mesh.n_nodes)
+    ids[-2] = ids[-1]
+    files.make_folder()
+    piece = numbered(grid, ids, np.arange(mesh.n_hexes))
+    files.write_piece(0, piece)
+    files.finish(1, piece)
+    run = on_ranks(2, tmp_path / "a.pvtu", "-o", tmp_path / "out.pvtu", "--goal", "shape", "--max-iterations", "2")
+    assert "rank 0 reads the whole mesh: its numbers of nodes" in run.stderr
+    assert read(tmp_path / "out.pvtu").n_nodes == mesh.n_nodes
 
 
 @needs_mpi

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.io.formats.vtk.grid import HEXAHEDRON, KIND_BY_TYPE, WIDTH_BY_TYPE
+from hexmend.io.formats.vtk.merge_grids import GHOSTS
 from hexmend.io.slices import GridSlice
 from hexmend.layers.detection import DISTORTED, MIN_FACES, least_faces, short_faces, thin_in_volume
 from hexmend.mesh.cells import CELL_KINDS
@@ -37,6 +38,8 @@ def check_divisible(ranks: MPIRanks, piece: GridSlice, n_nodes: int) -> None:
               for data in (piece.node_data, piece.cell_data)]  # fmt: skip
     if any(other != schema for other in ranks.comm.allgather(schema)):
         raise NotDivisibleError("its pieces have different data")
+    if any(ranks.any(piece.cell_data[name] & bits) for name, bits in GHOSTS.items() if name in piece.cell_data):
+        raise NotDivisibleError("it has ghost cells")
     if ranks.any(not _has_known_cells(piece)) or not ranks.any(piece.types == HEXAHEDRON):
         raise NotDivisibleError("it has cells other than hexes of eight nodes and their faces and edges")
     wrong = (piece.nodes < 0) | (piece.nodes >= n_nodes)
@@ -44,6 +47,20 @@ def check_divisible(ranks: MPIRanks, piece: GridSlice, n_nodes: int) -> None:
         raise NotDivisibleError("its numbers of nodes or its coordinates have to be looked at")
     if any(_tells_materials(ranks, name, rows[piece.types == HEXAHEDRON]) for name, rows in piece.cell_data.items()):
         raise NotDivisibleError("it has materials or sets of hexes")
+
+
+def check_nodes(ranks: MPIRanks, at: np.ndarray, rows: np.ndarray, points: np.ndarray) -> None:
+    """Check the rows (j, 3) that a rank has got of the nodes at (j,) that it keeps, whose points are (k, 3).
+
+    Raises
+    ------
+    NotDivisibleError
+        On all ranks, where one number is that of nodes at different places, or of none.
+    """
+    has = np.zeros(len(points), dtype=bool)
+    has[at] = True
+    if ranks.any(~has) or ranks.any(points[at] != rows):
+        raise NotDivisibleError("its numbers of nodes or its coordinates have to be looked at")
 
 
 def _has_known_cells(piece: GridSlice) -> bool:

@@ -15,7 +15,7 @@ from hexmend.io.formats.vtk.grid import HEXAHEDRON
 from hexmend.io.slices import GridSlice
 from hexmend.mesh.mesh import Mesh
 from hexmend.ranks.divided.bisection import bisect
-from hexmend.ranks.divided.checks import check_divisible
+from hexmend.ranks.divided.checks import check_divisible, check_nodes
 from hexmend.ranks.divided.divided_mesh import DividedMesh, PieceCells
 from hexmend.ranks.divided.exchange import Directory, send_rows
 from hexmend.ranks.divided.figures import mean_edge_length
@@ -57,6 +57,7 @@ def divide_slices(
     directory = Directory(comm, n_nodes)
     at, (places, *data) = directory.put(piece.node_ids, piece.points, *piece.node_data.values())
     points, *kept = (_by_node(directory, at, rows) for rows in (places, *data))
+    check_nodes(ranks, at, places, points)
     node_data = dict(zip(piece.node_data, kept, strict=True))
     del places, data
     hexes = _hexes(piece)

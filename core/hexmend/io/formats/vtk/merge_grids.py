@@ -13,7 +13,7 @@ from hexmend.io.formats.vtk.grid import Grid
 from hexmend.io.formats.vtk.piece_names import CELL_ID, NODE_ID
 
 #: Arrays that mark cells and nodes of other pieces, and the bits that do.
-_GHOSTS = {"vtkGhostType": 1, "vtkGhostLevels": 255}
+GHOSTS = {"vtkGhostType": 1, "vtkGhostLevels": 255}
 #: Arrays that number the nodes of all pieces.
 _GLOBAL_IDS = ("GlobalNodeIds", "GlobalNodeId", "GlobalPointIds")
 
@@ -37,7 +37,7 @@ def merge_grids(grids: Sequence[Grid], in_files: bool = False) -> Grid:
     Grid
     """
     notes = list(dict.fromkeys(note for grid in grids for note in grid.notes))
-    marked = any(name in grid.cell_data for grid in grids for name in _GHOSTS)
+    marked = any(name in grid.cell_data for grid in grids for name in GHOSTS)
     if marked:
         before = sum(len(grid.types) for grid in grids)
         grids = [_without_ghosts(grid) for grid in grids]
@@ -117,9 +117,9 @@ def _concatenate_common(parts: Sequence[Mapping[str, np.ndarray]]) -> tuple[dict
 
 def _without_ghosts(grid: Grid) -> Grid:
     """Remove ghost cells and the nodes that only these use."""
-    marks = {name: np.asarray(grid.cell_data[name]) & bits for name, bits in _GHOSTS.items() if name in grid.cell_data}
-    data = {name: values for name, values in grid.cell_data.items() if name not in _GHOSTS}
-    node_data = {name: values for name, values in grid.node_data.items() if name not in _GHOSTS}
+    marks = {name: np.asarray(grid.cell_data[name]) & bits for name, bits in GHOSTS.items() if name in grid.cell_data}
+    data = {name: values for name, values in grid.cell_data.items() if name not in GHOSTS}
+    node_data = {name: values for name, values in grid.node_data.items() if name not in GHOSTS}
     ghost = np.zeros(len(grid.types), bool)
     for mark in marks.values():
         ghost |= mark.reshape(len(ghost), -1).any(axis=1)
