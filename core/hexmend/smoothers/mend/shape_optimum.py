@@ -136,7 +136,7 @@ def _largest_moves(energy: MeshEnergy, points: np.ndarray, x: np.ndarray) -> tup
     move = 0.0
     for first in range(0, len(x), BLOCK):
         rows = slice(first, first + BLOCK)
-        move = max(move, largest_norm(x[rows] - points[rows] / energy.unit))
+        move = float(np.maximum(move, largest_norm(x[rows] - points[rows] / energy.unit)))  # which keeps NaN
     move = energy.ranks.greatest(move)
     if energy.node_lengths is None:
         return move, move

@@ -1,6 +1,7 @@
 """Goal balanced: of a sound mesh no figure falls, tangled ones are untangled, and a boundary that slides ends no lower."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,14 +9,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, ObjectiveNorm
+from hexmend.energy.ranks import Ranks
 from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.iteration import Outcome, StoppingCriteria
-from hexmend.optimise.floors.central_path import CentralPath
+from hexmend.optimise.floors.central_path import CentralPath, Least
 from hexmend.quality import measure, summarise
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.run import smooth
 from hexmend.smoothers import METHODS
+from hexmend.smoothers.mend.balance import _message
 from hexmend.smoothers.mend.inversion import inverted_corners
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid, scrambled
@@ -242,3 +245,15 @@ def test_the_least_of_the_table_is_explained_where_it_is_at_a_fixed_corner():
     assert 0 < least < movable - 1e-3
     assert f" A corner that cannot be moved has {least:.4f}." in tangled.message
     assert "cannot be moved" not in smooth(make("cube", size=64, scramble=0.4), Mend()).message
+
+
+def test_the_least_of_the_table_is_explained_where_another_rank_has_it():
+    class WithALowerOne(Ranks):
+        def least(self, own):
+            return min(own, 0.0625)
+
+    mesh = make("cube", size=64)
+    energy = MeshEnergy(mesh, ObjectiveNorm(1))
+    energy.ranks = WithALowerOne()
+    path = SimpleNamespace(energy=energy, points=mesh.points, least=Least(0.5, 0.5))
+    assert " A corner that cannot be moved has 0.0625." in _message(path, Least(0.5, 0.5), 0.0)
