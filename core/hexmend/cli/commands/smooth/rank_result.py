@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from hexmend.boundary import Departures, SurfaceChange
+from hexmend.cli.commands.smooth.second_order import SecondOrderChange
 from hexmend.quality import Summary, describe_regressions
 from hexmend.ranks.rank_run import RankRun
 from hexmend.run.memory import format_bytes
@@ -28,6 +29,8 @@ class RankResult:
         Change of the boundary, and the nodes that have left it; None where it was fixed.
     written : str
         Sentence about the file of the mesh.
+    second_order : SecondOrderChange or None
+        None where the hexes are known to be of first order.
     peaks_mb : sequence of float
         Largest memory of each rank, MiB.
     threads : sequence of int
@@ -39,6 +42,7 @@ class RankResult:
     summaries: tuple[Summary, Summary]
     boundary: tuple[SurfaceChange, Departures] | None
     written: str
+    second_order: SecondOrderChange | None = None
     peaks_mb: Sequence[float] = ()
     threads: Sequence[int] = ()
 
@@ -69,6 +73,19 @@ class RankResult:
         """Change of the boundary, in sentences; "" where it was fixed."""
         return " ".join(filter(None, (one.sentence for one in self.boundary or ())))
 
+    @property
+    def lines(self) -> list[str]:
+        """Lines below the table of the figures."""
+        of_second_order = self.second_order.lines if self.second_order else []
+        advice = self.second_order.advice if self.second_order and not self.summaries[1].inverted else ""
+        return list(filter(None, (self.message, *of_second_order, self.surface_sentence, self.written, advice)))
+
+    @property
+    def status(self) -> int:
+        """Exit status of the program: 4 if hexes are still inverted, at their corners or between them."""
+        bent = self.second_order is not None and self.second_order.is_bent
+        return 4 if self.summaries[1].inverted or bent else 0
+
     def record(self) -> dict[str, object]:
         """Return the report of --json, with the peak of memory, MiB, and the threads of each rank."""
         run, alone, (before, after) = self.run, self.alone, self.summaries
@@ -89,6 +106,8 @@ class RankResult:
                 "iterations_alone": 0 if alone is None else alone.n_iterations,
             },
         }
+        if self.second_order is not None:
+            self.second_order.add_to(report)
         if self.boundary is not None:
             change, left = self.boundary
             report["surface"] = change.to_dict() | {"left": left.to_dict()}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import shlex
 import sys
 from dataclasses import replace
 from importlib import import_module
@@ -16,13 +15,13 @@ from hexmend.cli.arguments.checks import check_memory, check_targets
 from hexmend.cli.arguments.options import DEFAULT_RINGS
 from hexmend.cli.arguments.run_arguments import method_and_limits, motion_rules, with_surface
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
+from hexmend.cli.commands.smooth.second_order import SecondOrderChange
 from hexmend.cli.commands.smooth.suggested_command import RunOptions, suggested_command
 from hexmend.cli.output.mesh_messages import print_notes, print_problems
 from hexmend.cli.output.mesh_output import MeshOutput
 from hexmend.cli.output.progress import follow
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
-from hexmend.doctor import PROBLEMS
 from hexmend.errors import ParameterError
 from hexmend.io import read, writer_for
 from hexmend.io.surfaces.curve_file import with_curves_of_file
@@ -31,7 +30,6 @@ from hexmend.mesh.fixing import fix_outside
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.quality import SecondOrderSummary, summarise_second_order
 from hexmend.quality.selection import hexes_in_set
 from hexmend.report import record, write_history, write_json
 from hexmend.run import iterate
@@ -82,10 +80,9 @@ def run(args: argparse.Namespace) -> int:
         if result.after.inverted:
             kept = RunOptions(mesh.node_rules.rules, args.as_is, args.surface, args.only, rings)
             _print_advice(args, result, _outside(mesh, pinned), kept)
-        bent = second_order is not None and second_order.non_positive > 0
-        if bent and not result.after.inverted:
-            _print_bent(args.output, result.mesh)
-    return 4 if result.after.inverted or bent else 0
+        elif second_order.advice:
+            print(second_order.advice)
+    return 4 if result.after.inverted or second_order.is_bent else 0
 
 
 def _is_one_of_several_ranks() -> bool:
@@ -110,38 +107,23 @@ def _keep(checkpoints: Checkpoints, mesh: Mesh, iteration: Iteration) -> None:
         checkpoints.write(lambda: mesh.with_points(iteration.points))
 
 
-def _report(
-    args: argparse.Namespace, mesh: Mesh, title: str, result: Result, written: str
-) -> SecondOrderSummary | None:
-    """Write the files of --json and --history, print the change of the mesh, and return its second-order hexes."""
-    second_order = {"before": summarise_second_order(mesh), "after": summarise_second_order(result.mesh)}
+def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, written: str) -> SecondOrderChange:
+    """Write the files of --json and --history, print the change of the mesh, and return that of second-order hexes."""
+    second_order = SecondOrderChange.of(mesh, result.mesh, args.output)
     if args.json:
         report = record(result)
-        for time, summary in second_order.items():
-            if summary is not None:
-                report[time]["second_order"] = summary.to_dict()
+        second_order.add_to(report)
         write_json(args.json, report)
     if args.history:
         write_history(args.history, result)
     print_summaries(f"{args.mesh}: {title}", ["before", "after"], [result.before, result.after], result.target_q)
     print(result.message)
-    for wall in result.layers:
-        print(wall.sentence)
-    for time, summary in second_order.items():
-        if summary is not None:
-            print(f"Second order, {time}: {summary.phrase}.")
+    for line in (*(wall.sentence for wall in result.layers), *second_order.lines):
+        print(line)
     if result.surface is not None:
         print(result.surface_sentence)
     print(written)
-    return second_order["after"]
-
-
-def _print_bent(path: str, mesh: Mesh) -> None:
-    """Print that hexes of second order are inverted between sound corners, and the command that repairs them."""
-    found = PROBLEMS["mid-nodes"].find(mesh)
-    if found is not None:
-        repair = f"Next: hexmend repair {shlex.quote(path)} -o OUT --only {found.kind}" if found.mendable else ""
-        print(f"Not fit for solving: {found.message} {found.remedy} {repair}".rstrip())
+    return second_order
 
 
 def _print_advice(args: argparse.Namespace, result: Result, outside: np.ndarray | None, options: RunOptions) -> None:

@@ -15,6 +15,7 @@ from hexmend.cli.arguments.run_arguments import motion_rules, with_surface
 from hexmend.cli.commands.smooth.agreement import agreed
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.commands.smooth.rank_result import RankResult
+from hexmend.cli.commands.smooth.second_order import SecondOrderChange
 from hexmend.cli.output.mesh_messages import print_notes, print_problems
 from hexmend.cli.output.mesh_output import MeshOutput
 from hexmend.io import read
@@ -102,8 +103,10 @@ class WholeSource:
         if run.smoother.slides_on(given):
             angle, slides = run.smoother.feature_angle, run.smoother.slides
             boundary = surface_change(given, mesh, angle), departures(given, mesh, angle, slides)
-        written = self._output.write(self._given.with_points(mesh.points))
-        return RankResult(run, alone, (summarise(given), summarise(mesh)), boundary, written)
+        result = self._given.with_points(mesh.points)
+        written = self._output.write(result)
+        second_order = SecondOrderChange.of(self._given, result, self._args.output)
+        return RankResult(run, alone, (summarise(given), summarise(mesh)), boundary, written, second_order)
 
     def _gather(self, points: np.ndarray) -> np.ndarray | None:
         whole = None if self.part.ranks.number else self._given.points
