@@ -264,3 +264,12 @@ def test_heads_sort(bench, tmp_path):
         assert names() == ["bridge.vtk", "cube.mesh", "torn.vtk"]
         assert not errors
         opened.close()
+
+
+def test_pieces_of_a_file_are_no_meshes_of_their_own(tmp_path):
+    io.write(tmp_path / "whole.pvtu", make("cube", size=8))
+    io.write(tmp_path / "whole" / "other.vtu", make("cube", size=8))
+    (tmp_path / "torn.pvtu").write_text("<VTKFile")
+    names = [str(path.relative_to(tmp_path)) for path in find_meshes([tmp_path])]
+    assert names == ["torn.pvtu", "whole/other.vtu", "whole.pvtu"]
+    assert find_meshes([tmp_path / "whole" / "whole_0.vtu"]) == [tmp_path / "whole" / "whole_0.vtu"]

@@ -10,6 +10,7 @@ from pathlib import Path
 from hexmend.errors import FileError, MeshError
 from hexmend.io import read, readable_suffixes
 from hexmend.io.format_lookup import format_by_place
+from hexmend.io.formats.vtk.pvtu import piece_paths
 from hexmend.mesh.mesh import Mesh
 
 
@@ -37,7 +38,7 @@ def find_meshes(places: Iterable[Path]) -> list[Path]:
     Returns
     -------
     list of Path
-        Files with a suffix of a mesh, and folders that are a mesh.
+        Files with a suffix of a mesh, and folders that are a mesh; no pieces of PVTU files of the same folder.
 
     Raises
     ------
@@ -48,7 +49,7 @@ def find_meshes(places: Iterable[Path]) -> list[Path]:
     for place in places:
         if not place.exists():
             raise FileError(place, "there is no such file or folder", "Choose a folder of meshes, or mesh files.")
-        meshes = list(_meshes_in(place)) if place.is_dir() else [place]
+        meshes = _without_pieces(list(_meshes_in(place))) if place.is_dir() else [place]
         if not meshes:
             raise FileError(place, "no mesh is in this folder", f"Expected files {', '.join(readable_suffixes())}.")
         found += meshes
@@ -65,3 +66,13 @@ def _meshes_in(folder: Path) -> Iterator[Path]:
             yield from () if path.name.startswith(".") else _meshes_in(path)
         elif path.suffix.lower() in readable_suffixes() and not path.name.startswith("."):
             yield path
+
+
+def _without_pieces(meshes: list[Path]) -> list[Path]:
+    """Leave out the files that others among them name as their pieces."""
+    pieces: set[Path] = set()
+    for path in meshes:
+        if path.suffix.lower() == ".pvtu":
+            with suppress(FileError, OSError):  # reading it tells what is wrong
+                pieces.update(piece_paths(path))
+    return [path for path in meshes if path not in pieces]
