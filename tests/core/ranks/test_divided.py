@@ -191,6 +191,19 @@ def test_rank_0_reads_what_only_the_whole_mesh_tells(tmp_path, mesh, reason):
 
 @needs_mpi
 @pytest.mark.slow
+def test_data_that_the_numbers_of_the_file_replace_are_reported(tmp_path):
+    mesh = make("cube", size=64)
+    write(tmp_path / "a.vtu", mesh.replace(node_data={"GlobalNodeId": np.arange(mesh.n_nodes) + 1}))
+    run = on_ranks(2, tmp_path / "a.vtu", "-o", tmp_path / "b.pvtu", "--goal", "shape", "--max-iterations", "2")
+    assert "rank 0 reads" not in run.stderr
+    assert run.stderr.count("cannot hold point data (GlobalNodeId), a name that it uses itself") == 1
+    # The numbers that the file itself has are no data.
+    run = on_ranks(2, tmp_path / "b.pvtu", "-o", tmp_path / "b.pvtu", "--goal", "shape", "--max-iterations", "2")
+    assert "cannot hold" not in run.stderr
+
+
+@needs_mpi
+@pytest.mark.slow
 def test_nodes_of_one_number_at_different_places_stay_apart(tmp_path):
     mesh = make("cube", size=64)
     grid, files = from_mesh(mesh), PieceFiles.new(tmp_path / "a.pvtu")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 
 from hexmend.doctor import examine
 from hexmend.io import unsupported_data
@@ -28,7 +29,12 @@ def print_notes(mesh: Mesh, keeps_unread: bool = False) -> None:
 
 def warn_of_losses(path: str, mesh: Mesh, source: str | None = None) -> None:
     """Print a warning for each part of the mesh that the file to be written cannot hold."""
-    for part in unsupported_data(path, mesh, source):
+    print_losses(path, unsupported_data(path, mesh, source))
+
+
+def print_losses(path: str, parts: Iterable[str]) -> None:
+    """Print a warning for each of the parts of a mesh that a file does not hold."""
+    for part in parts:
         print(f"hexmend: warning: {path} cannot hold {part}, which is left out", file=sys.stderr)
 
 

@@ -16,9 +16,10 @@ from hexmend.cli.commands.smooth.agreement import AgreedError, agreed
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.commands.smooth.rank_result import RankResult
 from hexmend.cli.commands.smooth.whole_source import finish_alone
+from hexmend.cli.output.mesh_messages import print_losses
 from hexmend.errors import ParameterError
 from hexmend.io.format_lookup import writable_format
-from hexmend.io.formats.vtk.pvtu_writer import PieceFiles
+from hexmend.io.formats.vtk.pvtu_writer import PieceFiles, names_taken
 from hexmend.io.slices import GridSlice, SlicedFile, open_slices, slice_of
 from hexmend.layers import named_walls
 from hexmend.mesh.rules import MotionRules
@@ -77,6 +78,8 @@ class DividedSource:
             if not comm.rank:
                 print(f"hexmend: rank 0 reads the whole mesh: {error}", file=sys.stderr, flush=True)
             return None
+        if not comm.rank:
+            print_losses(args.output, names_taken(mesh.node_data, mesh.cells.data))
         return cls(mesh, args.output, checkpoints)
 
     def checkpoint(self, points: np.ndarray) -> None:

@@ -1,4 +1,4 @@
-"""What `smooth` prints of hexes of second order."""
+"""Change of hexes of second order by `smooth`, and what repairs them."""
 
 from __future__ import annotations
 

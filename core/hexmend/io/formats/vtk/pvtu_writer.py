@@ -8,7 +8,7 @@ new one is, and files of the same names that belong to others stay. Pieces numbe
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import chain, count
@@ -172,6 +172,11 @@ def remove(path: Path) -> None:
 
 def names_not_kept(mesh: Mesh) -> list[str]:
     """Describe what the file cannot hold: data that are not numbers, and those with the names of its own numbers."""
-    cells = any(CELL_ID in data for data in (mesh.hex_data, *(cells.data for cells in mesh.cells)))
-    taken = [f"point data ({NODE_ID})"] * (NODE_ID in mesh.node_data) + [f"cell data ({CELL_ID})"] * cells
-    return [*non_numeric_data(mesh), *(f"{one}, a name that it uses itself" for one in taken)]
+    of_cells = [name for data in (mesh.hex_data, *(cells.data for cells in mesh.cells)) for name in data]
+    return [*non_numeric_data(mesh), *names_taken(mesh.node_data, of_cells)]
+
+
+def names_taken(node_data: Iterable[str], cell_data: Iterable[str]) -> list[str]:
+    """Describe the data, of these names, that the numbers of the file replace."""
+    taken = [f"point data ({NODE_ID})"] * (NODE_ID in node_data) + [f"cell data ({CELL_ID})"] * (CELL_ID in cell_data)
+    return [f"{one}, a name that it uses itself" for one in taken]
