@@ -335,3 +335,12 @@ def test_files_of_which_no_slices_can_be_read(tmp_path):
         '<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><Piece Source="b.vtu"/></PUnstructuredGrid></VTKFile>'
     )
     assert [open_slices(tmp_path / name) for name in ("a.vtk", "a.vtu", "b.pvtu")] == [None] * 3
+
+
+@pytest.mark.parametrize("section", [b"Points>", b'Components="3"'])
+def test_a_file_without_coordinates_has_no_slices(tmp_path, section):
+    write(tmp_path / "a.vtu", make("cube", size=8))
+    data = (tmp_path / "a.vtu").read_bytes()
+    assert section in data
+    (tmp_path / "a.vtu").write_bytes(data.replace(section, section.replace(b"Points", b"Places").replace(b"3", b"2")))
+    assert open_slices(tmp_path / "a.vtu") is None

@@ -45,7 +45,9 @@ class VTUSlices:
             arrays = [array for section in sections for array in section.arrays()]
             names = {array.get("Name") for array in arrays}
             packed = document.root.get("compressor")
+            places = list(sections[0].arrays()) if sections else []
             suitable = len(pieces) == 1 and {"connectivity", "offsets", "types"} <= names
+            suitable = suitable and [document.count(array, "NumberOfComponents") for array in places] == [3]
             suitable = suitable and all(
                 array.get("format") == "appended" and array.get("type") not in ("String", "Bit") for array in arrays
             )
