@@ -89,7 +89,7 @@ class FeatureTimeline(Feature):
         self.panel.setVisible(self.session.document.is_open)
         smoothing = self._smoothing
         failed = smoothing.phase is Phase.IDLE and smoothing.record is not None  # a run that ends otherwise is finished
-        self.panel.run_bar.set_state(smoothing.phase, smoothing.outcome, failed)
+        self.panel.run_bar.set_state(smoothing.phase, smoothing.outcome, failed, smoothing.undone)
         if self._seen.changed("runs", tuple(history.records)):
             self.panel.set_runs([_text(record) for record in history.records])
         record = timeline.record

@@ -40,6 +40,7 @@ _ENDS = {
 }
 
 _FAILED = "Failed", WORSE
+_UNDONE = "Undone", MUTED
 
 _BUTTONS = "run", "step", "stop"
 
@@ -83,9 +84,12 @@ class RunBar(QWidget):
         for name, button in self._buttons.items():
             button.show_action(actions[name])
 
-    def set_state(self, phase: Phase, outcome: Outcome | None, failed: bool = False) -> None:
-        """Show the word for a phase of a run, for its outcome if it has ended, or that it failed."""
-        word, colour = _FAILED if failed else _ENDS[outcome] if phase is Phase.FINISHED else _PHASES[phase]
+    def set_state(self, phase: Phase, outcome: Outcome | None, failed: bool = False, undone: bool = False) -> None:
+        """Show the word for a phase of a run, for its outcome if it has ended, or that it failed or was undone."""
+        if failed or undone:
+            word, colour = _FAILED if failed else _UNDONE
+        else:
+            word, colour = _ENDS[outcome] if phase is Phase.FINISHED else _PHASES[phase]
         if self._state.text() != tr(word):
             self._state.setText(tr(word))
             tint(self._state, colour)

@@ -183,6 +183,14 @@ class Document(QObject):
         """True if the state shown is not the current change: an iteration of a run or of the history."""
         return self.is_open and self.now is not self._changes[self._at].state
 
+    def in_effect(self, state: State) -> bool:
+        """Return True if a recorded state has neither been undone, nor the nodes been moved back from it by reset."""
+        states = [change.state for change in self._changes[: self._at + 1]]
+        if state not in states:  # states are equal to themselves alone
+            return False
+        points = states[-1].mesh.points
+        return not any(earlier.mesh.points is points for earlier in states[: states.index(state)])
+
     def commit(self, title: str, state: State, show: bool = True) -> None:
         """Record a state as a change, unless its positions, hexes and `OWN_PARTS` are those of the current change.
 

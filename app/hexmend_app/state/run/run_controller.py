@@ -17,7 +17,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.state.mesh.document import Document
+from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_settings import rules_text, settings_text
@@ -91,6 +91,7 @@ class RunController(QObject):
         self.record: RunRecord | None = None
         self.advice: Advice | None = None
         self.outcome: Outcome | None = None
+        self._result: State | None = None  # recorded at the end of the last run
         self.view = RunView(document, history, lambda: self._worker and self._worker.last, self)
         self.phase = Phase.IDLE
         self._timer = QTimer(self)
@@ -109,6 +110,12 @@ class RunController(QObject):
     def iterating(self) -> bool:
         """True while another iteration is shown and nothing else has changed."""
         return self.view.iterating
+
+    @property
+    def undone(self) -> bool:
+        """True if the last run has ended, and its result was undone or reset."""
+        ended = self.phase is Phase.FINISHED and self._result is not None
+        return ended and not self._document.in_effect(self._result)
 
     def start(
         self,
@@ -228,7 +235,7 @@ class RunController(QObject):
     def _on_mesh_replaced(self) -> None:
         """Discard the run on the previous mesh, and breakpoints at its hexes and nodes."""
         self.close()
-        self.work = self.record = self.advice = self.outcome = None
+        self.work = self.record = self.advice = self.outcome = self._result = None
         self._breakpoints = replace(self._breakpoints, hex=None, node=None)  # numbers of the previous mesh
         self._set_phase(Phase.IDLE)
 
@@ -279,6 +286,7 @@ class RunController(QObject):
             self.failed.emit(error)
         else:
             self.view.finish(self._title, last)
+            self._result = self._document.recorded
             if last is not None:
                 self.iterated.emit(last)
             self.advice = self.record.advice = worker.advice

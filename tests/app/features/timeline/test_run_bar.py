@@ -36,6 +36,24 @@ def test_a_run_is_started_paused_stepped_and_stopped_below_the_view(window, qtbo
     assert bar_of(window).state == "Stopped"
 
 
+def test_a_result_that_is_undone_or_reset_is_not_called_converged(window, qtbot):
+    bar = bar_of(window)
+    choose(window, "local-sd", StoppingCriteria(max_iterations=3, tolerance=0))
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
+        press(bar.button("run"))
+    for action, state in (
+        ("undo", "Undone"),
+        ("redo", "Iteration limit"),
+        ("reset", "Undone"),
+        ("undo", "Iteration limit"),
+        ("first", "Iteration limit"),
+    ):
+        window.refresh()
+        window.action("iteration_first" if action == "first" else action).trigger()
+        window.refresh()
+        assert bar.state == state, action
+
+
 @pytest.mark.parametrize("outcome", list(Outcome))
 def test_every_outcome_has_a_word(qapp, outcome):
     bar = RunBar()
