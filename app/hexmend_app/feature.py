@@ -96,6 +96,8 @@ class Action:
         The action is in the context menu of the view.
     submenu : QMenu, optional
         Menu that is added after the action.
+    moves_camera : bool
+        The action moves the camera and changes nothing else, so that a run goes on being shown eased.
     """
 
     id: str
@@ -115,6 +117,7 @@ class Action:
     exclusive: bool = False
     in_view: bool = False
     submenu: QMenu | None = None
+    moves_camera: bool = False
 
 
 class PanelPlace(Enum):

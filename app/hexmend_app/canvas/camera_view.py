@@ -26,7 +26,7 @@ from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
     from pyvistaqt import BackgroundPlotter
-    from vtkmodules.vtkRenderingCore import vtkProp
+    from vtkmodules.vtkRenderingCore import vtkCamera, vtkProp
 
     from hexmend_app.canvas.plotter import CanvasPlotter
 
@@ -245,9 +245,13 @@ class CameraView(QWidget):
             self._plotter.close()
         self.interactor.release_graphics()
 
+    def camera_move(self, event: QKeyEvent) -> Callable[[vtkCamera], None] | None:
+        """Return the camera movement of a key that is pressed in the view; None for an unbound key."""
+        return move_of(event, self.panes.camera_controller.up)
+
     def on_key(self, event: QKeyEvent) -> None:
         """Move the camera if the key is bound to a movement."""
-        move = move_of(event, self.panes.camera_controller.up)
+        move = self.camera_move(event)
         if move is not None:
             self._move_camera(partial(move, self.viewport.camera))
 

@@ -23,7 +23,7 @@ class Menus:
     actions : sequence of Action
         Sorted by feature.
     before : callable
-        Called before each action.
+        Called before each action that does more than move the camera.
 
     Attributes
     ----------
@@ -83,7 +83,8 @@ class Menus:
         _show_face(action, ActionFace(declared.tool, declared.icon, declared.help))
         action.setProperty("within", tr(declared.menu.rpartition("/")[2]) if "/" in declared.menu else "")
         action.setCheckable(declared.checked is not None)
-        action.triggered.connect(lambda checked=False: self._before())
+        if not declared.moves_camera:
+            action.triggered.connect(lambda checked=False: self._before())
         handle = declared.handle
         if declared.checked is not None:
             action.triggered.connect(handle)  # `refresh` would emit `toggled` too

@@ -66,7 +66,7 @@ class FeatureSmooth(Feature):
         panel.resume_requested.connect(smoothing.resume)
         panel.breakpoint_form.changed.connect(smoothing.break_at)
         smoothing.set_pace(Pace(settings.RUN_PACE.get()))
-        SkipOnInput(smoothing, lambda: None if self.canvas is None else self.canvas.interactor)
+        SkipOnInput(smoothing, lambda: self.canvas)
         smoothing.failed.connect(self._on_failed)
         smoothing.hit.connect(self._on_hit)
 

@@ -3,40 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject
+from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QApplication, QWidget
 
 from hexmend_app.state.run.run_controller import RunController
 
-#: Events by which the user goes on.
-_PRESSES = QEvent.Type.KeyPress, QEvent.Type.MouseButtonPress, QEvent.Type.ShortcutOverride
+if TYPE_CHECKING:
+    from hexmend_app.canvas.canvas import Canvas
+
+#: Keys that do nothing without another one.
+_MODIFIERS = Qt.Key.Key_Shift, Qt.Key.Key_Control, Qt.Key.Key_Alt, Qt.Key.Key_Meta
 
 
 class SkipOnInput(QObject):
     """Filters events while a run is shown eased.
 
+    Keys and buttons that move the camera alone do not end the easing. Keys of actions do so by the action.
+
     Parameters
     ----------
     run : RunController
-    view : callable
-        Returns the widget of the view, in which the camera may be moved meanwhile, or None.
+    canvas : callable
+        Returns the 3D view, or None.
     """
 
-    def __init__(self, run: RunController, view: Callable[[], QWidget | None]):
+    def __init__(self, run: RunController, canvas: Callable[[], Canvas | None]):
         super().__init__(run)
-        self._run, self._view = run, view
+        self._run, self._canvas = run, canvas
         run.view.eased.active_changed.connect(self._on_active)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Show the result before the event gets where it goes."""
-        if event.type() in _PRESSES and isinstance(watched, QWidget) and not self._in_view(watched, event):
+        if isinstance(watched, QWidget) and self._ends(watched, event):
             self._run.view.skip_easing()
         return False
 
-    def _in_view(self, widget: QWidget, event: QEvent) -> bool:
-        """Return True for a button pressed in the view, and not on what is laid over it."""
-        return event.type() == QEvent.Type.MouseButtonPress and widget is self._view()
+    def _ends(self, widget: QWidget, event: QEvent) -> bool:
+        canvas = self._canvas()
+        in_view = canvas is not None and widget is canvas.interactor
+        if event.type() == QEvent.Type.ShortcutOverride:  # Escape also closes a message
+            return event.key() == Qt.Key.Key_Escape
+        if event.type() == QEvent.Type.KeyPress:
+            return event.key() not in _MODIFIERS and not (in_view and canvas.camera_move(event) is not None)
+        return event.type() == QEvent.Type.MouseButtonPress and not in_view  # a drag in the view moves the camera
 
     def _on_active(self) -> None:
         """Filter events while needed alone: each costs a call."""

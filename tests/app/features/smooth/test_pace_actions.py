@@ -1,6 +1,8 @@
 """The pace at which iterations are shown is chosen in a menu and stored."""
 
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 
 from hexmend.run import StoppingCriteria
 from hexmend_app.state.run.pace import Pace
@@ -41,3 +43,23 @@ def test_actions_and_sessions_have_the_result_and_not_what_is_shown_on_the_way(w
         act()
         assert session.document.now is session.document.recorded
         assert not session.run.view.eased.active
+
+
+def test_keys_that_move_the_camera_leave_the_easing_and_others_end_it(window, qtbot):
+    session, view = window.session, window.canvas.interactor
+    session.run.set_pace(Pace.EASED)
+    choose(window, "local-sd", StoppingCriteria(max_iterations=8, tolerance=0))
+    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+        window.refresh()
+        window.action("run").trigger()
+    assert session.run.view.eased.active
+    direction = window.canvas.viewport.camera.GetDirectionOfProjection()
+    QTest.keyClick(view, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
+    QTest.keyClick(view, Qt.Key.Key_Right)
+    QTest.keyPress(view, Qt.Key.Key_Shift)
+    window.action("fit").trigger()
+    assert window.canvas.viewport.camera.GetDirectionOfProjection() != direction
+    assert session.run.view.eased.active
+    QTest.keyClick(view, Qt.Key.Key_Q)
+    assert not session.run.view.eased.active
+    assert session.document.now is session.document.recorded
