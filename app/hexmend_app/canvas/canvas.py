@@ -24,6 +24,7 @@ from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.scene.cutting.box_widget import BoxWidget
+from hexmend_app.scene.cutting.handles import isolates_detail
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
 from hexmend_app.scene.cutting.sphere_widget import SphereWidget
 from hexmend_app.scene.views.frame import Frame
@@ -148,10 +149,11 @@ class Canvas(CameraView):
         self.draw_soon()
 
     def _place_handles(self) -> None:
-        """Place the handles in the first view; they are hidden if it is not visible."""
+        """Place the handles in the first view; they are hidden if it is not visible, or shows few isolated hexes."""
         handles, at = self._handles
-        cut = Cut() if self.viewport.frame is None else self.viewport.frame.look.cut
-        shown = handles and self.viewport in self.panes.visible
+        frame = self.viewport.frame
+        cut = Cut() if frame is None else frame.look.cut
+        shown = handles and cut.active and self.viewport in self.panes.visible and not isolates_detail(frame)
         plane = cut.planes[at] if at < len(cut.planes) else None
         self.plane.set(plane if cut.slab is None else cut.slab.middle, shown)
         self.box.set(cut.box, shown)

@@ -2,9 +2,25 @@
 
 from __future__ import annotations
 
+import numpy as np
 from vtkmodules.vtkInteractionWidgets import vtkAbstractWidget
 
+from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
+
+#: Extent of isolated hexes, as a fraction of that of the mesh, below which handles would fill the view.
+_DETAIL = 0.25
+
+
+def isolates_detail(frame: Frame) -> bool:
+    """Return True if the hexes shown are isolated and small compared with the mesh, in whose size handles are drawn."""
+    mesh, isolate = frame.mesh, frame.look.show.isolate
+    if isolate is None:
+        return False
+    hexes = np.array(isolate.hexes, dtype=np.int64)
+    places = mesh.points[mesh.hexes[hexes[hexes < mesh.n_hexes]]].reshape(-1, 3)
+    whole = np.ptp(mesh.points[mesh.topology.used], axis=0)
+    return len(places) > 0 and bool(np.linalg.norm(np.ptp(places, axis=0)) < _DETAIL * np.linalg.norm(whole))
 
 
 class Handles:

@@ -8,8 +8,10 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
+from hexmend import io
 from hexmend_app.picture import Cut, Plane
-from tests.app.driving import LEFT, drag, key, move, named, pixels, press, seen_at, tick
+from tests.app.driving import LEFT, drag, key, move, named, open_and_wait, pixels, press, seen_at, tick
+from tests.core.grids import grid
 
 
 def moving(window):
@@ -171,6 +173,20 @@ def test_only_the_handles_of_the_cut_are_in_the_view(window, kind, handles):
     assert on == {handles}
     tick(named(window, QCheckBox, "Handles"))
     assert not getattr(window.canvas, handles).widget.GetEnabled()
+
+
+def test_handles_are_hidden_while_a_small_part_of_the_mesh_is_isolated(window, qtbot, tmp_path):
+    io.write(tmp_path / "bar.vtu", grid(9, 1, 1))
+    open_and_wait(qtbot, window, tmp_path / "bar.vtu")
+    key(window, Qt.Key.Key_C)
+    for hexes, shown in (((3,), False), ((1, 2, 3, 4), True), ((6,), False), ((0, 8), True)):
+        window.session.view.isolate(hexes)
+        window.refresh()
+        assert bool(window.canvas.plane.widget.GetEnabled()) is shown, hexes
+    window.session.view.isolate((3,))
+    window.session.view.end_isolation()
+    window.refresh()
+    assert window.canvas.plane.widget.GetEnabled()
 
 
 def test_the_slab_is_dragged_by_its_middle(window):
