@@ -115,8 +115,8 @@ PANELS: Setting[dict[str, Any]] = Setting("panels", {}, _map)
 THEME = Setting("theme", "desktop", str)
 #: Recently opened files, newest first.
 RECENT: Setting[tuple[Path, ...]] = Setting("recent", (), _paths, lambda paths: json.dumps([str(one) for one in paths]))
-#: Initial folder of file dialogs.
-FOLDER = Setting("folder", Path.home(), Path, str)
+#: Folder of the last opened or saved file, in which file dialogs start; the default if there was none.
+FOLDER = Setting("folder", Path(), Path, str)
 #: Memory limit of the positions of iterations in MB, and iterations played per second.
 HISTORY_MEGABYTES = Setting("history_megabytes", 512, _positive)
 ITERATIONS_PLAYED = Setting("iterations_played", 10, _positive)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Collection, Sequence
 from enum import Enum
 from pathlib import Path
@@ -125,9 +126,15 @@ def remember_folder(path: Path) -> None:
 
 
 def folder() -> Path:
-    """Return the folder in which dialogs start: that of the last opened or saved file, else the home folder."""
+    """Return the folder in which dialogs start.
+
+    It is that of the last opened or saved file, else the working directory of a program that was started in a terminal,
+    else the home folder.
+    """
     last = FOLDER.get()
-    return last if last.is_dir() else Path.home()
+    if last != FOLDER.default and last.is_dir():
+        return last
+    return Path.cwd() if sys.stdin is not None and sys.stdin.isatty() else Path.home()
 
 
 def named(path: str, kinds: str) -> str:

@@ -1,9 +1,13 @@
 """Dialogs that ask for files: their common folder, and suffixes of names."""
 
+from pathlib import Path
+from types import SimpleNamespace
+
 import pytest
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
+from hexmend_app.state.settings.settings import FOLDER
 from hexmend_app.widgets.dialogs import questions
 
 SAVING = {
@@ -57,6 +61,20 @@ def test_a_cancelled_dialog_changes_nothing(answers, tmp_path, name):
 def test_dialogs_do_not_start_in_a_deleted_folder(answers, tmp_path):
     questions.remember_folder(tmp_path / "gone" / "mesh.vtu")
     assert questions.folder().is_dir()
+
+
+@pytest.mark.parametrize(("terminal", "place"), [(True, "working"), (False, "home"), (None, "home")])
+def test_the_first_dialog_starts_in_the_working_directory_of_a_terminal(
+    answers, tmp_path, monkeypatch, terminal, place
+):
+    for name in ("working", "home"):
+        (tmp_path / name).mkdir()
+    monkeypatch.chdir(tmp_path / "working")
+    monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
+    monkeypatch.setattr("sys.stdin", None if terminal is None else SimpleNamespace(isatty=lambda: terminal))
+    FOLDER.clear()
+    questions.ask_mesh(None)
+    assert Path(answers.begun[-1]) == tmp_path / place
 
 
 @pytest.mark.parametrize("name", SAVING)
