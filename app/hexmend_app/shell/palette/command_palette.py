@@ -87,7 +87,7 @@ class CommandPalette(QDialog):
 
     def _run_entry(self) -> None:
         at = self._list.indexOfTopLevelItem(self._list.currentItem()) if self._found else -1
-        if at >= 0:
+        if at >= 0 and self._found[at].enabled:
             self.accept()
             self._found[at].run()
 
@@ -105,4 +105,6 @@ def _item(entry: PaletteEntry) -> QTreeWidgetItem:
     item.setToolTip(0, entry.help)
     item.setTextAlignment(1, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
     item.setForeground(1, QBrush(QColor(str(MUTED))))
+    if not entry.enabled:
+        item.setDisabled(True)
     return item

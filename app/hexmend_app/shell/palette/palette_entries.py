@@ -29,7 +29,7 @@ _CONTROLS = (QAbstractButton, QAbstractSpinBox, QComboBox, QLineEdit, QSlider)
 
 
 def command_entries(actions: Mapping[str, QAction]) -> Iterator[PaletteEntry]:
-    """Yield an entry for each enabled action, except those that open a panel, which has an entry itself.
+    """Yield an entry for each action, except those that open a panel, which has an entry itself.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def command_entries(actions: Mapping[str, QAction]) -> Iterator[PaletteEntry]:
         By id.
     """
     for id, action in actions.items():
-        if not action.isEnabled() or id.startswith("panel_"):
+        if id.startswith("panel_"):
             continue
         name = without_mnemonic(action.text())
         if action.isCheckable():
@@ -49,6 +49,7 @@ def command_entries(actions: Mapping[str, QAction]) -> Iterator[PaletteEntry]:
             kind=action.property("within") or "",
             keys=action.shortcut().toString(QKeySequence.SequenceFormat.NativeText),
             icon=action.icon(),
+            enabled=action.isEnabled(),
         )
 
 

@@ -25,6 +25,8 @@ class PaletteEntry:
     keys : str
         Shortcut in the notation of the desktop; "" for none.
     icon : QIcon
+    enabled : bool
+        False for a command that cannot be run now, which only a text that matches it finds.
     """
 
     name: str
@@ -33,6 +35,7 @@ class PaletteEntry:
     kind: str = ""
     keys: str = ""
     icon: QIcon = field(default_factory=QIcon)
+    enabled: bool = True
 
     @property
     def title(self) -> str:
@@ -44,7 +47,8 @@ def ranked(entries: Iterable[PaletteEntry], text: str) -> list[PaletteEntry]:
     """Return the entries that contain every word of a text, best match first; equal matches keep their order.
 
     Matches at the start of the name rank first, then matches at starts of words of the name, then of the title; after
-    these, matches anywhere in the name, in the title, and in the help.
+    these, matches anywhere in the name, in the title, and in the help. Commands that cannot be run now come last; they
+    are left out without a text.
 
     >>> entries = [PaletteEntry(name="Reset", run=print, help="Undo all."), PaletteEntry(name="Undo", run=print)]
     >>> entries.append(PaletteEntry(name="Run", run=print))
@@ -52,8 +56,9 @@ def ranked(entries: Iterable[PaletteEntry], text: str) -> list[PaletteEntry]:
     ['Undo', 'Run', 'Reset']
     """
     words = text.lower().split()
-    matches = [(rank, entry) for entry in entries if (rank := _rank(entry, words)) is not None]
-    return [entry for _, entry in sorted(matches, key=lambda match: match[0])]
+    found = [entry for entry in entries if words or entry.enabled]
+    matches = [(not entry.enabled, rank, entry) for entry in found if (rank := _rank(entry, words)) is not None]
+    return [entry for *_, entry in sorted(matches, key=lambda match: match[:2])]
 
 
 def _rank(entry: PaletteEntry, words: list[str]) -> int | None:

@@ -59,3 +59,15 @@ def test_without_matches_enter_runs_nothing(palette):
     assert palette.isVisible()
     QTest.keyClick(palette, Qt.Key.Key_Escape)
     assert not palette.isVisible()
+
+
+def test_a_command_that_cannot_be_run_now_is_listed_and_not_run(qtbot):
+    executed = []
+    palette = CommandPalette([PaletteEntry(name="Film", run=partial(executed.append, 1), enabled=False)])
+    qtbot.addWidget(palette)
+    palette.open()
+    QTest.keyClicks(field(palette), "film")
+    assert palette.titles() == ["Film"]
+    QTest.keyClick(field(palette), Qt.Key.Key_Return)
+    assert palette.isVisible()
+    assert not executed

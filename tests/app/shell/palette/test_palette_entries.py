@@ -75,7 +75,7 @@ def test_choosing_a_metric_colours_by_it(host, qtbot):
         assert signal.args == [metric.name]
 
 
-def test_disabled_commands_and_those_that_open_panels_have_no_entries(qtbot):
+def test_commands_have_entries_which_say_what_is_enabled_and_those_that_open_panels_have_none(qtbot):
     executed, actions = [], {}
     for id, enabled in (("fit", True), ("undo", False), ("panel_run", True), ("edges", True)):
         actions[id] = QAction(f"&{id.title()}")
@@ -83,6 +83,7 @@ def test_disabled_commands_and_those_that_open_panels_have_no_entries(qtbot):
         actions[id].triggered.connect(lambda _=False, id=id: executed.append(id))
     actions["edges"].setCheckable(True)
     entries = list(command_entries(actions))
-    assert [entry.title for entry in entries] == ["Fit", "Edges: off"]
+    assert [entry.title for entry in entries if entry.enabled] == ["Fit", "Edges: off"]
+    assert [entry.title for entry in entries if not entry.enabled] == ["Undo"]
     entries[0].run()
     assert executed == ["fit"]

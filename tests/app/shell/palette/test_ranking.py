@@ -41,3 +41,10 @@ def test_matches_in_names_rank_before_matches_in_help(text, names):
 
 def test_an_empty_text_keeps_the_order():
     assert ranked(ENTRIES, " ") == ENTRIES
+
+
+def test_commands_that_cannot_be_run_now_come_last_and_only_for_a_text():
+    film = PaletteEntry(name="Save film…", run=print, help="Save the run as an animation.", enabled=False)
+    assert ranked([film, *ENTRIES], "") == ENTRIES
+    assert ranked([film, *ENTRIES], "animation") == [film]
+    assert [entry.name for entry in ranked([film, *ENTRIES], "save")] == ["Save mesh as…", "Save film…"]
