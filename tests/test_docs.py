@@ -69,9 +69,9 @@ def test_the_animation_of_the_readme_says_the_truth(tmp_path, monkeypatch):
     captions = []
     compose = FilmPage.compose
 
-    def record(self, picture, caption, viewport, initial):
-        captions.append((initial.caption, caption))
-        return compose(self, picture, caption, viewport, initial)
+    def record(self, picture, texts, viewport, initial):
+        captions.append((initial.captions[0], texts[0]))
+        return compose(self, picture, texts, viewport, initial)
 
     monkeypatch.setattr(FilmPage, "compose", record)
     assert main(shlex.split(draw)[1:]) == 0

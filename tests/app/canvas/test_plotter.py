@@ -93,7 +93,7 @@ def test_points_text_scalar_bars_and_textures_are_in_pictures(canvas):
 
 def test_its_actors_are_in_films(canvas):
     shown = canvas.viewport.frame
-    frame = FilmFrame("frame", State.of(shown.mesh))
+    frame = FilmFrame("run", "frame", State.of(shown.mesh))
     options = {"camera": canvas.viewport.camera, "props": canvas.plotter_props}
     (without,) = pictures([frame], shown.look, (400, 300), **options)
     _add(canvas)

@@ -93,8 +93,9 @@ def pictures(
                     viewport.camera.SetWindowCenter(0, 0)
             picture = _picture(stage, viewport)
             if first and before:
-                initial = InitialPicture(f"Before: {film_frame.quality}", picture, page.bars(viewport))
-            yield page.compose(picture, film_frame.caption, viewport, initial)
+                captions = f"Before: {film_frame.quality}", "Before"
+                initial = InitialPicture(captions, picture, page.bars(viewport))
+            yield page.compose(picture, film_frame.captions, viewport, initial)
 
 
 def _picture(stage: Stage, viewport: Viewport) -> Image.Image:

@@ -18,18 +18,21 @@ class FilmFrame:
     Parameters
     ----------
     title : str
+        Title of the run.
+    place : str
         Place of the frame in the run.
     state : State
         State of the mesh; frames differ in positions of nodes only.
     """
 
     title: str
+    place: str
     state: State
 
     @property
-    def caption(self) -> str:
-        """Title and quality."""
-        return f"{self.title}: {self.quality}"
+    def captions(self) -> tuple[str, ...]:
+        """Captions from the longest to the shortest."""
+        return f"{self.title}, {self.place}: {self.quality}", f"{self.place}: {self.quality}", self.quality
 
     @property
     def quality(self) -> str:
@@ -49,7 +52,7 @@ def chosen_iterations(history: History, record: RunRecord, frames: int) -> list[
 def film_frames(record: RunRecord, numbers: Sequence[int], state: Callable[[int], State]) -> Iterator[FilmFrame]:
     """Generate the frames of iterations; `state` returns the state of an iteration by its number."""
     for number in numbers:
-        yield FilmFrame(f"{record.title}, {_place(record, number)}", state(number))
+        yield FilmFrame(record.title, _place(record, number), state(number))
 
 
 def _place(record: RunRecord, number: int) -> str:

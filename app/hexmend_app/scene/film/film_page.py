@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PIL import Image, ImageDraw
@@ -14,6 +15,9 @@ from hexmend_app.scene.views.viewport import Viewport
 #: Width of the histogram, as a fraction of the film width.
 _CHART = 0.32
 
+#: Smallest size of letters of a caption, as a fraction of their usual size, before a shorter caption is written.
+_SMALLEST_LETTERS = 0.75
+
 
 @dataclass(frozen=True)
 class InitialPicture:
@@ -21,13 +25,14 @@ class InitialPicture:
 
     Parameters
     ----------
-    caption : str
+    captions : sequence of str
+        From the longest to the shortest; the first that fits is shown.
     picture : Image
     bars : BarCounts or None
         Its distribution, if the film has a histogram.
     """
 
-    caption: str
+    captions: Sequence[str]
     picture: Image.Image
     bars: BarCounts | None
 
@@ -70,17 +75,20 @@ class FilmPage:
         return (width - self.chart_width) // self.panels, height - (2 if self.bar else 1) * self.strip
 
     def compose(
-        self, picture: Image.Image, caption: str, viewport: Viewport, initial: InitialPicture | None
+        self, picture: Image.Image, captions: Sequence[str], viewport: Viewport, initial: InitialPicture | None
     ) -> Image.Image:
-        """Return a frame: the picture with its caption, the mesh before the run, the histogram and the colour bar."""
+        """Return a frame: the picture with its caption, the mesh before the run, the histogram and the colour bar.
+
+        The captions are those of the picture, from the longest to the shortest: the first that fits is shown.
+        """
         whole = paper(self.size, picture.mode)
-        shown = [(initial.picture, initial.caption), (picture, caption)] if initial else [(picture, caption)]
-        for column, (image, text) in enumerate(shown):
+        shown = [(initial.picture, initial.captions), (picture, captions)] if initial else [(picture, captions)]
+        for column, (image, texts) in enumerate(shown):
             left = column * picture.width
             whole.paste(image, (left, self.strip))
             if self.strip:
-                position = (left + round(0.3 * self.strip), self.strip / 2)
-                ImageDraw.Draw(whole).text(position, text, INK, letters(0.42 * self.strip), anchor="lm")
+                end = self.size[0] if column == len(shown) - 1 else left + picture.width
+                self._write(whole, texts, left, end)
         if self.chart_width:
             chart_size = self.chart_width, picture.height
             bars, earlier = self.bars(viewport), initial.bars if initial else None
@@ -91,6 +99,14 @@ class FilmPage:
             bar = colour_bar(viewport.colouring, special, (self.size[0], self.strip), picture.mode)
             whole.paste(bar, (0, self.size[1] - self.strip))
         return whole
+
+    def _write(self, whole: Image.Image, texts: Sequence[str], left: int, end: int) -> None:
+        """Write the first text that fits between two columns of pixels, if need be in smaller letters."""
+        draw, size, left = ImageDraw.Draw(whole), 0.42 * self.strip, left + round(0.3 * self.strip)
+        shares = [(end - left - 0.1 * self.strip) / draw.textlength(text, letters(size)) for text in texts]
+        at = next((i for i, share in enumerate(shares) if share >= _SMALLEST_LETTERS), len(texts) - 1)
+        font = letters(size * min(1.0, shares[at]))
+        draw.text((left, self.strip / 2), texts[at], INK, font, anchor="lm")
 
     def bars(self, viewport: Viewport) -> BarCounts | None:
         """Return the counts of the histogram of the mesh shown; None without a histogram."""
