@@ -170,6 +170,17 @@ class MessageBar(QFrame):
             if not self._messages:
                 self.emptied.emit()
 
+    def remove(self, title: str, text: str) -> None:
+        """Remove the messages with a title and text, which are no longer true."""
+        shown = self._messages[self._at] if self._messages else None
+        left = [message for message in self._messages if (message.title, message.text) != (title, text)]
+        if len(left) < len(self._messages):
+            self._messages = left
+            self._at = left.index(shown) if shown in left else 0
+            self._refresh()
+            if not left:
+                self.emptied.emit()
+
     def clear(self) -> None:
         """Remove all messages."""
         while self._messages:

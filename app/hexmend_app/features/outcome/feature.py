@@ -33,6 +33,7 @@ class FeatureOutcome(Feature):
         #: The last run if it made no iteration and so has no record: the record before it, its name, its explanation.
         self._empty_run: tuple[RunRecord | None, str, Advice] | None = None
         self._shown: Advice | None = None
+        self._notice: tuple[str, str] | None = None  # title and text of the message on the last run
         panel = self.panel = OutcomePanel()
         panel.chosen.connect(session.selection.visit)
         panel.show_requested.connect(self._isolate)
@@ -72,7 +73,10 @@ class FeatureOutcome(Feature):
         )
 
     def refresh(self) -> None:
-        """Explain the run of the timeline."""
+        """Explain the run of the timeline; the message on a run whose result is undone is removed."""
+        if self._notice is not None and self.session.run.undone:
+            self.host.messages.remove(*self._notice)
+            self._notice = None
         name, advice = self._explanation()
         if advice is not None and advice is not self._shown:
             ids = hex_ids(self.session.document.now.mesh)
@@ -90,7 +94,7 @@ class FeatureOutcome(Feature):
         if record not in self.session.history.records:
             self._empty_run = (self.session.timeline.record, record.name, advice)
         elif record.end is not None:
-            title, text = notice(record, record.start.summary, record.end.summary)
+            title, text = self._notice = notice(record, record.start.summary, record.end.summary)
             choices = (
                 (tr("Compare"), partial(self._compare, record)),
                 (tr("Undo"), partial(self._do, "undo", record)),

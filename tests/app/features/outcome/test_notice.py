@@ -45,6 +45,18 @@ def test_compare_shows_the_mesh_before_the_run_next_to_its_result(window, qtbot)
     assert view.state is start
 
 
+def test_it_is_removed_when_its_result_is_undone_by_other_means(window, qtbot):
+    run(window, qtbot, "local-sd", max_iterations=2)
+    window.messages.show_error("Other")
+    assert sorted(kind for kind, *_ in window.messages.messages()) == ["error", "info"]
+    window.action("undo").trigger()
+    window.refresh()
+    assert [title for _, title, _ in window.messages.messages()] == ["Other"]
+    window.action("redo").trigger()
+    window.refresh()
+    assert [title for _, title, _ in window.messages.messages()] == ["Other"]
+
+
 def test_its_undo_leaves_later_changes_alone(window, qtbot):
     run(window, qtbot, "local-sd", max_iterations=2)
     undo = choice(window, "Undo")
