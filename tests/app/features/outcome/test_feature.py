@@ -200,7 +200,7 @@ def test_the_displacement_of_the_boundary_is_reported(window, qtbot, tmp_path):
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     window.show_panel("outcome")
     assert "The boundary slid: " in texts(window)
-    assert "of the diagonal) from where it was" in texts(window)
+    assert "it has kept its shape" in texts(window)
     assert "48 of 48 sharp edges are kept." in texts(window)
     assert "Limiting" not in texts(window)
 
