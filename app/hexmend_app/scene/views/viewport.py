@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
@@ -12,19 +11,16 @@ from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.camera.fitting import bounds_of
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.scene.colour.hex_colours import HexColours
-from hexmend_app.scene.cutting.moving_planes import MOST_PLANES
 from hexmend_app.scene.geometry import occlusion
 from hexmend_app.scene.geometry.filters import Filters, same_mask
 from hexmend_app.scene.layers.axes import AxesLayer
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.layers.overlay_layers import OverlayLayers, raise_error
 from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.moving_cut import can_be_coarse, can_be_flat, flattened, is_moving_cut
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.picking import Hit, Picker
 from hexmend_app.theme.palette import BACKGROUND, BACKGROUND_ABOVE, BACKGROUND_BELOW
-
-#: Number of hexes from which on a cut whose planes move is drawn coarsely.
-COARSE_CUT_HEXES = 1_000_000
 
 
 class Viewport:
@@ -43,7 +39,7 @@ class Viewport:
     overlay_layers : OverlayLayers
         Layers besides the hexes.
     coarse_cuts : bool
-        Draw cuts of large meshes coarsely while their planes move; `still` draws them as they are.
+        Draw cuts of large or curved meshes faster while they move; `still` draws them as they are.
 
     Parameters
     ----------
@@ -129,7 +125,8 @@ class Viewport:
         marked = frame.look.show.marked
         if marked != (frozenset() if new_mesh else last.look.show.marked):
             self.overlay_layers.selection.mark(np.array(sorted(marked), dtype=np.int64))
-        if not (recoloured or pinned or classed) and self._is_moving_cut(last):
+        cut_alone = self.coarse_cuts and not (recoloured or pinned or classed) and is_moving_cut(last, frame)
+        if cut_alone and can_be_coarse(frame):
             self._draw_coarse_cut()
             return
         if recoloured:
@@ -137,23 +134,10 @@ class Viewport:
         keep = self.kept()
         self.overlay_layers.draw_optional(frame, keep)
         if restyled or self._coarse_cut or not same_mask(keep, self._keep):
-            self._keep, self._coarse_cut = keep, False
-            self._rebuild()
+            self._keep, self._coarse_cut = keep, cut_alone and can_be_flat(frame)
+            self._rebuild(flattened(frame) if self._coarse_cut else frame)
         elif recoloured or pinned or classed:
             self._move()
-
-    def _is_moving_cut(self, last: Frame) -> bool:
-        """Return True if only planes that cut a large mesh have moved, so that the cut can be drawn coarsely."""
-        look, show = self.frame.look, self.frame.look.show
-        filtered = show.quality or show.peel or show.isolate or show.hidden or show.shrink
-        return (
-            self.coarse_cuts
-            and self.frame.mesh.n_hexes >= COARSE_CUT_HEXES
-            and 0 < len(look.cut.sides) <= MOST_PLANES
-            and not (look.cut.notch or look.cut.hexes or filtered)
-            and last.look.cut != look.cut
-            and replace(last.look, cut=look.cut) == look
-        )
 
     def _draw_coarse_cut(self) -> None:
         """Draw the hexes at a cut, and the skin coarsely."""
@@ -166,7 +150,7 @@ class Viewport:
         if self._coarse_cut:
             self._coarse_cut, self._keep = False, self.kept()
             self.overlay_layers.draw_optional(self.frame, self._keep)
-            self._rebuild()
+            self._rebuild(self.frame)
 
     def _set_mesh(self) -> None:
         self.overlay_layers.set_mesh(self.frame)
@@ -175,10 +159,10 @@ class Viewport:
             self.filters = Filters(mesh)
         self.mesh_layer.set_mesh(mesh)
 
-    def _rebuild(self) -> None:
+    def _rebuild(self, frame: Frame) -> None:
         """Find the visible faces again."""
-        self.mesh_layer.rebuild(self.frame, self._keep, self.colours)
-        self.overlay_layers.rebuild(self.frame, self._keep, self.mesh_layer, self.filters.ghosts)
+        self.mesh_layer.rebuild(frame, self._keep, self.colours)
+        self.overlay_layers.rebuild(frame, self._keep, self.mesh_layer, self.filters.ghosts)
 
     def _move(self) -> None:
         """Update positions and colours of the same faces."""
