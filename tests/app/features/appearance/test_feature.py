@@ -38,7 +38,7 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     maps.setFocus()
     QTest.keyClick(maps, Qt.Key.Key_Down)
     assert differ(recoloured, pixels(window)) > 0.05
-    low, high = (named(panel, QAbstractSpinBox, f"{end} value") for end in ("Lowest", "Highest"))
+    low, high = (named(panel, QAbstractSpinBox, f"{end} value") for end in ("Minimum", "Maximum"))
     press(named(panel, QAbstractButton, "Range: Fitted"))
     assert f"from {low.value():g} to {high.value():g}" in bar.accessibleDescription()
     assert not low.isEnabled()
