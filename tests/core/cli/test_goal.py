@@ -25,7 +25,7 @@ def step_of(path):
 def test_the_goal_is_that_of_the_setting(mesh, tmp_path, capsys):
     short, long = tmp_path / "short.vtk", tmp_path / "long.vtk"
     assert main(["smooth", str(mesh), "-o", str(short), "--goal", "time-step"]) == 0
-    assert "The least time step of the corners" in capsys.readouterr().out
+    assert "The minimum time step of the corners" in capsys.readouterr().out
     assert main(["smooth", str(mesh), "-o", str(long), "--set", "goal=time-step"]) == 0
     assert step_of(short) == step_of(long) > step_of(mesh)
 

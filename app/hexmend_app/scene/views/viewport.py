@@ -280,7 +280,7 @@ class Viewport:
         if self.frame is None:
             return
         if self.mesh_layer.faces.many:
-            self._rebuild()
+            self._rebuild(self.frame)
         elif not self._coarse_cut:
             self.mesh_layer.outline_inverted()
 
