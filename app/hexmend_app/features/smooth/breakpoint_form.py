@@ -51,7 +51,7 @@ class BreakpointForm(QWidget):
             2,
             (tr("Node moves"), tr("Node number"), tr("Node moves by more than")),
             tr(_NODE),
-            tr(" edges"),
+            tr(" edge"),
         )
         self._hex, self._hex_box, self._change = self._watch(
             grid, 4, (tr("Hex changes"), tr("Hex number"), tr("Hex changes by more than")), tr(_HEX), " q"
