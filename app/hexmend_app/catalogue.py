@@ -5,11 +5,10 @@ A section is the context (`msgctxt`) of its texts. Translators' tools read these
 
 from __future__ import annotations
 
-import ast
 import gettext
 import logging
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from string import Formatter
@@ -22,8 +21,11 @@ from hexmend_app.translation import PREFIX
 log = logging.getLogger(__name__)
 
 _LINE = re.compile(r'(msgctxt|msgid|msgid_plural|msgstr(?:\[\d\])?)?\s*("(?:[^"\\]|\\.)*")$')
-_PLURAL = re.compile(r"Plural-Forms:.*?plural=([^;\\]+);")
+_PLURAL = re.compile(r"Plural-Forms:.*?plural=([^;\n]+)")
 _ENGLISH_PLURAL = "n != 1"
+_FUZZY = re.compile(r"#,.*\bfuzzy\b")
+#: Characters that a letter after a backslash stands for; others stand for themselves.
+_ESCAPED = {"n": "\n", "t": "\t", "r": "\r"}
 
 
 @dataclass(frozen=True)
@@ -58,12 +60,24 @@ class Entry:
     def problem(self) -> str:
         """Reason why the translation cannot be used; "" if there is none."""
         try:
-            known, *used = ({name for _, name, _, _ in Formatter().parse(text) if name is not None}
-                            for text in (self.source, *self.translations))  # fmt: skip
+            known, *used = map(_fields, (self.source, *self.translations))
         except ValueError as error:
             return f"its braces are wrong ({error})"
         unknown = sorted(set().union(*used) - known)
-        return f"its field {{{unknown[0]}}} is not in the English text" if unknown else ""
+        return f"its field {unknown[0]} is not in the English text" if unknown else ""
+
+
+def _fields(text: str) -> set[str]:
+    """Return the fields of a format as they are written.
+
+    >>> sorted(_fields("{count:,} of {name!r}"))
+    ['{count:,}', '{name!r}']
+    """
+    parts = [part for part in Formatter().parse(text) if part[1] is not None]
+    return {
+        f"{{{name}{'!' + conversion if conversion else ''}{':' + spec if spec else ''}}}"
+        for _, name, spec, conversion in parts
+    }
 
 
 def read_catalogue(path: Path) -> tuple[str, list[Entry]]:
@@ -86,7 +100,7 @@ def read_catalogue(path: Path) -> tuple[str, list[Entry]]:
         If the file cannot be read, or a line is not one of a catalogue.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_text(encoding="utf-8-sig").split("\n")  # some editors write a byte order mark
     except (OSError, UnicodeDecodeError) as error:
         raise FileError(path, f"cannot be read: {error}", "Choose a text file in UTF-8.") from None
     blocks = list(_blocks(path, lines))
@@ -103,23 +117,42 @@ def read_catalogue(path: Path) -> tuple[str, list[Entry]]:
 
 
 def _blocks(path: Path, lines: list[str]) -> Iterator[tuple[int, dict[str, str]]]:
-    """Return the entries of a file: the line in which each begins, and its texts by keyword."""
+    """Return the entries of a file: the line in which each begins, and its texts by keyword.
+
+    An entry that is marked as fuzzy has to be checked by the translator: it has no translation yet.
+    """
     texts: dict[str, str] = {}
-    begin, key = 0, ""
+    begin, key, fuzzy = 0, "", False
     for number, line in enumerate([*lines, ""], start=1):
         line = line.strip()
-        if not line or line.startswith("#"):
-            if texts and not line:
-                yield begin, texts
-                texts, key = {}, ""
-            continue
         found = _LINE.match(line)
+        begins = line.startswith("#") or (found is not None and found[1] in ("msgctxt", "msgid"))
+        if not line or (begins and _translated(texts)):  # entries need no empty line between them
+            if texts:
+                yield begin, {**texts, "msgstr": ""} if fuzzy and texts.get("msgid") else texts
+            texts, key, fuzzy = {}, "", False
+        if not line or line.startswith("#"):
+            fuzzy = fuzzy or _FUZZY.match(line) is not None
+            continue
         if found is None or not (found[1] or key):
             expected = "expected msgctxt, msgid or msgstr with a text in quotes"
             raise FileError(path, f"line {number} is {line[:60]!r}: {expected}", "Correct the line.")
         begin = begin if texts else number
         key = found[1] or key
-        texts[key] = texts.get(key, "") + ast.literal_eval(found[2])
+        texts[key] = texts.get(key, "") + _unquoted(found[2])
+
+
+def _translated(texts: Mapping[str, str]) -> bool:
+    return any(key.startswith("msgstr") for key in texts)
+
+
+def _unquoted(text: str) -> str:
+    """Return the text in the quotes of a catalogue.
+
+    >>> _unquoted(quoted('Press "Run"'))
+    'Press "Run"'
+    """
+    return re.sub(r"\\(.)", lambda found: _ESCAPED.get(found[1], found[1]), text[1:-1])
 
 
 def quoted(text: str) -> str:
@@ -156,7 +189,7 @@ class Translation(QTranslator):
         self._by_text: dict[str, tuple[str, ...]] = {}
         self._form = _plural_form(path, header)
         for entry in entries:
-            if not all(entry.translations):
+            if not entry.translations or not all(entry.translations):
                 continue
             if entry.problem:
                 log.warning("%s: the translation in line %s is ignored: %s.", path.name, entry.line, entry.problem)

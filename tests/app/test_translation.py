@@ -380,6 +380,52 @@ def test_plural_forms_are_those_of_the_language(german, qapp):
     assert texts == ["1 Knoten (eins)", "2 Knoten (wenige)", "1,234 Knoten (viele)"]
 
 
+#: Catalogues as some editors write them: with a byte order mark, without empty lines, with entries to be checked.
+UNUSUAL = r"""msgid ""
+msgstr "Plural-Forms: nplurals=2; plural=n>1\n"
+msgctxt "cut"
+msgid "Run"
+msgstr "Lauf \x\"\u12\n"
+msgid "Stop"
+msgstr "Halt"
+#, fuzzy, python-brace-format
+msgid "Flip"
+msgstr "Flop"
+#, fuzzy
+#~ msgid "Old"
+#~ msgstr "Alt"
+
+msgid "Undo"
+msgstr "Zurück"
+msgid "Redo"
+msgid_plural "Redos"
+msgstr[0] "0 und 1"
+msgstr[1] "mehr"
+msgid "{count:,} of {name}"
+msgstr "{count:d} von {name}"
+msgid "{a}"
+msgstr "{a:{a}}"
+
+msgid "Save"
+"""
+
+
+def test_unusual_and_damaged_entries_do_no_harm(tmp_path, caplog):
+    path = tmp_path / "de.po"
+    path.write_text(UNUSUAL, encoding="utf-8-sig")
+    translation = Translation(path)
+    texts = {text: translation.translate(PREFIX + "cut", text) for text in ("Run", "Stop", "Undo")}
+    assert texts == {"Run": 'Lauf x"u12\n', "Stop": "Halt", "Undo": "Zurück"}
+    assert [translation.translate(PREFIX + "cut", "Redos", None, n) for n in (0, 1, 2)] == [
+        "0 und 1",
+        "0 und 1",
+        "mehr",
+    ]
+    for text in ("Flip", "Old", "Save", "{count:,} of {name}", "{a}"):
+        assert translation.translate(PREFIX + "cut", text) is None
+    assert "its field {count:d} is not in the English text" in caplog.text
+
+
 @pytest.mark.parametrize(("content", "problem"), [
     ("msgid Run\n", "line 1 is 'msgid Run': expected msgctxt, msgid or msgstr with a text in quotes"),
     ('"Run"\n', "line 1"),
@@ -402,6 +448,33 @@ def test_the_language_of_the_system_is_used_if_there_is_a_catalogue(german, monk
         monkeypatch.setattr(language, "system_languages", lambda codes=codes: codes)
         install_language(qapp)
         assert sum(isinstance(one, Translation) for one in installed) == expected
+
+
+def test_a_damaged_catalogue_of_the_language_of_the_system_leaves_the_window_in_english(
+    tmp_path, monkeypatch, qapp, caplog
+):
+    path = tmp_path / "de.po"
+    path.write_text("msgid Run\n", encoding="utf-8")
+    installed = []
+    monkeypatch.setattr(language, "languages", lambda: {"de": path})
+    monkeypatch.setattr(language, "system_languages", lambda: ["de"])
+    monkeypatch.setattr(type(qapp), "installTranslator", lambda app, translation: installed.append(translation))
+    install_language(qapp)
+    assert "The window is in English" in caplog.text
+    assert "de.po" in caplog.text
+    with pytest.raises(FileError, match="line 1"):
+        install_language(qapp, "de")
+    assert installed == []
+
+
+def test_an_installation_without_translations_is_english(monkeypatch, qapp):
+    def missing(name):
+        raise FileNotFoundError(name)
+
+    monkeypatch.setattr(language, "resource", missing)
+    monkeypatch.setattr(language, "system_languages", lambda: ["de"])
+    install_language(qapp)
+    assert language.languages() == {}
 
 
 def test_a_language_without_a_catalogue_is_refused(qapp):

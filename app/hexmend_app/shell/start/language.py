@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import logging
 from pathlib import Path
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
-from hexmend.errors import ParameterError
+from hexmend.errors import FileError, ParameterError
 from hexmend_app.catalogue import Translation
 from hexmend_app.resources import resource
+
+log = logging.getLogger(__name__)
 
 #: Suffix of translations; the file of a language is named after it: `de.po`, `pt_BR.po`.
 SUFFIX = ".po"
@@ -21,28 +24,39 @@ def install_language(app: QCoreApplication, language: str | None = None) -> None
     ----------
     app : QCoreApplication
     language : str, optional
-        Code of a language, such as "de", or the path of a catalogue; by default the language of the system, in which
-        texts without a translation are English.
+        Code of a language, such as "de", or the path of a catalogue; by default the language of the system, or English
+        if its catalogue is damaged. Texts without a translation are English.
 
     Raises
     ------
     ParameterError
         If there is no translation into the language that was asked for.
     FileError
-        If the catalogue is damaged.
+        If the catalogue that was asked for is damaged.
     """
     path = _of_system() if language is None else _named(language)
     if path is None:
         return
+    try:
+        translation = Translation(path, app)
+    except FileError as error:
+        if language is not None:
+            raise
+        log.warning("The window is in English: %s", error)
+        return
     of_qt = QTranslator(app)
     if of_qt.load(f"qtbase_{path.stem}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
         app.installTranslator(of_qt)
-    app.installTranslator(Translation(path, app))
+    app.installTranslator(translation)
 
 
 def languages() -> dict[str, Path]:
     """Return the catalogues that come with Hexmend by language."""
-    return {path.stem: path for path in sorted(resource("translations").glob(f"*{SUFFIX}"))}
+    try:
+        folder = resource("translations")
+    except FileNotFoundError:  # an installation without translations
+        return {}
+    return {path.stem: path for path in sorted(folder.glob(f"*{SUFFIX}"))}
 
 
 def system_languages() -> list[str]:
