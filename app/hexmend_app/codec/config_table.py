@@ -227,7 +227,7 @@ def _text(value: Any, path: KeyPath, longest: int = LONGEST) -> str:
     if not isinstance(value, str):
         raise OptionError.of(path, value, "is not a text: expected a text in quotes")
     if len(value) > longest or not value.isprintable():
-        raise OptionError.of(path, value, f"is not a line of text: expected {longest} letters at most")
+        raise OptionError.of(path, value, f"is not a line of text: expected {longest} characters at most")
     return value
 
 

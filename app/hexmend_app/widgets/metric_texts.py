@@ -39,11 +39,8 @@ def _bound(value: float) -> str:
 def in_sentence(metric: HexQuantity) -> str:
     """Return the title of a metric as written within a sentence.
 
-        >>> import math
-
-    from hexmend.quality import METRICS
-        >>> [in_sentence(METRICS[name]) for name in ("q", "jacobian", "scaled-jacobian", "min-angle")]
-        ['q(H)', 'Jacobian', 'scaled Jacobian', 'smallest angle']
+    >>> [in_sentence(METRICS[name]) for name in ("q", "jacobian", "scaled-jacobian", "min-angle")]
+    ['q(H)', 'Jacobian', 'scaled Jacobian', 'smallest angle']
     """
     title = tr(metric.title)
     return title if metric.title == "Jacobian" or title != metric.title else title[:1].lower() + title[1:]
@@ -52,10 +49,7 @@ def in_sentence(metric: HexQuantity) -> str:
 def value_text(metric: HexQuantity, value: float) -> str:
     """Return a value of a metric as text; of angles to a tenth of a degree.
 
-        >>> import math
-
-    from hexmend.quality import METRICS
-        >>> value_text(METRICS["min-angle"], 80.0572), value_text(METRICS["q"], 0.25)
-        ('80.1°', '0.2500')
+    >>> value_text(METRICS["min-angle"], 80.0572), value_text(METRICS["q"], 0.25)
+    ('80.1°', '0.2500')
     """
     return f"{value:.1f}°" if metric.unit == "degrees" else figure(value)

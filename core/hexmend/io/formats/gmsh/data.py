@@ -38,7 +38,7 @@ def read_data(source: ByteCursor, order: str, key: str, sections: Sections) -> N
         source.next_line()
     integers = [source.parse_count(source.next_line(), f"a number of {key}") for _ in range(_count(source, key))]
     if not names or len(integers) < 3 or not 1 <= integers[1] <= _MAX_WIDTH:
-        raise source.error(f"{key} has not a name, a step, 1 to {_MAX_WIDTH} values a row, and a number of rows")
+        raise source.error(f"{key} needs a name, a step, 1 to {_MAX_WIDTH} values a row, and a number of rows")
     name, (step, width, count) = names[0].strip('"'), integers[:3]
     if order:
         blocks = source.binary_blocks(key, count, 1, [("tag", f"{order}i4"), ("values", f"{order}f8", (width,))])

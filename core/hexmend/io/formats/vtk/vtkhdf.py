@@ -24,6 +24,7 @@ from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtkhdf_writer import names_not_kept, write
 from hexmend.io.storage.binary_rows import gather_integers
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import count_phrase
 
 #: Chunks that any file may have, and the smallest size of a further chunk in bytes, that of its entry in the index.
 _MIN_CHUNKS, _MIN_CHUNK_BYTES = 1000, 24
@@ -78,7 +79,7 @@ class VTKHDFReader:
         lengths = {len(rows) for rows in counts.values()}
         negative = any((rows < 0).any() for rows in counts.values())
         if len(lengths) > 1 or parts < 1 or first + parts > min(lengths) or negative:
-            raise FileError(self.path, f"has not the counts of its {parts} parts", DAMAGED)
+            raise FileError(self.path, f"does not have the counts of its {count_phrase(parts, 'part')}", DAMAGED)
         grids = []
         for part in range(first, first + parts):
             sizes = {name: int(rows[part]) for name, rows in counts.items()}

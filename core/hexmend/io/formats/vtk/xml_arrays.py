@@ -120,9 +120,9 @@ def _unpack(document: Document, title: str, kind: str, data: bytes | memoryview,
         raise
     except Exception as error:  # each of the three libraries raises its own type
         detail = " ".join(str(error).split())[:80]
-        raise document.error(f"{title} is no {kind} ({detail})") from None
+        raise document.error(f"{title} is not valid {kind} ({detail})") from None
     if len(block) != size:
-        raise document.error(f"{title} has not the {size} bytes announced")
+        raise document.error(f"{title} does not have the {size} bytes that it declares")
     return block
 
 

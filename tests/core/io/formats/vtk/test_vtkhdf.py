@@ -174,7 +174,7 @@ def replaced(**arrays):
             lambda root: root.attrs.__setitem__("Type", "ImageData"),
             "is of the type 'ImageData': expected UnstructuredGrid",
         ),
-        (replaced(NumberOfPoints=[8]), "has not the counts of its 1 parts"),
+        (replaced(NumberOfPoints=[8]), "does not have the counts of its 1 part"),
         (replaced(NumberOfPoints=[8, 9]), "its Points ends after"),
         (replaced(Offsets=[0, 7, 0, 8]), "its Offsets of part 0 do not rise"),
         (replaced(Types=[12, 268]), "cell 1 is of type 268"),
