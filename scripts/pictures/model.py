@@ -87,7 +87,7 @@ def layers(folder: Path, scratch: Path) -> None:
 
 
 def piston(folder: Path, scratch: Path) -> None:
-    """An engine's cylinder with two valves: as given, and with its least scaled Jacobian raised."""
+    """An engine's cylinder with two valves: as given, and with its minimum scaled Jacobian raised."""
     given = Path(os.environ["HEXMEND_MESHES"]) / "piston"
     options = ["--boundary", "slide", "--goal", "scaled-jacobian", "--surface-tolerance", "0.3"]
     mended = smooth(given, scratch / "piston-smooth", *options)

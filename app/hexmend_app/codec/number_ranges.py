@@ -33,7 +33,7 @@ def parse_ranges(text: str) -> tuple[tuple[int, int], ...]:
     for part in text.split(","):
         match = re.fullmatch(r"\s*([0-9]{1,10})(?:-([0-9]{1,10}))?\s*", part)
         if match is None:
-            raise ValueError(f"{part.strip()[:40]!r} is no range of numbers: expected, for example, 0-120, 130")
+            raise ValueError(f"{part.strip()[:40]!r} is not a range of numbers: expected, for example, 0-120, 130")
         first, last = int(match[1]), int(match[2] or match[1])
         if not previous < first <= last:
             raise ValueError(f"hexes {first} to {last} follow {previous}: expected ascending ranges")

@@ -25,7 +25,7 @@ def check_links(path: Path) -> None:
     with open(path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
         if data[_SIGNATURE[0]] != _SIGNATURE[1]:
             raise FileError(
-                path, "is no CGNS file based on ADF: its signature is missing", "Write it again, based on HDF5."
+                path, "is not a CGNS file based on ADF: its signature is missing", "Write it again, based on HDF5."
             )
         at = data.find(_NODE)
         while at >= 0:

@@ -35,7 +35,7 @@ class NamedCameras(ConfigTable):
         for name in self.named:
             if not name or name != name.strip():
                 raise ParameterError(
-                    f"{name!r} is no valid name of a camera: expected a text without surrounding spaces"
+                    f"{name!r} is not a valid name of a camera: expected a text without surrounding spaces"
                 )
 
 

@@ -53,7 +53,7 @@ class PicturedMesh(ConfigTable):
         """Raise `ParameterError` for an invalid path or digest."""
         if "\\" in self.file or ":" in self.file or PurePosixPath(self.file).is_absolute():
             raise ParameterError(
-                f"file = {self.file!r} is no path relative to the picture: expected, for example, ../mesh.vtu"
+                f"file = {self.file!r} is not a path relative to the picture: expected, for example, ../mesh.vtu"
             )
         for value in (self.opened, self.shown):
             if not re.fullmatch("[0-9a-f]{64}", value):

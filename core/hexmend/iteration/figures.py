@@ -15,7 +15,7 @@ _HISTORY = (
         "objective",
         "objective",
         "The objective that the method minimises at this step, Σ η(H)^p with its p and offset (3.3), and with "
-        "surface_weight that of boundary quads: infinite while any element is inverted. Steps that raise the least "
+        "surface_weight that of boundary quads: infinite while any element is inverted. Steps that raise the minimum "
         "scaled Jacobian or time step do not minimise it.",
         format_objective,
         -1,

@@ -84,7 +84,7 @@ def cases_table(study: Mapping[str, Any]) -> Table:
     lines = [[case, *_line([row for row in study["rows"] if row["case"] == case])] for case in study["cases"]]
     notes = (
         "Results: of how many tasks. Valid: results without an inverted hex. Untangled: of the results of meshes "
-        "that had inverted hexes. Worse: results with more inverted hexes, a lower q min or a lower least scaled "
+        "that had inverted hexes. Worse: results with more inverted hexes, a lower q min or a lower minimum scaled "
         "Jacobian than the mesh as given. A gain is after minus before.",
     )
     return Table(study["title"], head, lines, notes)

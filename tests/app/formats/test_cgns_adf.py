@@ -105,7 +105,7 @@ def test_an_hdf5_file_is_not_read_as_adf(joined, tmp_path):
         file["link"] = h5py.ExternalLink("other.cgns", "/")
     data = path.read_bytes()
     path.write_bytes(b"  ADF Database" + data[14:])  # in the block that HDF5 leaves to programs
-    with pytest.raises(FileError, match="is no CGNS file based on ADF"):
+    with pytest.raises(FileError, match="is not a CGNS file based on ADF"):
         io.read(path)
 
 

@@ -120,7 +120,7 @@ def test_a_camera_is_one_line(camera):
         ("[cut]\nplanes = [{}]\nhexes = '0-2, 2'", "hexes 2 to 2 follow 2"),
         (
             "[cut]\nplanes = [{}]\nhexes = '0-2, all'",
-            "hexes: 'all' is no range of numbers: expected, for example, 0-120, 130",
+            "hexes: 'all' is not a range of numbers: expected, for example, 0-120, 130",
         ),
         ("[cut]\nplanes = [{}]\nhexes = '0'\nstyle = 'smooth'", "require a cut by whole hexes"),
         ("[cut]\nhexes = '0'", "require a cut by whole hexes"),
