@@ -101,8 +101,12 @@ def read_catalogue(path: Path) -> tuple[str, list[Entry]]:
     """
     try:
         lines = path.read_text(encoding="utf-8-sig").split("\n")  # some editors write a byte order mark
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileError(path, f"cannot be read: {error}", "Choose a text file in UTF-8.") from None
+    except OSError as error:
+        raise FileError(path, f"cannot be read: {error.strerror or error}", "Choose another file.") from None
+    except UnicodeDecodeError as error:
+        raise FileError(
+            path, f"is not text in UTF-8: {error.reason} at byte {error.start}", "Save it in UTF-8."
+        ) from None
     blocks = list(_blocks(path, lines))
     header = next((texts["msgstr"] for _, texts in blocks if texts.get("msgid") == ""), "")
     entries = []

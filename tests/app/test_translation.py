@@ -439,6 +439,15 @@ def test_a_damaged_catalogue_is_refused(tmp_path, content, problem):
     assert problem in str(error.value)
 
 
+def test_a_catalogue_that_cannot_be_read_is_refused(tmp_path):
+    path = tmp_path / "de.po"
+    with pytest.raises(FileError, match=r"de\.po: cannot be read: No such file or directory"):
+        Translation(path)
+    path.write_bytes(b'msgid "\xe4"\n')
+    with pytest.raises(FileError, match=r"is not text in UTF-8: .* at byte 7"):
+        Translation(path)
+
+
 def test_the_language_of_the_system_is_used_if_there_is_a_catalogue(german, monkeypatch, qapp):
     installed = []
     monkeypatch.setattr(language, "languages", lambda: {"de": german})

@@ -64,7 +64,7 @@ def test_the_mesh_is_found_at_its_path_or_next_to_the_picture(picture, tmp_path)
 
 @pytest.mark.parametrize("file", ["/etc/passwd", "\\\\host\\share\\a.vtu", "c:/mesh.vtu", "http://host/a"])
 def test_paths_that_are_not_relative_are_rejected(file):
-    with pytest.raises(ParameterError, match="no path relative to the picture"):
+    with pytest.raises(ParameterError, match="is not a path relative to the picture"):
         PicturedMesh(file, "0" * 64, "0" * 64)
 
 

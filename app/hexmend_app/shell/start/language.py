@@ -85,5 +85,5 @@ def _named(language: str) -> Path | None:
     known = languages()
     if language not in known:
         expected = ", ".join(["en", *known])
-        raise ParameterError(f"there is no translation {language!r}: expected {expected} or a file {SUFFIX}")
+        raise ParameterError(f"there is no translation {language!r}: expected {expected}, or a {SUFFIX} file")
     return known[language]
