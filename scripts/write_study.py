@@ -13,7 +13,8 @@ import re
 import shutil
 import sys
 from pathlib import Path
-from textwrap import fill
+
+from hexmend.report.markdown import wrapped
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 #: The section written by hand; links to files outside docs/.
@@ -74,11 +75,6 @@ def pages(chapter: dict[str, str], own: str, offsets: str, remarks: str) -> dict
     }
     written = {name: "\n".join(part.rstrip() + "\n" for part in some) for name, some in parts.items()}
     return {**written, "study.md": wrapped(written["study.md"])}
-
-
-def wrapped(text: str) -> str:
-    """Break lines of prose that are longer than those of the section written by hand."""
-    return "\n".join(fill(line, 120, break_on_hyphens=False) if len(line) > 120 else line for line in text.split("\n"))
 
 
 def main() -> None:

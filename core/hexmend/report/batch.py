@@ -159,5 +159,5 @@ def _line(rows: Rows) -> list[str]:
 
 
 def machine_words(machine: Mapping[str, Any]) -> str:
-    """Describe the computer as a sentence, from `hexmend.study.bench.sections.machine`."""
-    return f"Asked for on: {'; '.join(f'{key} {escape(str(value))}' for key, value in machine.items())}."
+    """Describe the computer on which a study was started as a sentence, from `hexmend.study.bench.sections.machine`."""
+    return f"Started on: {'; '.join(f'{key} {escape(str(value))}' for key, value in machine.items())}."

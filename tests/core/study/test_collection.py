@@ -126,6 +126,7 @@ def test_tables_replace_what_is_between_the_marks_of_a_page(bench):
     assert "old" not in text.splitlines()
     assert "| bridge.vtk | " in text
     assert "All figures" not in text
+    assert max(len(line) for line in text.splitlines() if not line.startswith("|")) <= 120
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ from hexmend.report.collection.page import write_page
 from hexmend.report.collection.record import CollectionRecord
 from hexmend.report.collection.tables import collection_tables, figures_table
 from hexmend.report.documents import write_csv, write_text
-from hexmend.report.markdown import escape, markdown
+from hexmend.report.markdown import escape, markdown, wrapped
 
 #: Marks in a page of Markdown between which the tables are written.
 BEGIN, END = "<!-- collection -->", "<!-- end -->"
@@ -56,7 +56,7 @@ def replace_tables(page: Path, record: CollectionRecord) -> None:
     text = read_page(page)
     begin = text.index(BEGIN) + len(BEGIN)
     tables = "\n\n".join([_conditions(record), *map(markdown, collection_tables(record))])
-    write_text(page, f"{text[:begin]}\n{tables.rstrip()}\n{text[text.index(END, begin) :]}")
+    write_text(page, f"{text[:begin]}\n{wrapped(tables.rstrip())}\n{text[text.index(END, begin) :]}")
 
 
 def read_page(page: Path) -> str:
