@@ -95,9 +95,15 @@ class MeshEnergy(TargetScales):
         """Index of each corner among the free nodes, -1 if it is fixed, (m, 8) int32."""
         return index_of(self.nodes, self.mesh.n_nodes)[self.mesh.hexes]
 
-    @cached_property
+    @property
     def sparsity(self) -> BlockSparsity:
-        """Sparsity pattern of the Hessian: pairs of free nodes that share a hex."""
+        """Sparsity pattern of the Hessian: pairs of free nodes that share a hex, or a corner tetrahedron for p = 1."""
+        couples_hexes = self.norm.p != 1 or self.barrier is not None
+        return self.ordered_nodes if couples_hexes else self.ordered_nodes.of_tetrahedra
+
+    @cached_property
+    def ordered_nodes(self) -> BlockSparsity:
+        """The order of free nodes in Hessians, with the pattern of all pairs that share a hex."""
         return BlockSparsity(self.mesh, workspace=self._workspace)
 
     @property

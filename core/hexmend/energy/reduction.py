@@ -46,7 +46,8 @@ class Reduction:
         self._own, self._tied = np.flatnonzero(root[free] == free), np.flatnonzero(root[free] != free)
         self._turn = turn[free]
         self._bent = np.flatnonzero((self._turn != np.eye(3)).any(axis=(1, 2)))
-        self._turned: dict[np.dtype, tuple] = {}
+        self._turned: dict[tuple[BlockSparsity, np.dtype], tuple] = {}
+        self._maps: dict[BlockSparsity, tuple[np.ndarray, ...]] = {}
         own_turn = turn[self.nodes]
         self._restricted = np.flatnonzero((own_turn != np.eye(3)).any(axis=(1, 2)))
         self._projectors = own_turn[self._restricted]
@@ -120,8 +121,8 @@ class Reduction:
         first. Then there are the numbers of the others with the slots of their rows and columns.
         """
         dtype = full.off_diagonal.dtype
-        if dtype not in self._turned:
-            sparsity = full.sparsity
+        sparsity = full.sparsity
+        if (sparsity, dtype) not in self._turned:
             turn = np.empty(self._turn.shape, dtype)
             turn[full.order] = self._turn
             row = np.repeat(np.arange(sparsity.nodes.size), np.diff(sparsity.row_start))
@@ -133,17 +134,20 @@ class Reduction:
             turned = np.flatnonzero(turned)
             scale = (diagonal[row[scaled], :, None] * diagonal[column[scaled], None]).reshape(-1, 9)
             others = turned.astype(np.int32), row[turned].astype(np.int32), column[turned]
-            self._turned[dtype] = turn, (scaled, scale), others, np.flatnonzero(bent)
-        return self._turned[dtype]
+            self._turned[sparsity, dtype] = turn, (scaled, scale), others, np.flatnonzero(bent)
+        return self._turned[sparsity, dtype]
 
     @cached_property
-    def sparsity(self) -> BlockSparsity:
-        """Sparsity pattern of the reduced Hessian."""
+    def _ordered_nodes(self) -> BlockSparsity:
         return BlockSparsity(self.independent_mesh)
+
+    def sparsity(self, whole: BlockSparsity) -> BlockSparsity:
+        """Sparsity pattern of the reduced Hessian, from that of the Hessian of all free nodes."""
+        return self._ordered_nodes if whole.has_opposite else self._ordered_nodes.of_tetrahedra
 
     def _merged(self, full: AssembledHessian) -> AssembledHessian:
         """Sum the blocks of tied nodes and of their masters."""
-        matrix = AssembledHessian.zero(self.sparsity, full.off_diagonal.dtype)
+        matrix = AssembledHessian.zero(self.sparsity(full.sparsity), full.off_diagonal.dtype)
         matrix.exponent = full.exponent
         order, start, transposed, inside, inside_slot, slot_of = self._merge_map(full)
         blocks = full.off_diagonal[:-1].reshape(-1, 3, 3)
@@ -157,8 +161,9 @@ class Reduction:
 
     def _merge_map(self, full: AssembledHessian) -> tuple[np.ndarray, ...]:
         """Map of the blocks of all free nodes to those of `sparsity`; it depends on the patterns alone."""
-        if "_map" not in self.__dict__:
-            part, whole = self.sparsity, full.sparsity
+        whole = full.sparsity
+        if whole not in self._maps:
+            part = self.sparsity(whole)
             slot_of = np.empty(whole.nodes.size, np.int64)
             slot_of[whole.order] = part.order[self.row]
             row = slot_of[np.repeat(np.arange(whole.nodes.size), np.diff(whole.row_start))]
@@ -168,5 +173,5 @@ class Reduction:
             order = np.argsort(key, kind="stable")
             order = order[row[order] != column[order]]
             start = np.flatnonzero(np.diff(key[order], prepend=-1))  # the blocks of `part` are in this order
-            self._map = order, start, np.flatnonzero(row > column), inside, row[inside], slot_of
-        return self._map
+            self._maps[whole] = order, start, np.flatnonzero(row > column), inside, row[inside], slot_of
+        return self._maps[whole]

@@ -14,6 +14,7 @@ from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.mesh_energy import MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
+from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import conjugate_gradients
 
 #: Length of the probing step for directional derivatives, in mean edge lengths.
@@ -75,6 +76,7 @@ class SlidingEnergy(MeshEnergy):
         self.sliding, self.sliding_nodes = sliding, nodes
         self.faceted = self.ranks.any(nodes.size > 0)
         self._rows = np.searchsorted(self.nodes, nodes)
+        self._sliding_blocks: dict[BlockSparsity, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
         self._projected: tuple[np.ndarray, np.ndarray] | None = None
 
@@ -170,16 +172,18 @@ class SlidingEnergy(MeshEnergy):
     @cached_property
     def sliding_slots(self) -> np.ndarray:
         """Slots of the nodes that have `projectors`, (k,) int."""
-        return self.sparsity.order[self._rows]
+        return self.ordered_nodes.order[self._rows]
 
-    @cached_property
+    @property
     def sliding_blocks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Blocks above the diagonal with a sliding node, and the slots of their rows and columns, (b,) each."""
         sparsity = self.sparsity
-        slides = mask(self.sliding_slots, sparsity.nodes.size)
-        row = np.repeat(np.arange(slides.size), np.diff(sparsity.row_start))
-        at = np.flatnonzero(slides[row] | slides[sparsity.columns])
-        return at.astype(np.int32), row[at].astype(np.int32), sparsity.columns[at]
+        if sparsity not in self._sliding_blocks:
+            slides = mask(self.sliding_slots, sparsity.nodes.size)
+            row = np.repeat(np.arange(slides.size), np.diff(sparsity.row_start))
+            at = np.flatnonzero(slides[row] | slides[sparsity.columns])
+            self._sliding_blocks[sparsity] = at.astype(np.int32), row[at].astype(np.int32), sparsity.columns[at]
+        return self._sliding_blocks[sparsity]
 
 
 class SlidingHessian(Hessian):

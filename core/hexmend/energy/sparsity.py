@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import itertools
 from collections.abc import Callable
 from functools import cached_property
@@ -41,11 +42,6 @@ class BlockSparsity:
     ranks : Ranks, optional
         The ranks that share the matrix.
 
-    Raises
-    ------
-    MeshError
-        For more blocks than 32 bits can number.
-
     Attributes
     ----------
     nodes : (k + ghosts,) int32
@@ -56,8 +52,8 @@ class BlockSparsity:
         Limits of the parts, then of the separators, in slots.
     order : (k,) int64
         Slot of each free node of this rank, in the order of node numbers.
-    row_start, columns : (k + ghosts + 1,) int32, (blocks,) int32
-        Blocks above the diagonal, as compressed rows.
+    has_opposite : bool
+        Nodes that only opposite corners of hexes join have a block too; see `of_tetrahedra`.
     """
 
     def __init__(
@@ -69,7 +65,7 @@ class BlockSparsity:
         ranks: Ranks = ONE_RANK,
     ):
         self.workspace, self.ranks = workspace or Workspace(), ranks
-        corners, rings = mesh.topology.node_corners, mesh.topology.rings
+        rings = mesh.topology.rings
         free = mesh.free if owned is None else mesh.free & owned
         if parts is None:
             count = np.count_nonzero(free)
@@ -80,13 +76,47 @@ class BlockSparsity:
             ghosts = np.flatnonzero(mesh.free & ~owned).astype(np.int32)
             self.nodes, self.ghosts = np.concatenate([self.nodes, ghosts]), ghosts.size
         self._slot_of_node = index_of(self.nodes, mesh.n_nodes)
-        slots = self._slot_of_node[mesh.hexes]
-        with overflow_as_mesh_error("pairs of free nodes that share a hex"):
-            self.row_start, self.columns = kernels.pattern(slots, self.nodes, corners.start, corners.items, MAX_ITEMS)
-        self._hexes, self._topology = mesh.hexes, mesh.topology
+        self._hexes, self._topology, self.has_opposite = mesh.hexes, mesh.topology, True
         self._shares: tuple[int, HexShares | None] = 0, None
-        del slots
         release_free_memory()  # before the blocks of the matrix take most of it
+
+    @cached_property
+    def of_tetrahedra(self) -> BlockSparsity:
+        """The same slots, without blocks of nodes that only opposite corners of hexes join: a third fewer.
+
+        Those blocks are 0 in the Hessian of a sum over corner tetrahedra, as the energy is for p = 1.
+        """
+        other = copy.copy(self)
+        for name in ("_pattern", "of_tetrahedra"):
+            other.__dict__.pop(name, None)
+        other.has_opposite, other._shares = False, (0, None)
+        return other
+
+    @cached_property
+    def _pattern(self) -> tuple[np.ndarray, np.ndarray]:
+        corners = self._topology.node_corners
+        with overflow_as_mesh_error("pairs of free nodes that share a hex"):
+            pattern = kernels.pattern(
+                self.slots, self.nodes, corners.start, corners.items, self.has_opposite, MAX_ITEMS
+            )
+        release_free_memory()
+        return pattern
+
+    @property
+    def row_start(self) -> np.ndarray:
+        """First block above the diagonal of each row, (k + ghosts + 1,) int32."""
+        return self._pattern[0]
+
+    @property
+    def columns(self) -> np.ndarray:
+        """Column of each block above the diagonal, (blocks,) int32.
+
+        Raises
+        ------
+        MeshError
+            For more blocks than 32 bits can number.
+        """
+        return self._pattern[1]
 
     @property
     def slots(self) -> np.ndarray:

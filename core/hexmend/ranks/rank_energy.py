@@ -37,7 +37,7 @@ class RankEnergy(MeshEnergy):
         self.nodes = np.flatnonzero(part.mesh.free & part.owned).astype(np.int32)
 
     @cached_property
-    def sparsity(self) -> BlockSparsity:
+    def ordered_nodes(self) -> BlockSparsity:
         return BlockSparsity(self.mesh, workspace=self._workspace, owned=self.part.owned, ranks=self.ranks)
 
     @property

@@ -150,4 +150,4 @@ class RankSlidingEnergy(SlidingEnergy, RankEnergy):
 
     @cached_property
     def sliding_slots(self) -> np.ndarray:
-        return index_of(self.sparsity.nodes, self.mesh.n_nodes)[self._sliding_here]
+        return index_of(self.ordered_nodes.nodes, self.mesh.n_nodes)[self._sliding_here]

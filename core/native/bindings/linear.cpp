@@ -128,10 +128,12 @@ void bind_ordering(nb::module_ m) {
 void bind_sparsity(nb::module_ m) {
     m.doc() = "Sparsity of a Hessian: the 3 x 3 blocks above its diagonal, one for each pair of free nodes of a hex.";
     m.attr("PAIRS") = PAIRS;
-    m.def("pattern", &pattern, "slots"_a, "nodes"_a, "start"_a, "corners"_a, "max_items"_a = MOST_ITEMS, ReleaseGil(),
+    m.def("pattern", &pattern, "slots"_a, "nodes"_a, "start"_a, "corners"_a, "opposite"_a = true,
+          "max_items"_a = MOST_ITEMS, ReleaseGil(),
           "Blocks above the diagonal.\n\n"
           "slots (m, 8): the slot of each corner, -1 if it is fixed; nodes (k,): the node of each slot; start,\n"
-          "corners: `Topology.node_corners`. Returns row_start (k + 1,) and columns, ascending within a row, int32.\n"
+          "corners: `Topology.node_corners`. Without `opposite`, nodes that only opposite corners of hexes join have\n"
+          "no block. Returns row_start (k + 1,) and columns, ascending within a row, int32.\n"
           "OverflowError where there are more than `max_items` blocks.");
 }
 

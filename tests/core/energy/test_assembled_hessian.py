@@ -32,7 +32,7 @@ def some_left_out(mesh, share, seed):
 
 def by_parts(hessian, parts):
     """Assemble the matrix with another division of its slots."""
-    hessian.energy.sparsity = BlockSparsity(hessian.energy.mesh, parts)
+    hessian.energy.ordered_nodes = BlockSparsity(hessian.energy.mesh, parts)
     return hessian.assembled(np.float64)
 
 
@@ -110,6 +110,20 @@ def test_parts_share_no_block_but_with_the_separators_between_them(parts, made):
     allowed = {(k, k) for k in range(2 * made - 1)}
     allowed |= {(k, made + k) for k in range(made - 1)} | {(k + 1, made + k) for k in range(made - 1)}
     assert met <= allowed
+
+
+def test_opposite_corners_have_a_block_only_where_the_energy_couples_them():
+    """Inside a grid a node has 26 neighbours, 8 of which only opposite corners of hexes join."""
+    energies = MeshEnergy(grid(7), ObjectiveNorm(1)), MeshEnergy(grid(7))
+    counts = []
+    for energy in energies:
+        sparsity, points = energy.sparsity, energy.to_edge_units(energy.mesh.points)
+        rows = np.repeat(sparsity.nodes, np.diff(sparsity.row_start))
+        apart = np.abs(points[rows] - points[sparsity.nodes[sparsity.columns]]).sum(axis=1).round()
+        counts.append(np.bincount(apart.astype(int), minlength=4).tolist())
+    (_, *few, none), (_, *same, opposite) = counts
+    assert (few, none) == (same, 0)
+    assert opposite == 4 * 5**3  # a block above the diagonal for each diagonal of the hexes inside
 
 
 @pytest.mark.parametrize("parts", [1, 2, 3])

@@ -231,7 +231,7 @@ def test_public_functions_take_any_whole_numbers_and_order():
 def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
     mesh = scrambled(grid(20), 0.3)
     energy = MeshEnergy(mesh)
-    energy.sparsity = BlockSparsity(mesh, parts)
+    energy.ordered_nodes = BlockSparsity(mesh, parts)
     assert energy.sparsity.bounds.size == 2 * parts
     x, most, answers = energy.to_edge_units(mesh.points), kernels.threads(), []
     colours, rings = mesh.topology.colouring(mesh.free), mesh.topology.rings
