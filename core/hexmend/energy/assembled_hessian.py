@@ -46,10 +46,11 @@ class AssembledHessian(SymmetricOperator):
     Parameters
     ----------
     sparsity : BlockSparsity
-    off_diagonal : (blocks + 1, 9) float32 or float64
-        Blocks above the diagonal, by rows; the last row is unused (see `hexmend.kernels.conjugate_gradients`).
-    diagonal : (k, 6) of the same
-        Diagonal block of each slot: xx xy xz yy yz zz.
+    off_diagonal : (blocks + 1, 9) float32 or float64, or (blocks + 1, 12) int16
+        Blocks above the diagonal, by rows; the last row is unused (see `hexmend.kernels.conjugate_gradients`). int16:
+        packed (see `hexmend.kernels.assembly.assemble_packed`).
+    diagonal : (k, 6) float32 or float64
+        Diagonal block of each slot, in the precision of the matrix: xx xy xz yy yz zz.
     exponent : int
         Scale: the matrix is 2^exponent times the blocks.
     """
@@ -63,16 +64,28 @@ class AssembledHessian(SymmetricOperator):
 
     def reset(self) -> AssembledHessian:
         """Zero the storage for reuse; the old matrix becomes invalid."""
-        self.off_diagonal.fill(0)
+        if not self.packed:  # those are written, not added to
+            self.off_diagonal.fill(0)
         self.diagonal.fill(0)
         self.exponent = 0
         return self
 
     @classmethod
-    def zero(cls, sparsity: BlockSparsity, dtype: type) -> AssembledHessian:
-        """Make a zero matrix of a sparsity pattern."""
-        off_diagonal = np.zeros((sparsity.blocks + 1, 9), dtype)
+    def zero(cls, sparsity: BlockSparsity, dtype: type, packed: bool = False) -> AssembledHessian:
+        """Make a zero matrix of a sparsity pattern; `packed`: with blocks of 24 bytes for single precision."""
+        count = sparsity.blocks + 1
+        off_diagonal = np.zeros((count, 12), np.int16) if packed else np.zeros((count, 9), dtype)
         return cls(sparsity, off_diagonal, np.zeros((sparsity.nodes.size, 6), dtype))
+
+    @property
+    def dtype(self) -> np.dtype:
+        """Precision of the matrix: that of the diagonal blocks, and of vectors that it is solved for."""
+        return self.diagonal.dtype
+
+    @property
+    def packed(self) -> bool:
+        """True if the blocks above the diagonal have 24 bytes."""
+        return self.off_diagonal.dtype == np.int16
 
     def underflows(self) -> bool:
         """Return True if the blocks are so small that single precision loses digits of them."""
@@ -86,7 +99,7 @@ class AssembledHessian(SymmetricOperator):
         """Return the matrix in another precision, scaled so that its largest diagonal entry lies in [1/2, 1)."""
         exponent = int(np.frexp(self._largest(self.diagonal))[1])
         off_diagonal, diagonal = (
-            np.ldexp(blocks, -exponent).astype(dtype) for blocks in (self.off_diagonal, self.diagonal)
+            np.ldexp(blocks, -exponent).astype(dtype) for blocks in (self.unpacked_blocks(), self.diagonal)
         )
         return AssembledHessian(self.sparsity, off_diagonal, diagonal, self.exponent + exponent)
 
@@ -100,7 +113,7 @@ class AssembledHessian(SymmetricOperator):
 
     def _to_slots(self, v: np.ndarray, exponent: int) -> np.ndarray:
         """Rearrange v (3 k,) times 2^exponent by slots, (k, 4), in the matrix's precision; the fourth column is 0."""
-        x = np.empty((self.order.size, 4), self.off_diagonal.dtype)
+        x = np.empty((self.order.size, 4), self.dtype)
         if abs(exponent) > _MAX_EXPONENT:
             v, exponent = np.ldexp(v, exponent), 0
         kernels.to_slots(v.reshape(-1, 3), self.order, 2.0**exponent, x)
@@ -170,6 +183,16 @@ class AssembledHessian(SymmetricOperator):
         solution = self._from_slots(x, exponent - self.exponent)
         return CGResult(solution, count, end is kernels.SolveStatus.NEGATIVE_CURVATURE)
 
+    def unpacked_blocks(self) -> np.ndarray:
+        """Return the blocks above the diagonal in the precision of the matrix, (blocks + 1, 9)."""
+        if not self.packed:
+            return self.off_diagonal
+        upper, last = self.off_diagonal[:, :9].astype(np.int32) << 4, self.off_diagonal[:, 9].astype(np.int32)
+        lower = self.off_diagonal[:, 10:].copy().view(np.uint32) >> np.arange(0, 32, 4, dtype=np.uint32) & 15
+        upper[:, :8] |= lower.astype(np.int32)
+        upper[:, 8] |= last >> 8 & 15
+        return ((last & 255) << 23).view(np.float32)[:, None] * upper.astype(np.float32)
+
     @property
     def diagonal_blocks(self) -> np.ndarray:
         """Diagonal blocks in the order of the free nodes, (k, 6) float64: xx xy xz yy yz zz."""
@@ -181,7 +204,7 @@ class AssembledHessian(SymmetricOperator):
 
         start, columns = self.sparsity.row_start, self.sparsity.columns
         slots = np.arange(self.order.size)
-        rows, off_diagonal = np.repeat(slots, np.diff(start)), self.off_diagonal[:-1].reshape(-1, 3, 3)
+        rows, off_diagonal = np.repeat(slots, np.diff(start)), self.unpacked_blocks()[:-1].reshape(-1, 3, 3)
         i, j = np.concatenate([slots, rows, columns]), np.concatenate([slots, columns, rows])
         blocks = np.concatenate([unpack_symmetric(self.diagonal), off_diagonal, off_diagonal.transpose(0, 2, 1)])
         free = np.argsort(self.order)  # the number of each slot's node among the free nodes

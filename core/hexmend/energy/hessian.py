@@ -8,16 +8,21 @@ import numpy as np
 
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.linear_operator import SymmetricOperator
-from hexmend.kernels import assembly, threads
+from hexmend.kernels import assembly, conjugate_gradients, threads
 from hexmend.kernels import objective as kernels
 
 if TYPE_CHECKING:
     from hexmend.energy.floor_barrier import FloorBarrier
     from hexmend.energy.norm import ObjectiveNorm
     from hexmend.energy.quads.surface_term import SurfaceTerm
+    from hexmend.energy.ranks import Ranks
     from hexmend.energy.sparsity import BlockSparsity
     from hexmend.kernels.target import TargetMatrices
     from hexmend.mesh.mesh import Mesh
+
+
+#: Share of nodes with stretched diagonal blocks above which blocks are not packed.
+_MOST_STRETCHED = 0.01
 
 
 class EnergyOfHexes(Protocol):
@@ -32,6 +37,7 @@ class EnergyOfHexes(Protocol):
     barrier: FloorBarrier | None
     surface: SurfaceTerm | None
     sparsity: BlockSparsity
+    ranks: Ranks
     precision: type
     corner_buffer: np.ndarray
 
@@ -82,8 +88,9 @@ class Hessian(SymmetricOperator):
         Parameters
         ----------
         dtype : numpy.float32 or numpy.float64, optional
-            Precision of the blocks; `MeshEnergy.precision` by default. A matrix too small for single precision (near
-            the optimum of a high p) is assembled in double precision and scaled before it is rounded.
+            Precision of the blocks; `MeshEnergy.precision` by default, and then those above the diagonal of a large
+            matrix in single precision are packed. A matrix too small for single precision (near the optimum of a high
+            p) is assembled in double precision and scaled before it is rounded.
         reuse : AssembledHessian, optional
             Matrix that is no longer needed: its storage is used if pattern and precision agree, as memory that has
             been touched before is faster.
@@ -92,23 +99,43 @@ class Hessian(SymmetricOperator):
         -------
         AssembledHessian
         """
-        sparsity, dtype = self.energy.sparsity, dtype or self.energy.precision
-        fits = reuse is not None and reuse.sparsity is sparsity and reuse.off_diagonal.dtype == dtype
-        matrix = reuse.reset() if fits else AssembledHessian.zero(sparsity, dtype)
-        self._assemble(matrix)
+        energy = self.energy
+        sparsity, packed = energy.sparsity, dtype is None and self._is_packed
+        dtype = dtype or energy.precision
+        fits = reuse is not None and (reuse.sparsity, reuse.dtype, reuse.packed) == (sparsity, dtype, packed)
+        matrix = reuse.reset() if fits else AssembledHessian.zero(sparsity, dtype, packed)
+        stretched = self._assemble(matrix)
+        if packed and energy.ranks.any(stretched > _MOST_STRETCHED * sparsity.order.size):
+            del matrix
+            sparsity.packs = False
+            return self.assembled()
         if dtype == np.float32 and matrix.underflows():
             wide = AssembledHessian.zero(sparsity, np.float64)
             self._assemble(wide)
             return wide.normalised(dtype)
         return matrix
 
-    def _assemble(self, matrix: AssembledHessian) -> None:
-        """Add this Hessian to a matrix of zeros."""
+    @property
+    def _is_packed(self) -> bool:
+        energy = self.energy
+        whole = energy.barrier is None and energy.surface is None  # nothing else is added to the blocks
+        return whole and energy.precision is np.float32 and energy.sparsity.packs
+
+    def _assemble(self, matrix: AssembledHessian) -> int:
+        """Add this Hessian to a matrix of zeros; returns the number of nodes for which packed blocks are too coarse."""
+        stretched = 0
         energy, shares = self.energy, self.energy.sparsity.shares(threads())
         blocks = matrix.off_diagonal, matrix.diagonal
-        assembly.assemble(self.x, self.delta, energy.norm, energy.omitted, shares, *blocks, energy.target)
+        given = self.x, self.delta, energy.norm, energy.omitted, shares
+        if matrix.packed:
+            assembly.assemble_packed(*given, energy.sparsity.first_separator, *blocks, energy.target)
+            stretched = conjugate_gradients.complete_diagonal(energy.sparsity.pattern, *blocks)
+        else:
+            assembly.assemble(*given, *blocks, energy.target)
         if energy.barrier is not None:
             energy.barrier.assemble(self.x, energy.omitted, shares, blocks, energy.target)
         if energy.surface is not None:
             energy.surface.assemble(self.x, energy.norm, matrix)
-        matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)
+        if self.shift:
+            matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)
+        return stretched

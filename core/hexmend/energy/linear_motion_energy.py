@@ -134,7 +134,7 @@ class LinearMotionHessian(Hessian):
 
     def assembled(self, dtype: type | None = None, reuse: AssembledHessian | None = None) -> AssembledHessian:
         energy, storage = self.energy, None if reuse is None else reuse.unreduced or reuse
-        full = energy.energy.hessian(self.x, self.delta).assembled(dtype, storage)
+        full = energy.energy.hessian(self.x, self.delta).assembled(dtype or energy.precision, storage)
         matrix = energy.reduction.reduced(full)
         matrix.diagonal += np.ldexp(self.shift, -matrix.exponent) * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)
         if matrix is not full:

@@ -100,7 +100,7 @@ class Reduction:
         -------
         AssembledHessian
         """
-        dtype = full.off_diagonal.dtype
+        dtype = full.dtype
         turn, (scaled, scale), (turned, row, column), slots = self._turned_blocks(full)
         full.off_diagonal[scaled] *= scale
         conjugate_gradients.turn_blocks(turn.reshape(-1, 9), turned, row, column, full.off_diagonal)
@@ -120,8 +120,7 @@ class Reduction:
         Blocks of nodes in planes and lines of the axes are only scaled: their numbers and factors, (b,) and (b, 9),
         first. Then there are the numbers of the others with the slots of their rows and columns.
         """
-        dtype = full.off_diagonal.dtype
-        sparsity = full.sparsity
+        dtype, sparsity = full.dtype, full.sparsity
         if (sparsity, dtype) not in self._turned:
             turn = np.empty(self._turn.shape, dtype)
             turn[full.order] = self._turn
@@ -147,7 +146,7 @@ class Reduction:
 
     def _merged(self, full: AssembledHessian) -> AssembledHessian:
         """Sum the blocks of tied nodes and of their masters."""
-        matrix = AssembledHessian.zero(self.sparsity(full.sparsity), full.off_diagonal.dtype)
+        matrix = AssembledHessian.zero(self.sparsity(full.sparsity), full.dtype)
         matrix.exponent = full.exponent
         order, start, transposed, inside, inside_slot, slot_of = self._merge_map(full)
         blocks = full.off_diagonal[:-1].reshape(-1, 3, 3)

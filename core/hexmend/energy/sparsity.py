@@ -23,6 +23,8 @@ from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))
 #: Number of slots from which on a coarse space saves more than it costs.
 _DEFLATED = 400_000
+#: Number of free nodes, of all ranks, from which on packed blocks are worth what their rounding may cost.
+_LARGE = 250_000
 
 
 class BlockSparsity:
@@ -139,6 +141,16 @@ class BlockSparsity:
             shares = HexShares(bounds, start, chosen, self._hexes, at, self.row_start, self.columns)
             self._shares = count, shares
         return shares
+
+    @cached_property
+    def packs(self) -> bool:
+        """True if matrices need so much memory that their blocks are better packed."""
+        return self.ranks.sum(self.order.size) >= _LARGE
+
+    @property
+    def first_separator(self) -> int:
+        """The first slot of a separator or, where there are none, one more than the last."""
+        return int(self.bounds[self.bounds.size // 2])
 
     @property
     def pattern(self) -> BlockPattern:

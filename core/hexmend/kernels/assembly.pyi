@@ -35,3 +35,13 @@ def assemble(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), ord
     Bit t of omitted (m,) uint8 is set where corner tetrahedron t of a hex is omitted. off_diagonal (blocks +
     1, 9): blocks above the diagonal, by rows, and an unused one. diagonal (k, 6): xx xy xz yy yz zz.
     """
+
+def assemble_packed(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], delta: float, norm: tuple[float, float], omitted: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], shares: HexShares, first_separator: int, off_diagonal: Annotated[NDArray[numpy.int16], dict(shape=(None, 12), order='C', device='cpu')], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu')], target: hexmend.kernels.target.TargetMatrices | None = None) -> None:
+    """
+    Write the Hessian of sum eta(H)^p above the diagonal to off_diagonal (blocks + 1, 12) int16, packed.
+
+    A block has nine whole numbers of 20 bits, by rows, and a power of two that they are multiplied by: each is
+    rounded by at most 2^-19 of the largest. What belongs to fixed nodes is added to diagonal (k, 6) float32;
+    `conjugate_gradients.complete_diagonal` adds the rest. Slots from first_separator on are those of
+    separators, the last of which may be ghosts; see `assemble`.
+    """

@@ -49,6 +49,13 @@ def coarse_pattern(slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), 
     `Topology.node_corners`. All are int32.
     """
 
+def complete_diagonal(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.int16], dict(shape=(None, 12), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu')]) -> int:
+    """
+    Add to diagonal (k, 6) float32, which `assembly.assemble_packed` began, what follows from the packed blocks
+    (blocks + 1, 12): rows sum to the shares of fixed nodes. Returns the number of diagonal blocks whose
+    eigenvalues differ too much for packed blocks.
+    """
+
 def coarse_workspace_size(coarse: CoarsePattern) -> int:
     """
     Numbers that `solve` needs in its workspace for a coarse space, besides `workspace_size`.
@@ -63,14 +70,18 @@ def workspace_size(pattern: BlockPattern, ghosts: int = 0, coupled: bool = False
 def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')], ghosts: int = 0, sum: object | None = None, exchange: object | None = None, coarse: CoarsePattern | None = None) -> tuple[int, SolveStatus]: ...
 
 @overload
-def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], ghosts: int = 0, sum: object | None = None, exchange: object | None = None, coarse: CoarsePattern | None = None) -> tuple[int, SolveStatus]:
+def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], ghosts: int = 0, sum: object | None = None, exchange: object | None = None, coarse: CoarsePattern | None = None) -> tuple[int, SolveStatus]: ...
+
+@overload
+def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.int16], dict(shape=(None, 12), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')], ghosts: int = 0, sum: object | None = None, exchange: object | None = None, coarse: CoarsePattern | None = None) -> tuple[int, SolveStatus]:
     """
     Solve A x = rhs, stopping at a direction of negative curvature (Steihaug 1983).
 
     At such a direction x is the iterate so far or, if it is the first, that direction. Vectors, (k, 4)
     with a fourth number 0, are in the precision of the matrix; sums over them are in double precision.
 
-    off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:
+    off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one; or (blocks + 1, 12) int16,
+    packed, for vectors in single precision, see `assembly.assemble_packed`. diagonal (k, 6). damping:
     this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand
     side, both in the norm of M^-1. work: see `workspace_size`. Writes x; returns the iterations and the
     status. With `coarse` the iteration is deflated by the translations of aggregates, unless the matrix is not
@@ -79,6 +90,20 @@ def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64],
     Where several processes share a matrix, its columns from k on belong to ghosts, slots of other
     processes. `sum` adds a number over all processes; `exchange` is called with an array (k + ghosts, 4)
     of which it sends rows, and receives those of the ghosts. All processes call it together.
+    """
+
+@overload
+def product(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None: ...
+
+@overload
+def product(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None: ...
+
+@overload
+def product(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.int16], dict(shape=(None, 12), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
+    """
+    Product A x of x (k, 3) in double precision; writes y (k, 3).
+
+    Row k of x and y belongs to slot order[k].
     """
 
 @overload
@@ -99,17 +124,6 @@ def from_slots(of_slots: Annotated[NDArray[numpy.float32], dict(shape=(None, 4),
 def from_slots(of_slots: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], scale: float, of_nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
     """
     Write vectors of slots (k, 4), times a scale, to nodes (k, 3); see `to_slots`.
-    """
-
-@overload
-def product(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None: ...
-
-@overload
-def product(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
-    """
-    Product A x of x (k, 3) in double precision; writes y (k, 3).
-
-    Row k of x and y belongs to slot order[k].
     """
 
 @overload

@@ -2,6 +2,7 @@
 #include "linear/aggregates.hpp"
 #include "linear/coarse_space.hpp"
 #include "linear/conjugate_gradients.hpp"
+#include "linear/packed_diagonal.hpp"
 #include "linear/sparsity.hpp"
 #include "linear/turned_blocks.hpp"
 #include "mesh/csr.hpp"
@@ -27,16 +28,17 @@ Coupling<Real> coupling_of(std::int64_t slots, std::int64_t ghosts, nb::handle s
             }};
 }
 
-template <class Real> void bind_for(nb::module_ m) {
+template <class Block> void bind_matrix(nb::module_ m) {
+    using Real = NumberOf<Block>;
     m.def(
         "solve",
-        [](const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, DiagonalBlocks<Real> diagonal, double damping,
+        [](const BlockPattern &pattern, UpperBlocks<Block> off_diagonal, DiagonalBlocks<Real> diagonal, double damping,
            Vectors<Real> right, double tolerance, int max_iterations, std::span<std::array<Real, 4>> x,
            std::span<Real> work, std::int64_t ghosts, nb::handle sum, nb::handle exchange,
            const CoarsePattern *coarse) {
             auto coupling = coupling_of<Real>(pattern.bounds.back(), ghosts, sum, exchange);
-            return solve<Real>(pattern, off_diagonal, diagonal, damping, right, tolerance, max_iterations, x, work,
-                               coupling, coarse);
+            return solve<Block>(pattern, off_diagonal, diagonal, damping, right, tolerance, max_iterations, x, work,
+                                coupling, coarse);
         },
         "pattern"_a, "off_diagonal"_a, "diagonal"_a, "damping"_a, "rhs"_a, "tolerance"_a, "max_iterations"_a, "x"_a,
         "work"_a, "ghosts"_a = 0, "sum"_a.none() = nb::none(), "exchange"_a.none() = nb::none(),
@@ -44,7 +46,8 @@ template <class Real> void bind_for(nb::module_ m) {
         "Solve A x = rhs, stopping at a direction of negative curvature (Steihaug 1983).\n\n"
         "At such a direction x is the iterate so far or, if it is the first, that direction. Vectors, (k, 4)\n"
         "with a fourth number 0, are in the precision of the matrix; sums over them are in double precision.\n\n"
-        "off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:\n"
+        "off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one; or (blocks + 1, 12) int16,\n"
+        "packed, for vectors in single precision, see `assembly.assemble_packed`. diagonal (k, 6). damping:\n"
         "this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand\n"
         "side, both in the norm of M^-1. work: see `workspace_size`. Writes x; returns the iterations and the\n"
         "status. With `coarse` the iteration is deflated by the translations of aggregates, unless the matrix is not\n"
@@ -52,17 +55,28 @@ template <class Real> void bind_for(nb::module_ m) {
         "Where several processes share a matrix, its columns from k on belong to ghosts, slots of other\n"
         "processes. `sum` adds a number over all processes; `exchange` is called with an array (k + ghosts, 4)\n"
         "of which it sends rows, and receives those of the ghosts. All processes call it together.");
+    m.def("product", &product<Block>, "pattern"_a, "off_diagonal"_a, "diagonal"_a, "order"_a, "x"_a, "y"_a,
+          ReleaseGil(),
+          "Product A x of x (k, 3) in double precision; writes y (k, 3).\n\n"
+          "Row k of x and y belongs to slot order[k].");
+}
+
+template <class Real> void bind_vectors(nb::module_ m) {
     m.def("to_slots", &to_slots<Real>, "of_nodes"_a, "order"_a, "scale"_a, "of_slots"_a, ReleaseGil(),
           "Write vectors of nodes (k, 3), times a scale, to slots (k, 4), whose fourth number becomes 0.\n\n"
           "Row k of of_nodes belongs to slot order[k], int64.");
     m.def("from_slots", &from_slots<Real>, "of_slots"_a, "order"_a, "scale"_a, "of_nodes"_a, ReleaseGil(),
           "Write vectors of slots (k, 4), times a scale, to nodes (k, 3); see `to_slots`.");
-    m.def("product", &product<Real>, "pattern"_a, "off_diagonal"_a, "diagonal"_a, "order"_a, "x"_a, "y"_a, ReleaseGil(),
-          "Product A x of x (k, 3) in double precision; writes y (k, 3).\n\n"
-          "Row k of x and y belongs to slot order[k].");
     m.def("turn_blocks", &turn_blocks<Real>, "turn"_a, "at"_a, "rows"_a, "columns"_a, "off_diagonal"_a, ReleaseGil(),
           "Replace the blocks `at` (j,) int32, which stand in rows and columns (j,) int32, by T_row^T B T_column.\n\n"
           "turn (k, 9): the matrix T of each slot; off_diagonal (blocks + 1, 9). Numbers must exist.");
+}
+
+void bind_packed(nb::module_ m) {
+    m.def("complete_diagonal", &complete_diagonal, "pattern"_a, "off_diagonal"_a, "diagonal"_a, ReleaseGil(),
+          "Add to diagonal (k, 6) float32, which `assembly.assemble_packed` began, what follows from the packed blocks\n"
+          "(blocks + 1, 12): rows sum to the shares of fixed nodes. Returns the number of diagonal blocks whose\n"
+          "eigenvalues differ too much for packed blocks.");
 }
 
 }  // namespace
@@ -107,12 +121,16 @@ void bind_conjugate_gradients(nb::module_ m) {
           "centre, of several to the first. slots (m, 8): the slot of each corner, -1 if it is fixed; slot_of_node\n"
           "(n,), -1 likewise; nodes (k,): the node of each slot; ring_start, ring: `Topology.rings`; start, corners:\n"
           "`Topology.node_corners`. All are int32.");
+    bind_packed(m);
     m.def("coarse_workspace_size", &coarse_workspace_size, "coarse"_a,
           "Numbers that `solve` needs in its workspace for a coarse space, besides `workspace_size`.");
     m.def("workspace_size", &workspace_size, "pattern"_a, "ghosts"_a = 0, "coupled"_a = false,
           "Numbers of the workspace of `solve`; `coupled`: with `sum` and `exchange`.");
-    bind_for<float>(m);
-    bind_for<double>(m);
+    bind_matrix<std::array<float, 9>>(m);
+    bind_matrix<std::array<double, 9>>(m);
+    bind_matrix<PackedBlock>(m);
+    bind_vectors<float>(m);
+    bind_vectors<double>(m);
 }
 
 void bind_ordering(nb::module_ m) {

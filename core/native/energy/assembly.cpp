@@ -1,19 +1,34 @@
 #include "energy/assembly.hpp"
 
+#include <limits>
 #include <memory>
 
 #include "energy/block_scatter.hpp"
 #include "energy/hex_hessian.hpp"
+#include "energy/open_blocks.hpp"
 
 namespace hexmend {
 namespace {
 
-template <bool soft, class Real, class Target>
+// Lowest slot of some hexes, and the highest before `first_separator`; those of fixed nodes, -1, do not count.
+std::pair<std::int32_t, std::int32_t> slot_range(std::span<const Hex> slots, std::int32_t first_separator) {
+    std::int32_t lowest = std::numeric_limits<std::int32_t>::max(), highest = -1;
+    for (const Hex &hex : slots)
+        for (auto slot : hex) {
+            if (slot >= 0) lowest = std::min(lowest, slot);
+            if (slot < first_separator) highest = std::max(highest, slot);
+        }
+    return {lowest, highest};
+}
+
+// Add the hexes of all shares to the blocks; open(low, high) returns those of the rows from `low` to `high` - 1.
+template <bool soft, class Real, class Target, class Open>
 void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
-                 std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
+                 std::int32_t first_separator, const Open &open, std::span<std::array<Real, 6>> diagonal,
                  const Target &target) {
     parallel(static_cast<std::int64_t>(shared.bounds.size()) - 1, [&](std::int64_t share) {
         auto low = shared.bounds[share], high = shared.bounds[share + 1];
+        auto off_diagonal = open(low, high);
         auto sums = std::make_unique<HessianSums>();
         auto values = std::make_unique<Real[][HEX_STRIDE]>(LANES);
         for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
@@ -35,6 +50,8 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
                 hexes[i] = shared.hexes[shared.numbers[first + i]];
                 slots[i] = shared.slots_of(shared.numbers[first + i]);
             }
+            const auto [lowest, highest] = slot_range({slots, static_cast<std::size_t>(count)}, first_separator);
+            off_diagonal.open_rows(lowest, highest);
             auto x = gather_corners<Lanes>(points, hexes, 0, count);
             auto scales = scales_of<Lanes>(target, [&](int i) { return shared.number(first, i, count); });
             std::uint8_t bits[LANES];
@@ -45,7 +62,7 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
             for (int i = 0; i < count; ++i) {
                 blocks[i] = blocks_of(slots[i], shared.row_start, shared.columns);
                 for (auto s : blocks[i])
-                    if (s >= 0) __builtin_prefetch(&off_diagonal[s], 1), __builtin_prefetch(&off_diagonal[s][8], 1);
+                    if (s >= 0) off_diagonal.prefetch(s);
             }
             *sums = HessianSums{};
             unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x, scales, delta, counted(t), *sums); });
@@ -53,6 +70,22 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
             for (int i = 0; i < count; ++i)
                 scatter<Real>(values[i], slots[i], blocks[i], low, high, off_diagonal, diagonal);
         }
+        off_diagonal.close();
+    });
+}
+
+template <class Real, class Open>
+void assemble_into(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
+                   std::int32_t first_separator, const Open &open, std::span<std::array<Real, 6>> diagonal,
+                   const TargetMatrices *matrices) {
+    expect_rows(matrices, omitted.size());
+    // A copy that the compiler can keep in registers: the AVX-512 build then rounds the same sums as before.
+    const auto [bounds, start, numbers, hexes, slots, row_start, columns] = shared;
+    const HexShares local{bounds, start, numbers, hexes, slots, row_start, columns};
+    with_target(matrices, [&](const auto &w) {
+        if (delta != 0)
+            assemble_of<true, Real>(points, delta, norm, omitted, local, first_separator, open, diagonal, w);
+        else assemble_of<false, Real>(points, delta, norm, omitted, local, first_separator, open, diagonal, w);
     });
 }
 
@@ -62,14 +95,18 @@ template <class Real>
 void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
               std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
               const TargetMatrices *matrices) {
-    expect_rows(matrices, omitted.size());
-    // A copy that the compiler can keep in registers: the AVX-512 build then rounds the same sums as before.
-    const auto [bounds, start, numbers, hexes, slots, row_start, columns] = shared;
-    const HexShares local{bounds, start, numbers, hexes, slots, row_start, columns};
-    with_target(matrices, [&](const auto &w) {
-        if (delta != 0) assemble_of<true, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal, w);
-        else assemble_of<false, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal, w);
-    });
+    auto open = [&](std::int32_t, std::int32_t) { return WholeBlocks<Real>{off_diagonal}; };
+    assemble_into<Real>(points, delta, norm, omitted, shared, 0, open, diagonal, matrices);
+}
+
+void assemble_packed(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
+                     std::int32_t first_separator, std::span<PackedBlock> off_diagonal,
+                     std::span<std::array<float, 6>> diagonal, const TargetMatrices *matrices) {
+    expect(off_diagonal.size() >= shared.columns.size(), "off_diagonal: a row for each of columns is expected");
+    auto open = [&](std::int32_t low, std::int32_t high) {
+        return OpenBlocks(shared.row_start, low, high, first_separator, off_diagonal);
+    };
+    assemble_into<float>(points, delta, norm, omitted, shared, first_separator, open, diagonal, matrices);
 }
 
 #define FOR_REAL(Real)                                                                             \

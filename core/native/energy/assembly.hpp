@@ -7,6 +7,7 @@
 #include "energy/objective.hpp"
 #include "energy/objective_norm.hpp"
 #include "energy/target.hpp"
+#include "linear/packed_block.hpp"
 #include "linear/sparsity.hpp"
 
 namespace hexmend {
@@ -37,5 +38,12 @@ template <class Real>
 void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
               std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
               const TargetMatrices *matrices = nullptr);
+
+// As `assemble` in single precision, but the blocks above the diagonal are written, packed, and the diagonal gets what
+// belongs to fixed nodes; `complete_diagonal` adds the rest. Slots from first_separator on are those of separators, see
+// sparsity.hpp.
+void assemble_packed(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
+                     std::int32_t first_separator, std::span<PackedBlock> off_diagonal,
+                     std::span<std::array<float, 6>> diagonal, const TargetMatrices *matrices = nullptr);
 
 }  // namespace hexmend

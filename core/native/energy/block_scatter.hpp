@@ -41,6 +41,13 @@ template <class Real> void add_with_transpose(const Real *block, std::array<Real
         for (int j = i; j < 3; ++j) own[at++] += block[3 * i + j] + block[3 * j + i];
 }
 
+// Subtract the symmetric part of a block from a diagonal block.
+template <class Real> void subtract_symmetric(const Real *block, std::array<Real, 6> &own) {
+    int at = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) own[at++] -= (block[3 * i + j] + block[3 * j + i]) / 2;
+}
+
 // Block of each pair of a hex's corners: -1 if a corner is fixed, -2 - slot if both are one node.
 using PairBlocks = std::array<std::int32_t, PAIRS>;
 
@@ -67,9 +74,10 @@ inline PairBlocks blocks_of(const Hex &slots, Indices row_start, Indices columns
 }
 
 // Add the values of a hex to the blocks of slots from `low` to `high`.
-template <class Real>
+template <class Real, class Blocks>
 void scatter(const Real *values, const Hex &slots, const PairBlocks &target, std::int32_t low, std::int32_t high,
-             std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal) {
+             Blocks &off_diagonal, std::span<std::array<Real, 6>> diagonal) {
+    constexpr bool from_fixed_nodes = requires { Blocks::diagonal_from_fixed_nodes; };
     int pair = 0;
     for (int a = 0; a < 8; ++a) {
         auto i = slots[a];
@@ -78,9 +86,13 @@ void scatter(const Real *values, const Hex &slots, const PairBlocks &target, std
             auto s = target[pair], j = slots[b];
             auto row = std::min(i, j);
             if (s >= 0 && low <= row && row < high) add_block(values + 9 * pair, i > j, off_diagonal[s]);
-            else if (s < -1 && mine) add_with_transpose(values + 9 * pair, diagonal[i]);
+            else if constexpr (from_fixed_nodes) {
+                if (row >= 0) continue;
+                if (auto free = std::max(i, j); low <= free && free < high)
+                    subtract_symmetric(values + 9 * pair, diagonal[free]);
+            } else if (s < -1 && mine) add_with_transpose(values + 9 * pair, diagonal[i]);
         }
-        if (mine) add_diagonal(values + DIAGONAL_OFFSET + 6 * a, diagonal[i]);
+        if (!from_fixed_nodes && mine) add_diagonal(values + DIAGONAL_OFFSET + 6 * a, diagonal[i]);
     }
 }
 

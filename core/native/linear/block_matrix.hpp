@@ -6,31 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "linear/block_rows.hpp"
 #include "linear/symmetric.hpp"
 #include "mesh/array_views.hpp"
 #include "simd/threads.hpp"
 
 namespace hexmend {
-
-// Vectors have four numbers for each slot, the fourth being 0. A row of a block is loaded as four numbers, the last of
-// which belongs to the next row and is multiplied by that 0; the array of blocks therefore has one more block.
-template <class Real> struct Vec4Type {
-    typedef Real type __attribute__((vector_size(4 * sizeof(Real))));
-};
-template <class Real> using Vec4 = typename Vec4Type<Real>::type;
-
-template <class Real> inline Vec4<Real> load(const Real *from) {
-    Vec4<Real> x;
-    std::memcpy(&x, from, sizeof x);
-    return x;
-}
-
-// Sums of the four numbers of x, y and z, and a fourth number 0.
-template <class V> inline V horizontal_sums(const V &x, const V &y, const V &z) {
-    V xy = __builtin_shufflevector(x, y, 0, 4, 1, 5) + __builtin_shufflevector(x, y, 2, 6, 3, 7);
-    V z0 = __builtin_shufflevector(z, V{}, 0, 4, 1, 5) + __builtin_shufflevector(z, V{}, 2, 6, 3, 7);
-    return __builtin_shufflevector(xy, z0, 0, 1, 4, 5) + __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
-}
 
 // A symmetric block by its columns: its product with a vector needs no horizontal sum.
 template <class Real> struct Block {
@@ -66,9 +47,9 @@ template <class Real> SymmetricMatrix widened(const std::array<Real, 6> &a) {
     return {a[0], a[1], a[2], a[3], a[4], a[5]};
 }
 
-// Blocks above the diagonal, by rows, and an unused one, (blocks + 1, 9); those on the diagonal, xx xy xz yy yz zz, (k,
-// 6); vectors (k, 4).
-template <class Real> using UpperBlocks = std::span<const std::array<Real, 9>>;
+// Blocks above the diagonal, by rows, and an unused one, (blocks + 1, 9), or packed, (blocks + 1, 12); those on the
+// diagonal, xx xy xz yy yz zz, (k, 6); vectors (k, 4).
+template <class Block> using UpperBlocks = std::span<const Block>;
 template <class Real> using DiagonalBlocks = std::span<const std::array<Real, 6>>;
 template <class Real> using Vectors = std::span<const std::array<Real, 4>>;
 
@@ -81,21 +62,31 @@ struct BlockPattern {
     std::int32_t first_separator() const { return bounds[bounds.size() / 2]; }
 };
 
-// A matrix with blocks of type Real for vectors of type Number.
-template <class Real, class Number = Real> class BlockMatrix {
+// Type of the numbers of vectors that are multiplied by blocks.
+template <class Block>
+using NumberOf = std::conditional_t<std::is_same_v<Block, PackedBlock>, float, typename Block::value_type>;
+
+// A matrix with blocks std::array<float, 9>, std::array<double, 9> or PackedBlock for vectors of type Number.
+template <class Stored, class Number = NumberOf<Stored>> class BlockMatrix {
   public:
     using V = Vec4<Number>;
 
-    BlockMatrix(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal)
+    BlockMatrix(const BlockPattern &pattern, UpperBlocks<Stored> off_diagonal)
         : bounds_(pattern.bounds),
           row_start_(pattern.row_start),
           columns_(pattern.columns),
-          off_diagonal_(off_diagonal.data()->data()),
+          off_diagonal_(off_diagonal.data()),
           parts_(static_cast<int>(bounds_.size()) / 2),
           first_separator_(pattern.first_separator()),
           size_(pattern.slots()) {}
 
     std::int64_t size() const { return size_; }
+
+    // The numbers of block s, by rows.
+    decltype(auto) block(std::int32_t s) const {
+        if constexpr (std::is_same_v<Stored, PackedBlock>) return unpacked(off_diagonal_[s]);
+        else return (off_diagonal_[s]);
+    }
 
     // Call body(begin, end, range) for all parts, or separators, in parallel; returns the sum of its results, in order.
     template <class Body> double over_parts(const Body &body) { return over(0, parts_, body); }
@@ -112,23 +103,19 @@ template <class Real, class Number = Real> class BlockMatrix {
 
     // Row i from block `first` on times t.
     V row_times_from(std::int32_t first, std::int32_t i, const V *t) const {
-        V x{}, y{}, z{};
-        for (auto s = row_start_[i + 1] - 1; s >= first; --s) {
-            const V &of = t[columns_[s]];
-            x += row(s, 0) * of, y += row(s, 1) * of, z += row(s, 2) * of;
-        }
-        return horizontal_sums(x, y, z);
+        RowSum<Stored, Number> sum;
+        for (auto s = row_start_[i + 1] - 1; s >= first; --s) sum.add(off_diagonal_[s], t[columns_[s]]);
+        return sum.total();
     }
 
     // Add the transposed blocks of row i times p at their columns, but for those of ghosts: to w, or to at_separators,
     // whose first vector is that of the first separator.
     void add_transposed(std::int32_t i, const V &p, V *w, V *at_separators) const {
-        V x = p[0] - V{}, y = p[1] - V{}, z = p[2] - V{};
+        const Transposed<Stored, Number> times(p);
         auto s = row_start_[i], end = row_start_[i + 1];  // columns ascend
-        for (; s < end && columns_[s] < first_separator_; ++s)
-            w[columns_[s]] += row(s, 0) * x + row(s, 1) * y + row(s, 2) * z;
+        for (; s < end && columns_[s] < first_separator_; ++s) w[columns_[s]] += times(off_diagonal_[s]);
         for (; s < end && columns_[s] < size_; ++s)
-            at_separators[columns_[s] - first_separator_] += row(s, 0) * x + row(s, 1) * y + row(s, 2) * z;
+            at_separators[columns_[s] - first_separator_] += times(off_diagonal_[s]);
     }
 
     // Forward substitution: body(i, lower) returns p for slot i and a summand; lower is the row left of the diagonal
@@ -154,17 +141,11 @@ template <class Real, class Number = Real> class BlockMatrix {
 
   private:
     Indices bounds_, row_start_, columns_;
-    const Real *off_diagonal_;
+    const Stored *off_diagonal_;
     int parts_;
     std::int32_t first_separator_;
     std::int64_t size_;
     std::vector<double> sums_ = std::vector<double>(2 * parts_);
-
-    V row(std::int32_t s, int k) const {
-        auto four = load(off_diagonal_ + 9 * static_cast<std::int64_t>(s) + 3 * k);
-        if constexpr (std::is_same_v<Real, Number>) return four;
-        else return __builtin_convertvector(four, V);
-    }
 
     template <class Body> double over(int first, int last, const Body &body) {
         parallel(last - first, [&](std::int64_t k) {

@@ -26,15 +26,15 @@ template <class Real> class CoarseSpace {
     using V = Vec4<Real>;
 
     // Compute A R and E; diagonal(i) returns the diagonal block of slot i, (9,); work: `coarse_workspace_size`.
-    template <class Diagonal>
-    CoarseSpace(const CoarsePattern &pattern, const BlockPattern &of_matrix, BlockMatrix<Real> &system,
-                UpperBlocks<Real> off_diagonal, const Diagonal &diagonal, Real *work)
+    template <class System, class Diagonal>
+    CoarseSpace(const CoarsePattern &pattern, const BlockPattern &of_matrix, System &system, const Diagonal &diagonal,
+                Real *work)
         : pattern_(pattern), blocks_(work), ranges_(static_cast<int>(of_matrix.bounds.size()) - 1) {
         expect(static_cast<std::int64_t>(pattern.aggregate.size()) == system.size(),
                "coarse: an aggregate is expected for each slot of the matrix");
         for (auto a : pattern.aggregate) count_ = std::max<std::int64_t>(count_, a + 1);
         sums_.resize(ranges_ * count_), solution_.resize(3 * count_), y_.resize(4 * count_);
-        multiply(of_matrix, system, off_diagonal, diagonal);
+        multiply(of_matrix, system, diagonal);
         positive_ = factorise();
     }
 
@@ -126,13 +126,12 @@ template <class Real> class CoarseSpace {
 
     // Compute the blocks of A R: the rows of a part meet those of the part and of separators; what they add to
     // separators follows, one row after another.
-    template <class Diagonal>
-    void multiply(const BlockPattern &of, BlockMatrix<Real> &system, UpperBlocks<Real> off_diagonal,
-                  const Diagonal &diagonal) {
+    template <class System, class Diagonal>
+    void multiply(const BlockPattern &of, System &system, const Diagonal &diagonal) {
         const auto first_separator = of.bounds[of.bounds.size() / 2];
         auto add_below = [&](std::int32_t s, std::int32_t aggregate) {
             Real *to = block(of.columns[s], aggregate);  // by columns, as the transposed block is by rows
-            Nine(to).plus(off_diagonal[s].data()).store(to);
+            Nine(to).plus(system.block(s).data()).store(to);
         };
         auto rows = [&](std::int32_t begin, std::int32_t end, int) {
             std::fill(blocks_ + 9 * static_cast<std::int64_t>(pattern_.row_start[begin]),
@@ -147,7 +146,7 @@ template <class Real> class CoarseSpace {
                         add_transposed(block(i, last), sum);
                         sum = {}, last = a;
                     }
-                    sum = sum.plus(off_diagonal[s].data());
+                    sum = sum.plus(system.block(s).data());
                     if (begin >= first_separator || j < first_separator) add_below(s, own);
                 }
                 add_transposed(block(i, last), sum);

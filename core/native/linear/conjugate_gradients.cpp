@@ -40,11 +40,12 @@ template <class V> inline double dot(const V &a, const V &b) {
 }
 
 // State of the iteration, in the caller's workspace.
-template <class Real> class PreconditionedCG {
+template <class Block> class PreconditionedCG {
   public:
+    using Real = NumberOf<Block>;
     using V = Vec4<Real>;
 
-    PreconditionedCG(const BlockPattern &pattern, BlockMatrix<Real> &system, DiagonalBlocks<Real> diagonal,
+    PreconditionedCG(const BlockPattern &pattern, BlockMatrix<Block> &system, DiagonalBlocks<Real> diagonal,
                      double damping, std::span<Real> work, const Coupling<Real> &coupling)
         : system_(system),
           own_(diagonal),
@@ -173,7 +174,7 @@ template <class Real> class PreconditionedCG {
     }
 
   private:
-    BlockMatrix<Real> &system_;
+    BlockMatrix<Block> &system_;
     DiagonalBlocks<Real> own_;
     Real damped_, share_;
     HalfBlock<Real> *inverse_;  // D^-1, damped
@@ -234,20 +235,20 @@ template <class Real> class PreconditionedCG {
 
 }  // namespace
 
-template <class Real>
-std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal,
+template <class Block, class Real>
+std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Block> off_diagonal,
                                   DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
                                   int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work,
                                   const Coupling<Real> &coupling, const CoarsePattern *coarse_pattern) {
-    BlockMatrix<Real> system(pattern, off_diagonal);
+    BlockMatrix<Block> system(pattern, off_diagonal);
     auto size = workspace_size(pattern, coupling.ghosts, static_cast<bool>(coupling.exchange));
     if (static_cast<std::int64_t>(work.size()) < size + (coarse_pattern ? coarse_workspace_size(*coarse_pattern) : 0))
         throw std::invalid_argument("work is too small: see `workspace_size`");
-    PreconditionedCG<Real> solver(pattern, system, diagonal, damping, work, coupling);
+    PreconditionedCG<Block> solver(pattern, system, diagonal, damping, work, coupling);
     std::optional<CoarseSpace<Real>> coarse;
     if (coarse_pattern)
         coarse.emplace(
-            *coarse_pattern, pattern, system, off_diagonal, [&](std::int32_t i) { return solver.damped_diagonal(i); },
+            *coarse_pattern, pattern, system, [&](std::int32_t i) { return solver.damped_diagonal(i); },
             work.data() + size);
     if (coarse && !coarse->positive()) coarse.reset();
     if (coarse) solver.deflate(*coarse);
@@ -300,11 +301,11 @@ void from_slots(Vectors<Real> of_slots, std::span<const std::int64_t> order, dou
     });
 }
 
-template <class Real>
-void product(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, DiagonalBlocks<Real> diagonal,
+template <class Block>
+void product(const BlockPattern &pattern, UpperBlocks<Block> off_diagonal, DiagonalBlocks<NumberOf<Block>> diagonal,
              std::span<const std::int64_t> order, Points x, std::span<Point> y) {
     using V = Vec4<double>;
-    BlockMatrix<Real, double> system(pattern, off_diagonal);
+    BlockMatrix<Block, double> system(pattern, off_diagonal);
     std::vector<V> of(x.size()), there(x.size()), w(x.size()), odd(x.size() - pattern.first_separator());
     for (std::size_t k = 0; k < x.size(); ++k) of[order[k]] = V{x[k][0], x[k][1], x[k][2], 0};
     system.forward(w.data(), odd.data(), [&](std::int32_t i, const V &left) {
@@ -314,14 +315,20 @@ void product(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, Diagon
     for (std::size_t k = 0; k < x.size(); ++k) std::memcpy(y[k].data(), &there[order[k]], sizeof y[k]);
 }
 
-#define FOR_REAL(Real)                                                                                                \
-    template std::pair<int, SolveStatus> solve(const BlockPattern &, UpperBlocks<Real>, DiagonalBlocks<Real>, double, \
-                                               Vectors<Real>, double, int, std::span<std::array<Real, 4>>,            \
-                                               std::span<Real>, const Coupling<Real> &, const CoarsePattern *);       \
-    template void product(const BlockPattern &, UpperBlocks<Real>, DiagonalBlocks<Real>,                              \
-                          std::span<const std::int64_t>, Points, std::span<Point>);                                   \
-    template void to_slots(Points, std::span<const std::int64_t>, double, std::span<std::array<Real, 4>>);            \
+#define FOR_BLOCK(Block, Real)                                                                                         \
+    template std::pair<int, SolveStatus> solve(const BlockPattern &, UpperBlocks<Block>, DiagonalBlocks<Real>, double, \
+                                               Vectors<Real>, double, int, std::span<std::array<Real, 4>>,             \
+                                               std::span<Real>, const Coupling<Real> &, const CoarsePattern *);        \
+    template void product<Block>(const BlockPattern &, UpperBlocks<Block>, DiagonalBlocks<Real>,                       \
+                                 std::span<const std::int64_t>, Points, std::span<Point>);
+#define FOR_REAL(Real)                                                                                     \
+    template void to_slots(Points, std::span<const std::int64_t>, double, std::span<std::array<Real, 4>>); \
     template void from_slots(Vectors<Real>, std::span<const std::int64_t>, double, std::span<Point>);
+using Singles = std::array<float, 9>;
+using Doubles = std::array<double, 9>;
+FOR_BLOCK(Singles, float)
+FOR_BLOCK(Doubles, double)
+FOR_BLOCK(PackedBlock, float)
 FOR_REAL(float)
 FOR_REAL(double)
 

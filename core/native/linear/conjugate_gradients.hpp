@@ -49,8 +49,8 @@ inline std::int64_t workspace_size(const BlockPattern &pattern, std::int64_t gho
 // of M^-1; max_iterations limits the iterations. At a direction of negative curvature (Steihaug 1983) x is the iterate
 // so far or, if it is the first, that direction. Vectors are (k, 4), see block_matrix.hpp; work: `workspace_size`, and
 // with a coarse space `coarse_workspace_size` besides. Coupled processes have none.
-template <class Real>
-std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal,
+template <class Block, class Real = NumberOf<Block>>
+std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Block> off_diagonal,
                                   DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
                                   int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work,
                                   const Coupling<Real> &coupling, const CoarsePattern *coarse = nullptr);
@@ -64,8 +64,8 @@ template <class Real>
 void from_slots(Vectors<Real> of_slots, std::span<const std::int64_t> order, double scale, std::span<Point> of_nodes);
 
 // Write y = A x (k, 3) in double precision; row k of x and y belongs to slot order[k].
-template <class Real>
-void product(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, DiagonalBlocks<Real> diagonal,
+template <class Block>
+void product(const BlockPattern &pattern, UpperBlocks<Block> off_diagonal, DiagonalBlocks<NumberOf<Block>> diagonal,
              std::span<const std::int64_t> order, Points x, std::span<Point> y);
 
 }  // namespace hexmend

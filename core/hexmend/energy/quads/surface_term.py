@@ -121,7 +121,7 @@ class SurfaceTerm:
         diagonal = pairs[own_quad, corner, corner].reshape(-1, 9)[:, _UPPER]
         np.add.at(matrix.diagonal, slot, diagonal.astype(matrix.diagonal.dtype))
         above = pairs[quad, row, column].reshape(-1, 9)
-        np.add.at(matrix.off_diagonal, block, above.astype(matrix.off_diagonal.dtype))
+        np.add.at(matrix.off_diagonal, block, above.astype(matrix.dtype))
 
     def corners(self, x: np.ndarray) -> QuadCorners:
         """Compute the corners of the quads at points x (n, 3) in the energy's unit."""
