@@ -76,13 +76,14 @@ void bind_assembly(nb::module_ m) {
             "row_start (k + 1,) and columns (blocks,) int32: `sparsity.pattern`. Arrays are not copied.");
     bind_assemble<float>(m);
     bind_assemble<double>(m);
-    m.def("assemble_packed", &assemble_packed, "points"_a, "delta"_a, "norm"_a, "omitted"_a, "shares"_a,
-          "first_separator"_a, "off_diagonal"_a, "diagonal"_a, "target"_a.none() = nb::none(), ReleaseGil(),
-          "Write the Hessian of sum eta(H)^p above the diagonal to off_diagonal (blocks + 1, 12) int16, packed.\n\n"
-          "A block has nine whole numbers of 20 bits, by rows, and a power of two that they are multiplied by: each is\n"
-          "rounded by at most 2^-19 of the largest. What belongs to fixed nodes is added to diagonal (k, 6) float32;\n"
-          "`conjugate_gradients.complete_diagonal` adds the rest. Slots from first_separator on are those of\n"
-          "separators, the last of which may be ghosts; see `assemble`.");
+    m.def(
+        "assemble_packed", &assemble_packed, "points"_a, "delta"_a, "norm"_a, "omitted"_a, "shares"_a,
+        "first_separator"_a, "off_diagonal"_a, "diagonal"_a, "target"_a.none() = nb::none(), ReleaseGil(),
+        "Write the Hessian of sum eta(H)^p above the diagonal to off_diagonal (blocks + 1, 12) int16, packed.\n\n"
+        "A block has nine whole numbers of 20 bits, by rows, and a power of two that they are multiplied by: each is\n"
+        "rounded by at most 2^-19 of the largest. What belongs to fixed nodes is added to diagonal (k, 6) float32;\n"
+        "`conjugate_gradients.complete_diagonal` adds the rest. Slots from first_separator on are those of\n"
+        "separators, the last of which may be ghosts; see `assemble`.");
 }
 
 void bind_objective(nb::module_ m) {

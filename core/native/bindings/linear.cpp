@@ -73,10 +73,11 @@ template <class Real> void bind_vectors(nb::module_ m) {
 }
 
 void bind_packed(nb::module_ m) {
-    m.def("complete_diagonal", &complete_diagonal, "pattern"_a, "off_diagonal"_a, "diagonal"_a, ReleaseGil(),
-          "Add to diagonal (k, 6) float32, which `assembly.assemble_packed` began, what follows from the packed blocks\n"
-          "(blocks + 1, 12): rows sum to the shares of fixed nodes. Returns the number of diagonal blocks whose\n"
-          "eigenvalues differ too much for packed blocks.");
+    m.def(
+        "complete_diagonal", &complete_diagonal, "pattern"_a, "off_diagonal"_a, "diagonal"_a, ReleaseGil(),
+        "Add to diagonal (k, 6) float32, which `assembly.assemble_packed` began, what follows from the packed blocks\n"
+        "(blocks + 1, 12): rows sum to the shares of fixed nodes. Returns the number of diagonal blocks whose\n"
+        "eigenvalues differ too much for packed blocks.");
 }
 
 }  // namespace

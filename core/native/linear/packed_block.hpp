@@ -11,9 +11,9 @@
 
 namespace hexmend {
 
-// Nine numbers from -2^19 + 1 to 2^19 - 1, by rows: their upper 16 bits; the lower 4 bits of the ninth above the 8 bits of
-// the exponent of the scale; the lower 4 bits of the others, of the first in the lowest bits of two numbers. Each number
-// is rounded by at most 2^-19 of the largest of the block.
+// Nine numbers from -2^19 + 1 to 2^19 - 1, by rows: their upper 16 bits; the lower 4 bits of the ninth above the 8 bits
+// of the exponent of the scale; the lower 4 bits of the others, of the first in the lowest bits of two numbers. Each
+// number is rounded by at most 2^-19 of the largest of the block.
 using PackedBlock = std::array<std::int16_t, 12>;
 
 typedef float Vec8 __attribute__((vector_size(32)));
