@@ -37,6 +37,16 @@ NB_MODULE(HEXMEND_MODULE, m) {
         },
         "Return free memory that the allocator retains to the system, where the C library can.",
         nb::call_guard<nb::gil_scoped_release>());
+    m.def(
+        "return_freed_arrays",
+        [] {
+#ifdef __GLIBC__
+            mallopt(M_MMAP_THRESHOLD, 4 << 20);
+#endif
+        },
+        "From now on return arrays of 4 MiB and more to the system when they are freed, where the C library can: "
+        "others\n"
+        "may fill their place only in part, and a process would hold more than it needs.");
     m.def("threads", &hexmend::threads, "Number of threads that run a loop of the calling thread.");
     m.def("set_threads", &hexmend::set_threads, "count"_a, "Set the number of threads of the calling thread.");
     m.def("set_default_threads", &hexmend::set_default_threads, "count"_a,

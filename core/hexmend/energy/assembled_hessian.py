@@ -179,7 +179,9 @@ class AssembledHessian(SymmetricOperator):
         count, end = kernels.solve(
             pattern, *blocks, damping, b, tolerance, iterations, x, work, *coupling, coarse=coarse
         )
-        del b
+        del b, work
+        if self.packed:  # the line search of a large mesh needs the memory
+            sparsity.workspace.release()
         solution = self._from_slots(x, exponent - self.exponent)
         return CGResult(solution, count, end is kernels.SolveStatus.NEGATIVE_CURVATURE)
 

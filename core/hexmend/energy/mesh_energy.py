@@ -231,7 +231,11 @@ class MeshEnergy(TargetScales):
         p, offset = self.norm
         eta = self.hex_energies(x, delta, offset)
         with np.errstate(over="ignore"):  # near the barrier, or with a node far away, it is infinite
-            values = (np.square(eta) if p == 2 else np.power(eta, p))[self.counted]
+            if p == 2:
+                np.square(eta, out=eta)
+            elif p != 1:
+                np.power(eta, p, out=eta)
+            values = eta[self.counted]
             barriers = self.barriers(x)
             own = float(values.sum() + (0.0 if np.isscalar(barriers) else barriers[self.counted].sum()))
         if self.surface is not None:

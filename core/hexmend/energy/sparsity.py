@@ -80,6 +80,8 @@ class BlockSparsity:
         self._slot_of_node = index_of(self.nodes, mesh.n_nodes)
         self._hexes, self._topology, self.has_opposite = mesh.hexes, mesh.topology, True
         self._shares: tuple[int, HexShares | None] = 0, None
+        if self.packs:  # a large mesh has no memory for what is needed once
+            mesh.topology.release_rings()
         release_free_memory()  # before the blocks of the matrix take most of it
 
     @cached_property
@@ -168,7 +170,10 @@ class BlockSparsity:
         count = self.nodes.size
         if count < _DEFLATED or self.ranks.count > 1:
             return None
-        return CoarsePattern(*self.aggregates(round(1.5 * count ** (1 / 6))))
+        self.workspace.release()
+        pattern = CoarsePattern(*self.aggregates(round(1.5 * count ** (1 / 6))))
+        self._topology.release_rings()
+        return pattern
 
     def aggregates(self, distance: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Divide the slots into aggregates, whose translations are the columns of R.

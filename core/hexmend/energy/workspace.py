@@ -29,3 +29,7 @@ class Workspace(threading.local):
         if self._bytes.size < size:
             self._bytes = np.empty(size, np.uint8)
         return self._bytes[:size].view(dtype).reshape(shape)
+
+    def release(self) -> None:
+        """Free the memory until an array is wanted again; the last one is no longer valid."""
+        self._bytes = np.empty(0, np.uint8)

@@ -27,11 +27,14 @@ from hexmend.io.format_lookup import every_format, format_by_place, format_of, s
 from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.io.storage.file_progress import FileAction, file_operation, report, stage
 from hexmend.io.storage.readable import check_readable, reading
+from hexmend.kernels import return_freed_arrays
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
 
 #: Share of the time to read a mesh that its format takes; then its orientation is checked.
 _FORMATS_SHARE = 0.7
+#: Bytes of a file from which on its mesh is large: arrays that are freed are returned to the system.
+_LARGE_FILE = 1 << 24
 
 
 @old_keywords("read")
@@ -63,6 +66,8 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
     if format_by_place(path) is None:
         check_readable(path, "a mesh file or the folder of an OpenFOAM case")
     format = format_of(path)
+    if path.is_file() and path.stat().st_size >= _LARGE_FILE:
+        return_freed_arrays()
     token = INTERPOLATE_MISSING.set(interpolate_missing)
     try:
         with reading(path, "Close other programs or use a larger machine."), file_operation(path, FileAction.READING):

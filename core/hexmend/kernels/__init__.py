@@ -91,6 +91,7 @@ _native.set_default_threads(_default_threads())
 
 threads, set_threads, LANES = _native.threads, _native.set_threads, _native.LANES
 release_free_memory = _native.release_free_memory
+return_freed_arrays = _native.return_freed_arrays
 
 # So that a family is imported like a module of its own: `from hexmend.kernels.local import sweep`.
 for _name, _family in vars(_native).items():

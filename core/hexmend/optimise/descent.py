@@ -161,8 +161,8 @@ def _limit(
     shorten_to_range(step, energy.unit, energy.ranks)
     if np.isfinite(max_step):
         if by_edges:
-            ring = energy.mesh.topology.rings
-            shorten(step, x, ring.start, ring.items, energy.nodes, max_step)
+            corners = energy.mesh.topology.node_corners
+            shorten(step, x, energy.mesh.hexes, corners.start, corners.items, energy.nodes, max_step)
         halve_harmful_steps(energy, x, delta, step)
     return energy.directional_derivative(x, delta, step, gradient)
 
@@ -187,12 +187,16 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
         Of the free nodes, in mean edge lengths; changed.
     """
     hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
-    limit = DESCENT.growth_factor * energy.with_barriers(x, delta) + DESCENT.growth_summand
-    worsened, moved = np.zeros(len(hexes), dtype=bool), None
+    limit = energy.with_barriers(x, delta)
+    limit *= DESCENT.growth_factor
+    limit += DESCENT.growth_summand
+    worsened, halved, moved, changed = np.zeros(len(hexes), dtype=bool), None, None, None
     for trial in range(DESCENT.halvings):
-        before = moved
-        moved = energy.moved(x, step if trial == 0 else share[energy.nodes, None] * step)
-        changed = None if before is None else differing_rows(before, moved)
+        before = None if energy.has_parts else moved
+        del moved  # large meshes have no memory for two
+        moved = energy.moved(x, step)
+        if trial > 0:
+            changed = halved if before is None else differing_rows(before, moved)
         at = None if changed is None else np.flatnonzero(any_of_rows(changed, hexes))
         some = slice(None) if at is None else at
         worsened[some] = ~(energy.with_barriers(moved, delta, at) <= limit[some])
@@ -204,10 +208,11 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
         if not energy.ranks.any(halved):
             break
         share[halved] *= 0.5
+        step[halved[energy.nodes]] *= 0.5
+        step[share[energy.nodes] == 0] = 0.0
     else:
         if infeasible is not None:
-            share[infeasible] = 0.0  # in many steps they would leave their band all the same
-    step *= share[energy.nodes, None]
+            step[infeasible[energy.nodes]] = 0.0  # in many steps they would leave their band all the same
 
 
 def is_perfect(energy: MeshEnergy, value: float, delta: float) -> bool:

@@ -14,6 +14,9 @@ from hexmend.mesh.validation import as_bools, as_hexes, as_points
 from hexmend.quantity import format_quality
 from hexmend.terminal_text import count_phrase
 
+#: Values of an `ElementQuality`.
+_VALUES = ("q", "sigma", "scaled_jacobian", "eta")
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ElementQuality:
@@ -55,6 +58,29 @@ class ElementQuality:
             self.q[which], self.sigma[which], self.scaled_jacobian[which], self.eta[which], self.against_target
         )
 
+    def made_from(self, points: np.ndarray, hexes: np.ndarray) -> None:
+        """Note the points (n, 3) and hexes (m, 8) that were measured, if they are immutable: see `release`."""
+        if not (points.flags.writeable or hexes.flags.writeable):
+            self.__dict__["_source"] = points, hexes
+
+    def release(self) -> None:
+        """Free the memory of the values; whoever reads one measures the hexes again.
+
+        Without effect where the points are not known, or may have changed.
+        """
+        if "_source" in self.__dict__:
+            for name in (*_VALUES, "inverted"):
+                self.__dict__.pop(name, None)
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        source = self.__dict__.get("_source")
+        if name not in _VALUES or source is None:
+            raise AttributeError(f"{type(self).__name__} has no attribute {name}")
+        again = measure(*source)
+        values = {key: again.__dict__[key] for key in _VALUES}
+        self.__dict__.update(values)
+        return values[name]
+
     def __repr__(self) -> str:
         least = f"q min {format_quality(self.q.min())}" if len(self.q) else "no values"
         hexes = count_phrase(len(self.q), "hex", "hexes")
@@ -88,7 +114,9 @@ def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
     hexes = as_hexes(hexes, len(points))
     q, sigma, jacobian, eta = np.empty((4, len(hexes)))
     elements.measure(points, hexes, q, sigma, jacobian, eta)
-    return ElementQuality(q, sigma, jacobian, eta)
+    quality = ElementQuality(q, sigma, jacobian, eta)
+    quality.made_from(points, hexes)
+    return quality
 
 
 def fixed_tetrahedra(hexes: np.ndarray, fixed: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ import numpy as np
 from hexmend.arrays import BLOCK, as_immutable, largest_norm
 from hexmend.energy.target import node_sizes
 from hexmend.iteration import ActiveSet, Iteration, Outcome, StageResult, StoppingCriteria
+from hexmend.kernels import release_free_memory, return_freed_arrays
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
 from hexmend.quality import ElementQuality, measure, measure_against_target
@@ -25,6 +26,10 @@ _MIN_RELATIVE_FALL = 1e-3
 
 #: ... and by more than this share of the excess of a single hex of q = 1/2.
 _MIN_FALL = 1e-2
+
+#: Number of hexes from which on memory is freed as early as possible: qualities of iterations are measured again rather
+#: than kept during a step.
+_LARGE = 250_000
 
 
 class StageRun:
@@ -83,6 +88,10 @@ class StageRun:
         self.active: ActiveSet | None = None
         self.target = mesh.element_target
         self._mesh, self._unit = mesh, mesh.mean_edge_length or 1.0
+        self._is_large = mesh.n_hexes >= _LARGE
+        if self._is_large:
+            return_freed_arrays()
+            release_free_memory()
         self._node_sizes = node_sizes(mesh)
         self._origin: Iteration = start if predecessor is None else predecessor._origin
         self._best: Iteration = start if predecessor is None else predecessor._best
@@ -116,6 +125,9 @@ class StageRun:
     def advance(self) -> Iteration | None:
         """Make a step; return the new iteration, or None if the method has no further step."""
         began = perf_counter()
+        if self._is_large:  # a step needs the memory
+            for iteration in (self._origin, self._best, self.current):
+                iteration.quality.release()
         try:
             step = next(self._steps)
         except StopIteration as end:
@@ -130,6 +142,7 @@ class StageRun:
             self.end(Outcome.NOT_FINITE)
             return None
         quality = step.quality if step.quality is not None else measure(points, self._mesh.hexes)
+        quality.made_from(points, self._mesh.hexes)
         diagnostics = {**step.diagnostics, "stage": self.number, "method": self.smoother.name}
         judged = measure_against_target(self._mesh, points, quality)
         number, norm = self.last.number + 1, step.norm or self.smoother.norm

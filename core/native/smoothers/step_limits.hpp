@@ -5,8 +5,10 @@
 
 namespace hexmend {
 
-// Shorten the steps (k, 3) of `nodes` (k,) that are longer than `reach` times the mean length of the node's edges.
-void shorten(std::span<Point> step, Points points, Indices ring_start, Indices ring, Indices nodes, double reach);
+// Shorten the steps (k, 3) of `nodes` (k,) that are longer than `reach` times the mean length of the node's edges;
+// start, corners: the corners of hexes at each node.
+void shorten(std::span<Point> step, Points points, Hexes hexes, Indices start, Indices corners, Indices nodes,
+             double reach);
 
 // Write moved (n, 3): points with `nodes` displaced by alpha times their steps (k, 3).
 void displaced(Points points, Indices nodes, Points step, double alpha, std::span<Point> moved);

@@ -105,6 +105,10 @@ class Topology:
         """Give back the memory of `face_neighbours`; they are computed again on the next use."""
         self.__dict__.pop("_faces", None)
 
+    def release_rings(self) -> None:
+        """Give back the memory of `rings`; they are computed again on the next use."""
+        self.__dict__.pop("rings", None)
+
     @property
     def n_nonmanifold_faces(self) -> int:
         """Number of faces shared by more than two hexes, counted once a hex; they are treated as boundary."""
