@@ -45,7 +45,7 @@ class SurfaceEdges:
         self._first = np.flatnonzero(np.append(True, key[1:] != key[:-1])[: key.size])
         self.key, self.count = key[self._first], np.diff(self._first, append=key.size)
         pair = self._order[self._first], self._order[self._first + (self.count > 1)]
-        self.nodes = np.sort(sides[pair[0]], axis=1)
+        self.nodes = np.stack(_ordered(sides[pair[0]]), axis=1)
         self.neighbours = np.stack([self._sides[side] // width for side in pair], axis=1)
         self.opposed = sides[pair[0], 0] != sides[pair[1], 0]
 
@@ -82,15 +82,20 @@ class SurfaceEdges:
 def _order_of_pairs(pairs: np.ndarray, n: int) -> np.ndarray:
     """Order pairs (k, 2) of n nodes by the lower node, then by the higher one, equal ones as given; (k,) int32."""
     order = np.arange(len(pairs), dtype=np.int32)
-    for node in (pairs.max(axis=1), pairs.min(axis=1)):
+    for node in reversed(_ordered(pairs)):
         order = order[incidence.grouped(np.ascontiguousarray(node[order], np.int32), n)[1]]
     return order
 
 
+def _ordered(pairs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lower and the higher number of each of some pairs (..., 2); NumPy's sort takes ten times as long."""
+    return np.minimum(pairs[..., 0], pairs[..., 1]), np.maximum(pairs[..., 0], pairs[..., 1])
+
+
 def edge_keys(edges: np.ndarray, n: int) -> np.ndarray:
     """Return the unique number of each edge (..., 2) of n nodes, whatever its direction, (...) int64."""
-    edges = np.sort(np.asarray(edges, dtype=np.int64), axis=-1)
-    return edges[..., 0] * n + edges[..., 1]
+    lower, higher = _ordered(np.asarray(edges))
+    return lower.astype(np.int64) * n + higher
 
 
 def segment_pairs(segments: np.ndarray, between: np.ndarray) -> np.ndarray:

@@ -10,6 +10,8 @@ namespace {
 
 // A proof leaves this share of a distance to rounding errors.
 constexpr double ROUNDING = 1e-9;
+// New pieces are looked for within the distance of the farthest of the old ones, times the root of this.
+constexpr double MARGIN = 1.5;
 // Failures from which on pieces are found at one query in sixteen.
 constexpr int MOST_FAILURES = 5;
 constexpr std::int64_t POINTS_PER_CHUNK = 256;
@@ -19,12 +21,13 @@ struct NumberedSquare {
     std::int32_t piece;
 };
 
-// The pieces nearest to a point, in ascending order, up to `most`.
+// The pieces nearest to a point that are nearer than the bound, a squared distance; in ascending order, up to `most`.
 template <int most> struct NearestPieces {
+    double bound;
     NumberedSquare at[most];
     int count = 0;
 
-    double limit() const { return count == most ? at[most - 1].square : INF; }
+    double limit() const { return count == most ? at[most - 1].square : bound; }
 
     void put(double square, std::int32_t piece) {
         if (!(square < limit())) return;
@@ -53,23 +56,29 @@ ClosestPoint ClosestPointCache::closest(std::int32_t number, const Point &x) con
     if (is_in_use.exchange(1, std::memory_order_acquire)) return trees_.closest(x, slot.root);
     FourPieces *fours = &fours_[std::size_t{FOURS} * number];
     ClosestPoint best;
-    if (is_finite(x) && !is_proved(slot, fours, x, best)) best = closest_of_tree(slot, fours, x);
+    double farthest = INF;
+    if (is_finite(x) && !is_proved(slot, fours, x, best, farthest))
+        best = closest_of_tree(slot, fours, x, best.piece, farthest);
     is_in_use.store(0, std::memory_order_release);
     return best;
 }
 
-// Find the closest point among the pieces that are kept; return whether it is the closest one of the whole tree.
-bool ClosestPointCache::is_proved(Slot &slot, const FourPieces *fours, const Point &x, ClosestPoint &best) {
+// Find the closest point among the pieces that are kept; return whether it is the closest one of the whole tree. If
+// not, write the squared distance of the farthest of these pieces.
+bool ClosestPointCache::is_proved(Slot &slot, const FourPieces *fours, const Point &x, ClosestPoint &best,
+                                  double &farthest) {
     if (!slot.has_pieces) return false;
+    Four squares{};
     const double moved = length(vector(x) - vector(slot.centre));
     const V3<Four> at = broadcast_point(x);
     for (int n = 0; n < FOURS; ++n) {
-        improve(best, fours[n], at);
+        squares = max(squares, improve(best, fours[n], at));
         if (std::sqrt(best.square) + moved < slot.radius[n]) {
             slot.has_served = true;
             return true;
         }
     }
+    farthest = std::max({squares[0], squares[1], squares[2], squares[3]});
     return false;
 }
 
@@ -87,17 +96,19 @@ bool ClosestPointCache::wants_pieces(Slot &slot) {
     return false;
 }
 
-// Search the tree, and keep the nearest pieces for the next queries.
-ClosestPoint ClosestPointCache::closest_of_tree(Slot &slot, FourPieces *fours, const Point &x) const {
+// Search the tree, and keep the nearest pieces for the next queries. `known` is a piece that is near, -1 for none; as
+// many pieces as are kept are within the squared distance `farthest`.
+ClosestPoint ClosestPointCache::closest_of_tree(Slot &slot, FourPieces *fours, const Point &x, std::int32_t known,
+                                                double farthest) const {
     if (!wants_pieces(slot)) {
-        ClosestPoint best = trees_.closest(x, slot.root, 0, slot.last);
+        ClosestPoint best = trees_.closest(x, slot.root, 0, known < 0 ? slot.last : known);
         slot.last = best.piece;
         return best;
     }
     ClosestPoint best;
-    NearestPieces<CHILDREN * FOURS + 1> nearest;
+    NearestPieces<CHILDREN * FOURS + 1> nearest{MARGIN * farthest, {}};
     const V3<Four> at = broadcast_point(x);
-    visit_leaves(trees_, slot.root, at, INF, [&](std::int32_t first, std::int32_t count) {
+    visit_leaves(trees_, slot.root, at, nearest.bound, [&](std::int32_t first, std::int32_t count) {
         Four squares = improve(best, gather_leaf(trees_, first, count), at);
         for (int i = 0; i < count; ++i) nearest.put(squares[i], first + i);
         return nearest.limit();
@@ -107,7 +118,7 @@ ClosestPoint ClosestPointCache::closest_of_tree(Slot &slot, FourPieces *fours, c
         const int begin = CHILDREN * n, end = begin + CHILDREN;
         fours[n] = gather(trees_.points, trees_.pieces,
                           [&](int i) { return nearest.at[std::min(begin + i, nearest.count - 1)].piece; });
-        slot.radius[n] = end < nearest.count ? (1 - ROUNDING) * std::sqrt(nearest.at[end].square) : INF;
+        slot.radius[n] = (1 - ROUNDING) * std::sqrt(end < nearest.count ? nearest.at[end].square : nearest.bound);
     }
     return best;
 }

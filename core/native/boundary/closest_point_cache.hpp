@@ -39,8 +39,9 @@ class ClosestPointCache {
     };
 
     static bool wants_pieces(Slot &slot);
-    ClosestPoint closest_of_tree(Slot &slot, FourPieces *fours, const Point &x) const;
-    static bool is_proved(Slot &slot, const FourPieces *fours, const Point &x, ClosestPoint &best);
+    ClosestPoint closest_of_tree(Slot &slot, FourPieces *fours, const Point &x, std::int32_t known,
+                                 double farthest) const;
+    static bool is_proved(Slot &slot, const FourPieces *fours, const Point &x, ClosestPoint &best, double &farthest);
 
     BoxTrees trees_;
     mutable std::vector<Slot> slots_;

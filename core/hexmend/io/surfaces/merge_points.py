@@ -41,12 +41,16 @@ def merge_points(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.
     used = mask(faces.ravel(), len(points))
     if not used.any():
         return points[:0], faces
-    row = np.cumsum(used) - 1
-    points, group = _different_points(points[used])
+    if not used.all():
+        points, faces = points[used], (np.cumsum(used) - 1)[faces]
+    points, group = _different_points(points)
     distance = _MERGE_TOLERANCE * float(np.linalg.norm(np.ptp(points, axis=0)))
-    merged = components(len(points), close_pairs(points, distance))
-    _, first = np.unique(merged, return_index=True)
-    return points[first], merged[group[row]][faces]
+    pairs = close_pairs(points, distance)
+    if len(pairs):
+        merged = components(len(points), pairs)
+        _, first = np.unique(merged, return_index=True)
+        points, group = points[first], merged[group]
+    return points, group[faces]
 
 
 def _different_points(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
