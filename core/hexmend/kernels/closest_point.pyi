@@ -86,6 +86,12 @@ def extremes_in_cells(cell: Annotated[NDArray[numpy.int32], dict(shape=(None,), 
     below `cells`; of equal values the last is the largest, the first the least.
     """
 
+def vertex_normals(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], patch: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], normals: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
+    """
+    Write the unit normals (3 t, 3) at the corners of each of triangles (t, 3) int32: the mean over those of the
+    same patch (t,) int32 at the vertex, weighted by their angles; 0 where they have none.
+    """
+
 def means(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
     """
     Write the mean (j, 3) of the four points of each row of nodes (j, 4) int32, which must exist.

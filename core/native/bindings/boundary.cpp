@@ -4,6 +4,7 @@
 #include "boundary/closest_point.hpp"
 #include "boundary/closest_point_cache.hpp"
 #include "boundary/surface_points.hpp"
+#include "boundary/vertex_normals.hpp"
 #include "smoothers/sliding.hpp"
 
 namespace hexmend {
@@ -60,6 +61,10 @@ void bind_closest_point(nb::module_ m) {
     m.def("extremes_in_cells", &extremes_in_cells, "cell"_a, "values"_a, "cells"_a, ReleaseGil(),
           "True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number\n"
           "below `cells`; of equal values the last is the largest, the first the least.");
+    m.def(
+        "vertex_normals", &vertex_normals, "points"_a, "triangles"_a, "patch"_a, "normals"_a, ReleaseGil(),
+        "Write the unit normals (3 t, 3) at the corners of each of triangles (t, 3) int32: the mean over those of the\n"
+        "same patch (t,) int32 at the vertex, weighted by their angles; 0 where they have none.");
     m.def("means", &means, "points"_a, "nodes"_a, "x"_a, ReleaseGil(),
           "Write the mean (j, 3) of the four points of each row of nodes (j, 4) int32, which must exist.");
 }
