@@ -80,6 +80,14 @@ def numbers_of_different_points(points: Annotated[NDArray[numpy.float64], dict(s
     appear.
     """
 
+def count_fans(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], width: int, sides: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    The number of fans at each of `nodes` nodes, faces connected by edges (nodes,) int32.
+
+    faces (k * width,) int32 are the nodes of faces one after the other; its side s runs from the node in place s
+    to the next of the face. Edge e has sides[first[e]:first[e + 1]], all int32.
+    """
+
 def extremes_in_cells(cell: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], cells: int) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,))]:
     """
     True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number

@@ -58,6 +58,11 @@ void bind_closest_point(nb::module_ m) {
     m.def("numbers_of_different_points", &numbers_of_different_points, "points"_a, ReleaseGil(),
           "The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first\n"
           "appear.");
+    m.def("count_fans", &count_fans, "faces"_a, "width"_a, "sides"_a, "first"_a, "nodes"_a, ReleaseGil(),
+          "The number of fans at each of `nodes` nodes, faces connected by edges (nodes,) int32.\n\n"
+          "faces (k * width,) int32 are the nodes of faces one after the other; its side s runs from the node in place "
+          "s\n"
+          "to the next of the face. Edge e has sides[first[e]:first[e + 1]], all int32.");
     m.def("extremes_in_cells", &extremes_in_cells, "cell"_a, "values"_a, "cells"_a, ReleaseGil(),
           "True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number\n"
           "below `cells`; of equal values the last is the largest, the first the least.");

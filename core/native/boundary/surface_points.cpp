@@ -5,6 +5,9 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <numeric>
+
+#include "mesh/incidence.hpp"
 
 namespace hexmend {
 namespace {
@@ -48,6 +51,27 @@ IntArray numbers_of_different_points(Points points) {
         numbers[i] = table[slot] - 1;
     }
     return {std::move(numbers)};
+}
+
+IntArray count_fans(Indices faces, int width, Indices sides, Indices first, std::int64_t nodes) {
+    std::vector<std::int32_t> parent(faces.size()), count(nodes);  // corners of faces that are of one fan are joined
+    std::iota(parent.begin(), parent.end(), 0);
+    auto join_corners = [&](std::int32_t one, std::int32_t other) { join(parent, std::array{one, other}, 2); };
+    auto next = [&](std::int32_t corner) { return corner % width + 1 < width ? corner + 1 : corner + 1 - width; };
+    for (std::size_t e = 0; e + 1 < first.size(); ++e) {
+        for (std::int32_t k = first[e] + 1; k < first[e + 1]; ++k) {
+            const std::int32_t one = sides[k - 1], other = sides[k];
+            const bool opposed = faces[one] != faces[other];
+            join_corners(one, opposed ? next(other) : other);
+            join_corners(next(one), opposed ? other : next(other));
+        }
+    }
+    // Successive corners of a face that are one node are of one fan.
+    for (std::int32_t corner = 0; corner < static_cast<std::int32_t>(faces.size()); ++corner)
+        if (faces[corner] == faces[next(corner)]) join_corners(corner, next(corner));
+    for (std::size_t corner = 0; corner < faces.size(); ++corner)
+        count[faces[corner]] += parent[corner] == static_cast<std::int32_t>(corner);
+    return {std::move(count)};
 }
 
 OwnedArray<bool> extremes_in_cells(Indices cell, Numbers values, std::int64_t cells) {
