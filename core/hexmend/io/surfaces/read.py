@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import reduce
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.files import check_readable, reading
 from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons
 from hexmend.io.surfaces.merge_points import merge_points
+from hexmend.kernels import incidence
 
 #: Smallest area, relative to the square of the extent.
 _MIN_AREA = 1e-9
@@ -67,7 +69,13 @@ def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
     if not _has_area(points, faces):
         problem = "holds no surface: it has no triangle or quad with an area"
         raise FileError(path, problem, "Choose a file with the surface of the body.")
-    return SkinSurface(points, np.ascontiguousarray(faces, dtype=np.int32), path.name)
+    return SkinSurface(points, _in_order_of_points(faces.astype(np.int32), len(points)), path.name)
+
+
+def _in_order_of_points(faces: np.ndarray, n: int) -> np.ndarray:
+    """Sort faces (k, w) int32 by their lowest nodes: neighbours follow each other then, as those nodes do."""
+    lowest = reduce(np.minimum, (faces[:, corner] for corner in range(faces.shape[1])))
+    return faces[incidence.grouped(lowest, n)[1]]
 
 
 def _count_distinct(rows: np.ndarray) -> np.ndarray:
