@@ -69,7 +69,7 @@ ClosestPoint BoxTrees::closest(const Point &at, std::int32_t root, double enough
     ClosestPoint best;
     if (!is_finite(at)) return best;
     V3<Four> x = broadcast_point(at);
-    auto limit = [&] { return best.square > enough ? best.square : -1.0; };  // no box is that near
+    auto limit = [&] { return enough > 0 && best.square <= enough ? -1.0 : best.square; };  // no box is that near
     if (known >= 0) improve(best, gather_leaf(*this, known, 1), x);
     visit_leaves(*this, root, x, limit(), [&](std::int32_t first, std::int32_t count) {
         improve(best, gather_leaf(*this, first, count), x);
