@@ -43,9 +43,10 @@ struct BoxTrees {
     std::span<const ChildSide> boxes;
     std::span<const ChildLinks> links;
 
-    // The point closest to x in the tree with that root, or any point at a squared distance of at most `enough` > 0; none
-    // where x is not finite. A known piece of the tree that is near shortens the search; -1 where there is none. Unless
-    // there is `enough`, what is found depends on nothing else: of pieces that are as close, the first has the point.
+    // The point closest to x in the tree with that root, or any point at a squared distance of at most `enough` > 0;
+    // none where x is not finite. A known piece of the tree that is near shortens the search; -1 where there is none.
+    // Unless there is `enough`, what is found depends on nothing else: of pieces that are as close, the first has the
+    // point.
     ClosestPoint closest(const Point &x, std::int32_t root, double enough = 0, std::int32_t known = -1) const;
 };
 
