@@ -10,7 +10,8 @@ import numpy as np
 
 from hexmend.arrays import any_of_rows, mask, row_norms
 from hexmend.boundary.cell_extremes import extremes_in_cells
-from hexmend.boundary.closest_point import NearPoints, means
+from hexmend.boundary.closest_point import ClosestPoints, means
+from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
@@ -84,7 +85,7 @@ class Band:
         self, points: np.ndarray, faces: np.ndarray, start: np.ndarray, target: SkinSurface | None, max_deviation: float
     ):
         self.points, self._faces, self._start, self._given = points, faces, start, target
-        self._first_pieces: np.ndarray | None = None  # piece of the boundary next to each of `target_samples` at first
+        self._first: ClosestPoints | None = None  # points of the boundary closest to `target_samples` at first
         corners = points[faces.ravel()]
         size = float(np.linalg.norm(np.ptp(corners, axis=0))) if corners.size else 0.0
         self.max_deviation = max(max_deviation, _ROUNDING * size)
@@ -177,9 +178,8 @@ class Band:
             return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
         x = self.target_samples[indices]
         enough = max(float(limit.min(initial=np.inf)), 0.0)
-        known = self._near_boundary.pieces[indices]
-        closest, nodes, weights = self.skin.with_points(points).closest_on(x, enough, known=known)
-        return _deviations_above(limit, indices, x, closest, nodes, weights)
+        found = self.skin.with_points(points).find(x, enough, self._near_boundary.pieces[indices])
+        return _deviations_above(limit, indices, x, found.points, *self.skin.weights_of_nodes(found))
 
     def nodes_outside_band(self, points: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
         """Find nodes at which the boundary is outside the band and further from the surface than at first.
@@ -240,10 +240,10 @@ class Band:
             return means(self._start, self.samples)
         start = self.skin.with_points(self._start)
         cell = SAMPLE_DISTANCE * float(row_norms(np.diff(self._start[self.skin.edges.nodes], axis=1)[:, 0]).mean())
-        x, near = self._given.samples(cell), NearPoints(0)
-        distances = row_norms(start.closest(x, near=near) - x)
-        kept = extremes_in_cells(x, distances, cell) if cell > 0 else np.arange(len(x))
-        self._first_pieces = near.pieces[kept]
+        x = self._given.samples(cell)
+        found = start.find(x)
+        kept = extremes_in_cells(x, row_norms(found.points - x), cell) if cell > 0 else np.arange(len(x))
+        self._first = found.rows(kept)
         return x[kept]
 
     @cached_property
@@ -251,7 +251,10 @@ class Band:
         """Distance of `samples` from the surface before sliding, (s,)."""
         if self._given is None:
             return np.zeros(len(self.samples))
-        return self.target.distances(means(self._start, self.samples))
+        x = means(self._start, self.samples)
+        found = self.target.find(x)
+        self._near_target.store(found)
+        return row_norms(found.points - x)
 
     @cached_property
     def initial_surface_deviation(self) -> InitialDistances:
@@ -259,9 +262,8 @@ class Band:
         if self._given is None:
             return InitialDistances(np.zeros(len(self.samples)), self.samples, np.full(self.samples.shape, 0.25))
         x = self.target_samples
-        start, known = self.skin.with_points(self._start), self._first_pieces
-        closest, nodes, weights = start.closest_on(x, near=self._near_boundary, known=known)
-        return InitialDistances(np.linalg.norm(x - closest, axis=1), nodes, weights)
+        self._near_boundary.store(self._first)
+        return InitialDistances(row_norms(x - self._first.points), *self.skin.weights_of_nodes(self._first))
 
 
 def _deviations_above(

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-#: Cells of a lattice up to which a number in float64 tells them apart.
-_MAX_CELLS = 2.0**53
+from hexmend.kernels import closest_point
+
+#: Cells of a lattice for each point up to which a table of all cells is small.
+_MAX_CELLS = 16
 
 
 def extremes_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.ndarray:
@@ -31,11 +33,10 @@ def extremes_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.n
     """
     place = np.floor((x - x.min(axis=0, initial=np.inf)) / cell)
     layers = place.max(axis=0, initial=0.0) + 1
-    if layers.prod() < _MAX_CELLS:
-        number = (place[:, 0] * layers[1] + place[:, 1]) * layers[2] + place[:, 2]
+    if layers.prod() <= _MAX_CELLS * len(x):
+        cells = int(layers.prod())
+        number = ((place[:, 0] * layers[1] + place[:, 1]) * layers[2] + place[:, 2]).astype(np.int32)
     else:
-        number = np.unique(place, axis=0, return_inverse=True)[1].astype(np.float64)
-    order = np.lexsort((distances, number))
-    changes = np.ones(order.size + 1, dtype=bool)
-    changes[1:-1] = number[order[1:]] != number[order[:-1]]
-    return np.sort(order[changes[1:] | changes[:-1]])
+        filled, number = np.unique(place, axis=0, return_inverse=True)
+        cells, number = len(filled), number.reshape(-1).astype(np.int32)
+    return np.flatnonzero(closest_point.extremes_in_cells(number, distances, cells))

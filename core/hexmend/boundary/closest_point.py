@@ -34,6 +34,10 @@ class ClosestPoints:
     pieces: np.ndarray
     weights: np.ndarray
 
+    def rows(self, which: np.ndarray) -> ClosestPoints:
+        """Return those of some rows, (j,) int or (k,) bool."""
+        return ClosestPoints(self.points[which], self.pieces[which], self.weights[which])
+
 
 class ClosestPointTrees:
     """Bounding-box trees of groups of triangles and segments ("pieces").
@@ -116,80 +120,68 @@ class ClosestPointTrees:
         piece = np.full(len(x), -1, dtype=np.int32) if known is None else known.copy()
         places, weights = np.empty_like(x), np.empty_like(x)
         closest_point.closest(self.box_trees, x, self.roots[group], stop_distance, piece, places, weights)
-        if len(piece) and piece.min() < 0:
-            wrong = x[np.flatnonzero(piece < 0)[0]].tolist()
-            raise MeshError(
-                f"nothing is closest to the point {wrong}: expected finite numbers, below {MAX_CLOSEST_COORDINATE:g}"
-            )
-        return ClosestPoints(places, piece, weights)
+        return _found(x, ClosestPoints(places, piece, weights))
 
 
-class NearPoints:
-    """Points of trees that were near samples before: they tell which samples cannot be far away now, without a search.
+class ClosestPointCache:
+    """Closest points of points that move little from one query to the next.
 
-    What is found does not depend on them.
+    The pieces nearest to each are kept. They prove in most queries which point is the closest, so that the tree is not
+    searched; what is found does not depend on them.
 
     Parameters
     ----------
-    count : int
-        Number of samples.
+    trees : ClosestPointTrees
+    group : (s,) int
+        Group of the point in each slot.
 
     Attributes
     ----------
-    pieces : (count,) int32
-        Number of the piece on which the point near to each sample lies; -1 for none.
+    kernel : hexmend.kernels.closest_point.ClosestPointCache
     """
 
-    def __init__(self, count: int):
-        self.pieces, self._weights = np.full(count, -1, dtype=np.int32), np.zeros((count, 3))
+    def __init__(self, trees: ClosestPointTrees, group: np.ndarray):
+        self.kernel = closest_point.ClosestPointCache(
+            trees.box_trees, trees.roots[as_set(group, "group", len(trees.roots))]
+        )
+        self._slots = np.arange(len(group), dtype=np.int32)
 
-    def store(self, found: ClosestPoints) -> None:
-        """Store the closest points of all samples."""
-        self.pieces, self._weights = found.pieces.copy(), found.weights.copy()
-
-    def beyond(
-        self,
-        trees: ClosestPointTrees,
-        points: np.ndarray,
-        x: np.ndarray,
-        limits: np.ndarray,
-        samples: np.ndarray | None = None,
-    ) -> np.ndarray:
-        """Find samples that are further than their limits from the first group of trees; stores the closest points.
+    def closest(self, x: np.ndarray, slots: np.ndarray | None = None) -> ClosestPoints:
+        """Find the points of their groups that are closest to the points in some slots.
 
         Parameters
         ----------
-        trees : ClosestPointTrees
-            Those of each call have the same pieces.
-        points : (n, 3) float64
-            Points of the trees; they are fitted to these only where a search is needed.
         x : (k, 3) float64
-            Positions of the samples; finite.
-        limits : (k,) float64
-            Not negative.
-        samples : (k,) int, optional
-            Their numbers; all by default.
+            Present positions of these points.
+        slots : (k,) int32, optional
+            All slots by default.
 
         Returns
         -------
-        (k,) bool
+        ClosestPoints
+
+        Raises
+        ------
+        MeshError
+            See `ClosestPointTrees.closest`.
         """
-        some = slice(None) if samples is None else samples
-        distances = np.empty(len(x))
-        closest_point.distances_from(points, trees.pieces, x, self.pieces[some], self._weights[some], distances)
-        far = ~(distances <= limits)  # nothing is near a sample that is not finite
-        doubtful = np.flatnonzero(far)
-        if not doubtful.size:
-            return far
-        if points is not trees.points:
-            trees = trees.with_points(points)
-        known = doubtful if samples is None else samples[doubtful]
-        pieces, weights = self.pieces[known], np.empty((doubtful.size, 3))
-        found, limits = np.empty(doubtful.size), limits[doubtful]
-        closest_point.near(trees.box_trees, x[doubtful], limits, pieces, weights, found)
-        far[doubtful] = ~(found <= limits)
-        self.pieces[known], self._weights[known] = pieces, weights
-        return far
+        x = as_points(x, "places")
+        slots = self._slots if slots is None else slots
+        if len(slots) != len(x):
+            raise MeshError(f"there are {len(x)} places: expected one for each of {len(slots)} slots")
+        found = ClosestPoints(np.empty_like(x), np.empty(len(x), dtype=np.int32), np.empty_like(x))
+        self.kernel.closest(slots, x, found.pieces, found.points, found.weights)
+        return _found(x, found)
+
+
+def _found(x: np.ndarray, found: ClosestPoints) -> ClosestPoints:
+    """Return what was found for points x (k, 3); raise `MeshError` if a point has no closest one."""
+    if len(x) and found.pieces.min() < 0:
+        wrong = x[np.flatnonzero(found.pieces < 0)[0]].tolist()
+        raise MeshError(
+            f"nothing is closest to the point {wrong}: expected finite numbers, below {MAX_CLOSEST_COORDINATE:g}"
+        )
+    return found
 
 
 def triangulate(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -9,6 +9,7 @@ import numpy as np
 from hexmend.arrays import cross_products, row_norms
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.edges import segment_pairs
+from hexmend.kernels import closest_point
 
 
 class PieceDirections:
@@ -69,17 +70,10 @@ def vertex_normals(vertices: np.ndarray, triangles: np.ndarray, patch: np.ndarra
     (t, 3, 3) float64
         Unit normals at the three corners of each triangle.
     """
-    x = [vertices[triangles[:, k]] for k in range(3)]
-    sides = [x[1] - x[0], x[2] - x[1], x[0] - x[2]]
-    area = cross_products(sides[0], sides[1])  # twice, as at each corner
-    cosines = np.stack([-np.einsum("ti,ti->t", sides[k], sides[k - 1]) for k in range(3)], axis=1)
-    angle = np.arctan2(row_norms(area)[:, None], cosines)
-    vertex = patch[:, None].astype(np.int64) * len(vertices) + triangles
-    if vertex.max(initial=0) > 2 * vertex.size:  # most vertices are in few of the many patches
-        _, vertex = np.unique(vertex, return_inverse=True)
-    share = angle[:, :, None] * unit_vectors(area)[:, None, :]
-    sums = np.column_stack([np.bincount(vertex.ravel(), share[:, :, k].ravel()) for k in range(3)])
-    return unit_vectors(sums)[vertex.reshape(triangles.shape)]
+    normals = np.empty((3 * len(triangles), 3))
+    triangles, patch = (np.ascontiguousarray(numbers, dtype=np.int32) for numbers in (triangles, patch))
+    closest_point.vertex_normals(np.ascontiguousarray(vertices), triangles, patch, normals)
+    return normals.reshape(-1, 3, 3)
 
 
 def segment_tangents(points: np.ndarray, segments: np.ndarray) -> np.ndarray:

@@ -7,8 +7,9 @@ import copy
 import numpy as np
 
 from hexmend.arrays import mask, row_norms
-from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, NearPoints, triangulate, vertices_of
+from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate, vertices_of
 from hexmend.boundary.edges import SurfaceEdges
+from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.surface import PartitionedSurface
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
@@ -78,57 +79,41 @@ class SkinSurface:
         """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit."""
         return np.linalg.norm(self.closest(x) - x, axis=1)
 
-    def closest_on(
-        self,
-        x: np.ndarray,
-        stop_distance: float = 0.0,
-        near: NearPoints | None = None,
-        known: np.ndarray | None = None,
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Find the points of the surface closest to x, with the nodes of their faces.
+    def find(self, x: np.ndarray, stop_distance: float = 0.0, known: np.ndarray | None = None) -> ClosestPoints:
+        """Find the points of the surface closest to x (k, 3), or any within `stop_distance`.
 
         Parameters
         ----------
         x : (k, 3) float64
         stop_distance : float
             The search ends at any point within this distance.
-        near : NearPoints, optional
-            Stores what is found.
         known : (k,) int32, optional
             See `ClosestPointTrees.closest`.
+        """
+        return self.trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance, known)
+
+    def closest(self, x: np.ndarray, stop_distance: float = 0.0, known: np.ndarray | None = None) -> np.ndarray:
+        """Return the positions that `find` finds, (k, 3)."""
+        return self.find(x, stop_distance, known).points
+
+    def weights_of_nodes(self, found: ClosestPoints) -> tuple[np.ndarray, np.ndarray]:
+        """Describe points that `find` has found by the nodes of their faces.
 
         Returns
         -------
-        places : (k, 3) float64
         nodes : (k, 4) or (k, 3) int
             Nodes of the face on which each point lies.
         weights : (k, 4) or (k, 3) float64
             Weights of these nodes, whose mean is the point.
         """
-        found = self._found(x, stop_distance, known)
-        if near is not None:
-            near.store(found)
         pieces, width = self.trees.pieces[found.pieces], self.faces.shape[1]
         if width == 3:
-            return found.points, pieces, found.weights
+            return pieces, found.weights
         nodes = self.faces[pieces[:, 2] - len(self.points)]
         weights = np.repeat(found.weights[:, 2:] / width, width, axis=1)
         for end in range(2):
             weights += np.where(nodes == pieces[:, end, None], found.weights[:, end, None], 0.0)
-        return found.points, nodes, weights
-
-    def closest(
-        self,
-        x: np.ndarray,
-        stop_distance: float = 0.0,
-        known: np.ndarray | None = None,
-        near: NearPoints | None = None,
-    ) -> np.ndarray:
-        """Return the points of the surface closest to x (k, 3), or any within `stop_distance`; see `closest_on`."""
-        found = self._found(x, stop_distance, known)
-        if near is not None:
-            near.store(found)
-        return found.points
+        return nodes, weights
 
     def beyond(
         self,
@@ -154,9 +139,6 @@ class SkinSurface:
         """Return the nodes of the faces on which pieces (k,), such as `NearPoints.pieces`, lie, (k, 4) or (k, 3)."""
         pieces = self.trees.pieces[pieces]
         return pieces if self.faces.shape[1] == 3 else self.faces[pieces[:, 2] - len(self.points)]
-
-    def _found(self, x: np.ndarray, stop_distance: float, known: np.ndarray | None) -> ClosestPoints:
-        return self.trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance, known)
 
     def check_near(self, mesh: Mesh) -> None:
         """Raise `MeshError` unless the boundary of a mesh lies near the surface."""

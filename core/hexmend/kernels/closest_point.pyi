@@ -19,6 +19,25 @@ class BoxTrees:
         links (b, 4) int32. Arrays are not copied.
         """
 
+class ClosestPointCache:
+    """
+    Pieces near to points that move little from one query to the next.
+
+    They prove in most queries which point is the closest, without a search of the
+    tree. Results do not depend on them.
+    """
+
+    def __init__(self, trees: BoxTrees, roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """For a point in each slot, in the tree of its root (s,) int32."""
+
+    def closest(self, slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
+        """
+        The point closest to each of x (j, 3), the points in slots (j,) int32.
+
+        Writes the piece (j,) int32, -1 where x is not finite, the point on it (j, 3), and its barycentric
+        weights in the piece (j, 3).
+        """
+
 def build_trees(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 4))], Annotated[NDArray[numpy.int32], dict(shape=(None, 4))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
     """
     Trees over pieces: tree t is made of pieces[start[t]:start[t + 1]], one at least; start (t + 1,) int32.
@@ -41,18 +60,44 @@ def closest(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(No
     one of the tree that is near and shortens the search, or -1.
     """
 
-def near(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
+def near(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
     A point of the first tree for each of x (j, 3): one within the limit (j,), or the closest one.
 
-    Writes its piece (j,) int32, its barycentric weights (j, 3) and its distance (j,). On entry, piece has
-    one that is near and shortens the search, or -1.
+    Writes its piece (j,) int32, the point on it (j, 3), its barycentric weights (j, 3) and its distance
+    (j,). On entry, piece has one that is near and shortens the search, or -1.
     """
 
 def distances_from(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
     Write the distance (j,) of each of x (j, 3) from a point: that of piece (j,) int32 with barycentric
     weights (j, 3); infinite where the piece is -1.
+    """
+
+def numbers_of_different_points(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first
+    appear.
+    """
+
+def count_fans(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], width: int, sides: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    The number of fans at each of `nodes` nodes, faces connected by edges (nodes,) int32.
+
+    faces (k * width,) int32 are the nodes of faces one after the other; its side s runs from the node in place s
+    to the next of the face. Edge e has sides[first[e]:first[e + 1]], all int32.
+    """
+
+def extremes_in_cells(cell: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], cells: int) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,))]:
+    """
+    True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number
+    below `cells`; of equal values the last is the largest, the first the least.
+    """
+
+def vertex_normals(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], patch: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], normals: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
+    """
+    Write the unit normals (3 t, 3) at the corners of each of triangles (t, 3) int32: the mean over those of the
+    same patch (t,) int32 at the vertex, weighted by their angles; 0 where they have none.
     """
 
 def means(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:

@@ -28,11 +28,10 @@ class BoundaryQuads:
 class SlidingSurface:
     """Curves and patches, with the nodes that slide on them."""
 
-    def __init__(self, slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], trees: hexmend.kernels.closest_point.BoxTrees, quads: BoundaryQuads, known: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    def __init__(self, slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], cache: hexmend.kernels.closest_point.ClosestPointCache, quads: BoundaryQuads) -> None:
         """
-        slots (n,) int32 numbers the nodes that slide, -1 for others; roots (k,) int32 are the roots of the
-        trees of their curves and patches; known (k,) int32 has a piece near to each, or -1, and is changed: it
-        shortens searches. Arrays are not copied.
+        slots (n,) int32 numbers the nodes that slide, -1 for others; cache has the curve or patch of each.
+        Arrays are not copied.
         """
 
 class SurfaceTerm:

@@ -2,6 +2,9 @@
 
 #include "bindings/arrays.hpp"
 #include "boundary/closest_point.hpp"
+#include "boundary/closest_point_cache.hpp"
+#include "boundary/surface_points.hpp"
+#include "boundary/vertex_normals.hpp"
 #include "smoothers/sliding.hpp"
 
 namespace hexmend {
@@ -22,6 +25,16 @@ void bind_closest_point(nb::module_ m) {
             nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
             "pieces (k, 3) int32 are in the order that `build_trees` returns, with its boxes (6 b, 4) float64 and\n"
             "links (b, 4) int32. Arrays are not copied.");
+    nb::class_<ClosestPointCache>(m, "ClosestPointCache",
+                                  "Pieces near to points that move little from one query to the next.\n\n"
+                                  "They prove in most queries which point is the closest, without a search of the\n"
+                                  "tree. Results do not depend on them.")
+        .def(nb::init<const BoxTrees &, Indices>(), "trees"_a, "roots"_a, nb::keep_alive<1, 2>(),
+             "For a point in each slot, in the tree of its root (s,) int32.")
+        .def("closest", &closest_of_slots, "slots"_a, "x"_a, "piece"_a, "places"_a, "weights"_a, ReleaseGil(),
+             "The point closest to each of x (j, 3), the points in slots (j,) int32.\n\n"
+             "Writes the piece (j,) int32, -1 where x is not finite, the point on it (j, 3), and its barycentric\n"
+             "weights in the piece (j, 3).");
     m.def("build_trees", &build_trees, "points"_a, "pieces"_a, "start"_a, ReleaseGil(),
           "Trees over pieces: tree t is made of pieces[start[t]:start[t + 1]], one at least; start (t + 1,) int32.\n\n"
           "Returns the order (k,) int32 that the pieces are to be put in, boxes (6 b, 4) float64 and links (b, 4)\n"
@@ -34,14 +47,29 @@ void bind_closest_point(nb::module_ m) {
           "A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is\n"
           "not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3). On entry, piece has\n"
           "one of the tree that is near and shortens the search, or -1.");
-    m.def("near", &near, "trees"_a, "x"_a, "limits"_a, "piece"_a, "weights"_a, "distances"_a, ReleaseGil(),
+    m.def("near", &near, "trees"_a, "x"_a, "limits"_a, "piece"_a, "places"_a, "weights"_a, "distances"_a, ReleaseGil(),
           "A point of the first tree for each of x (j, 3): one within the limit (j,), or the closest one.\n\n"
-          "Writes its piece (j,) int32, its barycentric weights (j, 3) and its distance (j,). On entry, piece has\n"
-          "one that is near and shortens the search, or -1.");
+          "Writes its piece (j,) int32, the point on it (j, 3), its barycentric weights (j, 3) and its distance\n"
+          "(j,). On entry, piece has one that is near and shortens the search, or -1.");
     m.def("distances_from", &distances_from, "points"_a, "pieces"_a, "x"_a, "piece"_a, "weights"_a, "distances"_a,
           ReleaseGil(),
           "Write the distance (j,) of each of x (j, 3) from a point: that of piece (j,) int32 with barycentric\n"
           "weights (j, 3); infinite where the piece is -1.");
+    m.def("numbers_of_different_points", &numbers_of_different_points, "points"_a, ReleaseGil(),
+          "The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first\n"
+          "appear.");
+    m.def("count_fans", &count_fans, "faces"_a, "width"_a, "sides"_a, "first"_a, "nodes"_a, ReleaseGil(),
+          "The number of fans at each of `nodes` nodes, faces connected by edges (nodes,) int32.\n\n"
+          "faces (k * width,) int32 are the nodes of faces one after the other; its side s runs from the node in place "
+          "s\n"
+          "to the next of the face. Edge e has sides[first[e]:first[e + 1]], all int32.");
+    m.def("extremes_in_cells", &extremes_in_cells, "cell"_a, "values"_a, "cells"_a, ReleaseGil(),
+          "True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number\n"
+          "below `cells`; of equal values the last is the largest, the first the least.");
+    m.def(
+        "vertex_normals", &vertex_normals, "points"_a, "triangles"_a, "patch"_a, "normals"_a, ReleaseGil(),
+        "Write the unit normals (3 t, 3) at the corners of each of triangles (t, 3) int32: the mean over those of the\n"
+        "same patch (t,) int32 at the vertex, weighted by their angles; 0 where they have none.");
     m.def("means", &means, "points"_a, "nodes"_a, "x"_a, ReleaseGil(),
           "Write the mean (j, 3) of the four points of each row of nodes (j, 4) int32, which must exist.");
 }
@@ -69,18 +97,13 @@ void bind_sliding_surface(nb::module_ m) {
     nb::class_<SlidingSurface>(m, "SlidingSurface", "Curves and patches, with the nodes that slide on them.")
         .def(
             "__init__",
-            [](SlidingSurface *self, Indices slots, Indices roots, const BoxTrees &trees, const BoundaryQuads &quads,
-               std::span<std::int32_t> known) {
-                expect(quads.start.size() == roots.size() + 1, "quads: rows of each of the roots are expected");
-                expect(known.size() == roots.size(), "known: one for each of the roots is expected");
-                expect_known(known, trees.pieces.size());
-                new (self) SlidingSurface{slots, roots, trees, quads, known};
+            [](SlidingSurface *self, Indices slots, const ClosestPointCache &cache, const BoundaryQuads &quads) {
+                expect(quads.start.size() == cache.size() + 1, "quads: rows of each slot of the cache are expected");
+                new (self) SlidingSurface{slots, &cache, quads};
             },
-            "slots"_a, "roots"_a, "trees"_a, "quads"_a, "known"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
-            "slots (n,) int32 numbers the nodes that slide, -1 for others; roots (k,) int32 are the roots of the\n"
-            "trees of their curves and patches; known (k,) int32 has a piece near to each, or -1, and is changed: it\n"
-            "shortens searches. Arrays are not copied.");
+            "slots"_a, "cache"_a, "quads"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+            "slots (n,) int32 numbers the nodes that slide, -1 for others; cache has the curve or patch of each.\n"
+            "Arrays are not copied.");
     nb::class_<SurfaceTerm>(m, "SurfaceTerm", "Term of the objective over the boundary quads of a sliding surface.")
         .def(
             "__init__",

@@ -43,8 +43,10 @@ struct BoxTrees {
     std::span<const ChildSide> boxes;
     std::span<const ChildLinks> links;
 
-    // The point closest to x in the tree with that root, or any point at a squared distance of at most `enough`; none
-    // where x is not finite. A known piece of the tree that is near shortens the search; -1 where there is none.
+    // The point closest to x in the tree with that root, or any point at a squared distance of at most `enough` > 0;
+    // none where x is not finite. A known piece of the tree that is near shortens the search; -1 where there is none.
+    // Unless there is `enough`, what is found depends on nothing else: of pieces that are as close, the first has the
+    // point.
     ClosestPoint closest(const Point &x, std::int32_t root, double enough = 0, std::int32_t known = -1) const;
 };
 
@@ -67,9 +69,9 @@ void refit(Points points, std::span<const Piece> pieces, std::span<const ChildLi
 void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std::span<std::int32_t> piece,
              std::span<Point> places, std::span<Barycentric> weights);
 
-// Write a point of the first tree: one within the limit of each x, or the closest one: its piece, its barycentric
-// weights and its distance from x. On entry `piece` has a piece that is near, or -1.
-void near(const BoxTrees &trees, Points x, Numbers limits, std::span<std::int32_t> piece,
+// Write a point of the first tree: one within the limit of each x, or the closest one: its piece, the point, its
+// barycentric weights and its distance from x. On entry `piece` has a piece that is near, or -1.
+void near(const BoxTrees &trees, Points x, Numbers limits, std::span<std::int32_t> piece, std::span<Point> places,
           std::span<Barycentric> weights, std::span<double> distances);
 
 // Write the distance of each x from the point of a piece with some weights; infinite where the piece is -1.

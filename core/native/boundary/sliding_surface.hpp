@@ -2,9 +2,7 @@
 // flip a boundary quad.
 #pragma once
 
-#include <atomic>
-
-#include "boundary/closest_point.hpp"
+#include "boundary/closest_point_cache.hpp"
 #include "simd/vectors.hpp"
 
 namespace hexmend {
@@ -48,22 +46,18 @@ struct BoundaryQuads {
 
 // Curves and patches with the nodes that slide on them.
 struct SlidingSurface {
-    Indices slots;   // (n,): number of a node among the sliding ones, -1 for others
-    Indices roots;   // (k,): root box of the tree of each sliding node's curve or patch
-    BoxTrees trees;  // of all curves and patches
+    Indices slots;                   // (n,): number of a node among the sliding ones, -1 for others
+    const ClosestPointCache *cache;  // of each sliding node, on its curve or patch
     BoundaryQuads quads;
-    std::span<std::int32_t>
-        known;  // (k,): piece on which each was last, -1 for none: the next is near, and found sooner
+
+    std::size_t count() const { return cache->size(); }
 
     bool slides(Node i) const { return slots[i] >= 0; }
 
     // The point of node i's curve or patch closest to x; x itself where it is not finite.
     Point project(Node i, const Point &x) const {
-        std::atomic_ref<std::int32_t> last(known[slots[i]]);
-        ClosestPoint found = trees.closest(x, roots[slots[i]], 0, last.load(std::memory_order_relaxed));
-        if (found.piece < 0) return x;
-        last.store(found.piece, std::memory_order_relaxed);
-        return found.place;
+        ClosestPoint found = cache->closest(slots[i], x);
+        return found.piece < 0 ? x : found.place;
     }
 
     // The projection of x, or the node's present position where the move would flip a quad.

@@ -141,7 +141,7 @@ std::int64_t sliding_sweep_of(std::span<Point> points, const HexMesh &mesh, Indi
 std::int64_t sliding_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                            const NodeStepSettings &settings, const SlidingSurface &surface,
                            std::span<const Tangents> tangents, const SurfaceTerm *term) {
-    expect(tangents.size() == surface.roots.size(), "tangents: two for each sliding node are expected");
+    expect(tangents.size() == surface.count(), "tangents: two for each sliding node are expected");
     expect_rows(settings.target, mesh.hexes.size());
     expect(!term || term->counted.size() == surface.quads.quads.size(), "term: a row for each quad is expected");
     SlidingSweep sweep{mesh.hexes, settings, surface, tangents};

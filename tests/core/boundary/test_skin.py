@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.closest_point import NearPoints
+from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SkinSurface
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
@@ -20,7 +20,8 @@ def skin(request):
 
 def test_the_closest_point_is_a_weighted_mean_of_the_nodes_of_one_face(skin):
     x = np.random.default_rng(5).uniform(-1, 3, (40, 3))
-    places, nodes, weights = skin.closest_on(x)
+    found = skin.find(x)
+    places, (nodes, weights) = found.points, skin.weights_of_nodes(found)
     np.testing.assert_array_equal(places, skin.closest(x))
     np.testing.assert_allclose(np.einsum("kn,kni->ki", weights, skin.points[nodes]), places, atol=1e-12)
     np.testing.assert_allclose(weights.sum(axis=1), 1)

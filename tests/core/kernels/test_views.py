@@ -9,7 +9,7 @@ import pytest
 
 from hexmend.boundary import SlidingBoundary
 from hexmend.kernels import laplacian, local
-from hexmend.kernels.closest_point import BoxTrees
+from hexmend.kernels.closest_point import BoxTrees, ClosestPointCache
 from hexmend.kernels.hex_mesh import HexMesh
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.sliding_surface import BoundaryQuads, SlidingSurface
@@ -72,14 +72,16 @@ def test_arrays_of_another_type_or_shape_are_refused_by_name():
     with pytest.raises(ValueError, match=r"^outward: "):
         BoundaryQuads(np.zeros(1, np.int32), np.zeros(0, np.int32), none, points)
     quads = BoundaryQuads(np.zeros(1, np.int32), np.zeros(0, np.int32), none, points[:0])
-    trees, one = BoxTrees(points, pieces, boxes, links), np.zeros(1, np.int32)
+    cache = ClosestPointCache(BoxTrees(points, pieces, boxes, links), np.zeros(1, np.int32))
     with pytest.raises(ValueError, match=r"^quads: "):
-        SlidingSurface(np.zeros(4, np.int32), one, trees, quads, one)
-    quads = BoundaryQuads(np.zeros(2, np.int32), np.zeros(0, np.int32), none, points[:0])
-    with pytest.raises(ValueError, match=r"^known: "):
-        SlidingSurface(np.zeros(4, np.int32), one, trees, quads, one[:0])
-    with pytest.raises(ValueError, match=r"^piece: "):
-        SlidingSurface(np.zeros(4, np.int32), one, trees, quads, one + 1)
+        SlidingSurface(np.zeros(4, np.int32), cache, quads)
+    with pytest.raises(ValueError, match=r"^roots: "):
+        ClosestPointCache(BoxTrees(points, pieces, boxes, links), np.ones(1, np.int32))
+    found = np.zeros(1, np.int32), np.zeros((1, 3)), np.zeros((1, 3))
+    with pytest.raises(ValueError, match=r"^slots: "):
+        cache.closest(np.ones(1, np.int32), points[:1], *found)
+    with pytest.raises(ValueError, match=r"^slots, x, piece, places and weights have different lengths"):
+        cache.closest(np.zeros(1, np.int32), points, *found)
 
 
 def test_a_surface_wants_tangents_and_tangents_a_surface():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
@@ -97,10 +98,11 @@ def dihedral_angles(points: np.ndarray, edges: SurfaceEdges) -> np.ndarray:
 
 def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Unit normals of the faces' mean planes, 0 for a face of negligible area; (k, 3) float64."""
-    x = points[faces[:, 1:]] - points[faces[:, :1]]
-    area = cross_products(x[:, :-1], x[:, 1:]).sum(axis=1)  # twice the area vector
+    first = points[faces[:, 0]]
+    x = [points[faces[:, corner]] - first for corner in range(1, faces.shape[1])]
+    area = sum(cross_products(one, other) for one, other in pairwise(x))  # twice the area vector
     size = row_norms(area)
-    perimeter = row_norms(x[:, 0]) + row_norms(x[:, 1:] - x[:, :-1]).sum(axis=1) + row_norms(x[:, -1])
+    perimeter = row_norms(x[0]) + sum(row_norms(other - one) for one, other in pairwise(x)) + row_norms(x[-1])
     sound = size > _MIN_AREA_RATIO * perimeter**2 / 8
     return np.where(sound[:, None], area, 0.0) / np.where(sound, size, 1.0)[:, None]
 

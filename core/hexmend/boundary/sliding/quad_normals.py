@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.arrays import row_norms
 from hexmend.boundary.classification import NodeClass
+from hexmend.boundary.closest_point import ClosestPointCache
 from hexmend.boundary.sliding.sliding_boundary import SlidingBoundary
 
 #: Mean of the unit normals at the corners of a quad whose length is below this has no reliable direction.
@@ -33,8 +34,7 @@ class QuadNormals:
             patches = np.where(on_patch, sliding.surface.component[self._faces], -1)
             patch = patches.max(axis=1, initial=-1)
         self._quads = np.flatnonzero(patch >= 0)
-        self._group = np.repeat(patch[self._quads], 4)
-        self._known = np.full(self._group.size, -1, dtype=np.int32)
+        self._cache = ClosestPointCache(sliding.surface.trees, np.repeat(patch[self._quads], 4))
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Compute the normals with the nodes at some points.
@@ -50,8 +50,7 @@ class QuadNormals:
             0 where neither the surface nor the original boundary has a normal.
         """
         at, outward = self._quads, self._outward[self._quads]
-        found = self._surface.trees.closest(points[self._faces[at].ravel()], self._group, known=self._known)
-        self._known = found.pieces  # the next place of a corner is near this one
+        found = self._cache.closest(points[self._faces[at].ravel()])
         mean = self._surface.directions(found).reshape(-1, 4, 3).mean(axis=1)
         size = row_norms(mean)[:, None]
         side = np.where(np.einsum("fi,fi->f", mean, outward) < 0, -1, 1)  # triangles of a file may face either way

@@ -10,6 +10,7 @@ import numpy as np
 from hexmend.aliases import reads_old_names
 from hexmend.arrays import index_of, mask
 from hexmend.boundary.classification import NodeClass, classify
+from hexmend.boundary.closest_point import ClosestPointCache
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges, ridges
@@ -120,7 +121,8 @@ class SlidingBoundary(SlidingNodes):
         vars(other)["outward"], other.max_deviation = self.outward[judged], max_deviation
         other.node_class[nodes] = NodeClass.INSIDE
         stays = ~freed[self.nodes]
-        other.nodes, other._group, other._known = self.nodes[stays], self._group[stays], self._known[stays]
+        other.nodes, other._group = self.nodes[stays], self._group[stays]
+        other._cache = ClosestPointCache(self.surface.trees, other._group)
         other._number = index_of(other.nodes, self.mesh.n_nodes)
         other.mesh = self.mesh.with_fixed(self.mesh.fixed & ~freed)
         return other
@@ -133,7 +135,7 @@ class SlidingBoundary(SlidingNodes):
         other.surface, at = self._surface_with_union, self._number[nodes]
         other.node_class, other._group = self.node_class.copy(), self._group.copy()
         other.node_class[nodes], other._group[at] = NodeClass.PATCH, self._union
-        other._known = np.full(self.nodes.size, -1, dtype=np.int32)
+        other._cache = ClosestPointCache(other.surface.trees, other._group)
         return other
 
     @property

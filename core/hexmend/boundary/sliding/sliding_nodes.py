@@ -12,7 +12,7 @@ import numpy as np
 from hexmend.arrays import differing_rows, index_of, mask
 from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import Boundary, NodeClass
-from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints, triangulate
+from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPointCache, ClosestPoints, triangulate
 from hexmend.boundary.normals import unit_vectors, vertex_normals
 from hexmend.boundary.skin_surface import SkinSurface
 from hexmend.boundary.surface import PartitionedSurface
@@ -60,7 +60,7 @@ class SlidingNodes(Band):
         self.boundary, self.surface, self.nodes, self.node_class = boundary, surface, nodes, surface.node_class
         self._group = surface.group_of(nodes)
         self._number = index_of(nodes, len(points))
-        self._known = np.full(nodes.size, -1, dtype=np.int32)  # piece on which each of them was last
+        self._cache = ClosestPointCache(surface.trees, self._group)
         start = points if target is None else self.projected(points)
         super().__init__(points, boundary.faces, start, target, max_deviation)
 
@@ -152,13 +152,13 @@ class SlidingNodes(Band):
     @cached_property
     def sliding_surface(self) -> kernels.SlidingSurface:
         """The curves, patches and boundary quads as the kernels of methods take them."""
-        trees, faces = self.surface.trees, self.boundary.faces
+        faces = self.boundary.faces
         at = self._number[faces.ravel()]
         order = np.argsort(at, kind="stable")
         quads_at = order[np.searchsorted(at[order], 0) :].astype(np.int32)
         start = np.searchsorted(at[quads_at], np.arange(self.nodes.size + 1)).astype(np.int32)
         quads = kernels.BoundaryQuads(start, quads_at, faces, self.outward)
-        return kernels.SlidingSurface(self._number, trees.roots[self._group], trees.box_trees, quads, self._known)
+        return kernels.SlidingSurface(self._number, self._cache.kernel, quads)
 
     @cached_property
     def outward(self) -> np.ndarray:
@@ -244,11 +244,8 @@ class SlidingNodes(Band):
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> ClosestPoints:
         x = as_points(x, "places of sliding nodes")
-        slots = slice(None) if nodes is None else self._number[nodes]
         try:
-            found = self.surface.trees.closest(x, self._group[slots], known=self._known[slots])
-            self._known[slots] = found.pieces  # the next place of a node is near this one
-            return found
+            return self._cache.closest(x, None if nodes is None else self._number[nodes])
         except MeshError:
             far = np.flatnonzero(~(np.abs(x) < MAX_CLOSEST_COORDINATE).all(axis=1))
             if not far.size:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import reduce
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +15,11 @@ from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.files import check_readable, reading
 from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons
 from hexmend.io.surfaces.merge_points import merge_points
+from hexmend.kernels import incidence
 
 #: Smallest area, relative to the square of the extent.
 _MIN_AREA = 1e-9
+_FACES_AT_A_TIME = 1024
 
 
 def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
@@ -50,8 +53,8 @@ def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
 
 
 def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
-    wrong = np.flatnonzero(~np.isfinite(polygons.points).all(axis=1))
-    if wrong.size:
+    if not np.isfinite(polygons.points).all():
+        wrong = np.flatnonzero(~np.isfinite(polygons.points).all(axis=1))
         at = polygons.points[wrong[0]].tolist()
         raise FileError(path, f"point {wrong[0]} (counted from 0) is at {at}: expected finite numbers", "Correct it.")
     for nodes in polygons.faces:
@@ -63,10 +66,16 @@ def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
     points, faces = merge_points(polygons.points, faces)
     # Drop faces with fewer than three different corners.
     faces = faces[_count_distinct(faces) >= 3]
-    if not _relative_area(points, faces) > _MIN_AREA:
+    if not _has_area(points, faces):
         problem = "holds no surface: it has no triangle or quad with an area"
         raise FileError(path, problem, "Choose a file with the surface of the body.")
-    return SkinSurface(points, np.ascontiguousarray(faces, dtype=np.int32), path.name)
+    return SkinSurface(points, _in_order_of_points(faces.astype(np.int32), len(points)), path.name)
+
+
+def _in_order_of_points(faces: np.ndarray, n: int) -> np.ndarray:
+    """Sort faces (k, w) int32 by their lowest nodes: neighbours follow each other then, as those nodes do."""
+    lowest = reduce(np.minimum, (faces[:, corner] for corner in range(faces.shape[1])))
+    return faces[incidence.grouped(lowest, n)[1]]
 
 
 def _count_distinct(rows: np.ndarray) -> np.ndarray:
@@ -77,15 +86,19 @@ def _count_distinct(rows: np.ndarray) -> np.ndarray:
     return count
 
 
-def _relative_area(points: np.ndarray, faces: np.ndarray) -> float:
-    """Twice the area of all faces, divided by the square of the longest side of their bounding box."""
+def _has_area(points: np.ndarray, faces: np.ndarray) -> bool:
+    """Return True if twice the area of all faces exceeds that share of the square of their longest extent."""
     if not len(faces):
-        return 0.0
+        return False
     points = points - points[faces[0, 0]]
-    x = points / np.ptp(points[mask(faces, len(points))], axis=0).max()
-    x = x[faces]  # (k, width, 3)
-    sides = x[:, 1:] - x[:, :1]
-    return float(row_norms(cross_products(sides[:, :-1].reshape(-1, 3), sides[:, 1:].reshape(-1, 3))).sum())
+    x, area = points / np.ptp(points[mask(faces, len(points))], axis=0).max(), 0.0
+    for first in range(0, len(faces), _FACES_AT_A_TIME):  # a few of them tell it of most surfaces
+        corners = x[faces[first : first + _FACES_AT_A_TIME]]  # (k, width, 3)
+        sides = corners[:, 1:] - corners[:, :1]
+        area += float(row_norms(cross_products(sides[:, :-1].reshape(-1, 3), sides[:, 1:].reshape(-1, 3))).sum())
+        if area > _MIN_AREA:
+            return True
+    return False
 
 
 def _with_equal_width(faces: list[np.ndarray]) -> np.ndarray:
