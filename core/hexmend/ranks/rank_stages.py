@@ -85,7 +85,9 @@ class RankStages(Stages):
         if not balances or self.unsound:
             return shape.outcome
         energy = self._sound_energy(mesh, shape.points, sliding)
-        balanced = yield from keeping(kept, mesh.hexes, balance(energy, shape.points, given), self._is_lower)
+        begin = None if kept is None else given
+        steps = balance(energy, shape.points, given, begin=begin)
+        balanced = yield from keeping(kept, mesh.hexes, steps, self._is_lower)
         yield Step(balanced.points, decision=balanced.message, intermediate=True)
         return Outcome.NO_IMPROVEMENT
 

@@ -127,6 +127,16 @@ class SlidingBoundary(SlidingNodes):
         other.mesh = self.mesh.with_fixed(self.mesh.fixed & ~freed)
         return other
 
+    def at_rest(self) -> SlidingBoundary:
+        """Return the boundary with all sliding nodes fixed where they are: those that are free already are free."""
+        other, slides = copy.copy(self), mask(self.nodes, self.mesh.n_nodes)
+        for name in _OF_SLIDING_NODES:
+            vars(other).pop(name, None)
+        other.nodes, other._group, other._known = self.nodes[:0], self._group[:0], self._known[:0]
+        other._number = index_of(other.nodes, self.mesh.n_nodes)
+        other.mesh = self.mesh.with_fixed(self.mesh.fixed | slides)
+        return other
+
     def with_nodes_on_patches(self, nodes: np.ndarray) -> SlidingBoundary:
         """Return the sliding boundary with nodes (k,) of curves on all its patches but those of interfaces."""
         other = copy.copy(self)

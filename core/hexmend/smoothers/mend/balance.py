@@ -23,6 +23,7 @@ _PATIENT = replace(
     window=4,
     max_floors=50,
 )
+_FACETED = replace(PATH, window=4)
 _CAREFUL = replace(_PATIENT, jacobian_gap=5e-3, quality_gap=5e-3, min_gain=2e-4, max_floors=20)
 
 
@@ -44,15 +45,16 @@ class BalanceConfig:
     returns : tuple of float
         Shares of the way from the given mesh to the result that are tried where the mean of q(H) is lower all the same.
     much : float
-        Multiple of the floor of the minimum scaled Jacobian above which the first rise is followed by a patient one.
+        Multiple of the floor of the minimum scaled Jacobian above which the first rise is followed by a patient one,
+        unless the surface is faceted.
     worth_rising : float
         Share by which that has to raise the least.
     sound : float
         Minimum scaled Jacobian from which on nothing is to be gained.
     target_fall : float
         Share by which the least values may fall where a mesh has a target.
-    path : CentralPathConfig
-        Of the first rise.
+    path, faceted : CentralPathConfig
+        Of the first rise; the second on a faceted surface, where single floors gain little on the way.
     patient : CentralPathConfig
         Of the rise after it, where figures of the given mesh are not reached yet.
     careful : CentralPathConfig
@@ -69,6 +71,7 @@ class BalanceConfig:
     sound: float = 0.99
     target_fall: float = 0.05
     path: CentralPathConfig = PATH
+    faceted: CentralPathConfig = _FACETED
     patient: CentralPathConfig = _PATIENT
     careful: CentralPathConfig = _CAREFUL
 
@@ -113,7 +116,11 @@ def floors_of(energy: MeshEnergy, points: np.ndarray) -> Floors:
 
 
 def balance(
-    energy: MeshEnergy, points: np.ndarray, given: np.ndarray, config: BalanceConfig = BALANCE
+    energy: MeshEnergy,
+    points: np.ndarray,
+    given: np.ndarray,
+    config: BalanceConfig = BALANCE,
+    begin: np.ndarray | None = None,
 ) -> Generator[Step, None, Balanced]:
     """Raise the minimum scaled Jacobian and the least q(H), then improve the shape above floors just below them.
 
@@ -126,6 +133,8 @@ def balance(
     given : (n, 3) float64
         The points of the given mesh, whose figures the result is not to lower.
     config : BalanceConfig
+    begin : (n, 3) float64, optional
+        Other points from which the values rise, if the minimum scaled Jacobian is higher there than at the optimum.
 
     Yields
     ------
@@ -136,7 +145,8 @@ def balance(
     -------
     Balanced
     """
-    path, start = CentralPath(energy, points, config.path), floors_of(energy, given)
+    path = CentralPath(energy, points, config.faceted if energy.faceted else config.path)
+    start = floors_of(energy, given)
     shape = path.least
     if not shape.jacobian < config.sound:
         return Balanced(points, "")
@@ -144,6 +154,9 @@ def balance(
         share = 1 - config.target_fall
         if shape.jacobian >= share * start.jacobian and shape.quality >= share * start.quality:
             return Balanced(points, "")
+    if begin is not None:
+        _go_to_higher(path, energy.to_edge_units(begin))
+        shape = path.least
     floor = Least(max(start.jacobian, shape.jacobian), max(start.quality, shape.quality))
     top_jacobian = np.inf if energy.target is None else floor.jacobian * (1 + config.quality_margin)
     target = Least(top_jacobian, floor.quality * (1 + config.quality_margin))
@@ -151,13 +164,31 @@ def balance(
     if not _is_above(path.least, floor, config.margin):  # on with all hexes, until the floors are reached
         target = Least(floor.jacobian * (1 + config.quality_margin), target.quality)
         yield from _steps(path, path.rise(target, config.patient), energy.norm)
-    elif path.least.jacobian > config.much * floor.jacobian:  # more may be had where so much was
+    elif path.least.jacobian > config.much * floor.jacobian and not energy.faceted:  # more may be had where so much was
         yield from _rise_on(path, target, config)
     if not _is_above(path.least, floor, config.margin) and start.jacobian > 0:  # another way: from the given mesh
         floor = Least(start.jacobian, start.quality)
         path.move_to(energy.to_edge_units(given))
         target = Least(floor.jacobian * (1 + config.quality_margin), floor.quality * (1 + config.quality_margin))
         yield from _steps(path, path.rise(target, config.careful), energy.norm)
+    top = path.least
+    yield from _improve_above(path, floor, start, given, config)
+    return Balanced(path.points, _message(path, top, energy.mean(measure(points, energy.mesh.hexes).q)))
+
+
+def _go_to_higher(path: CentralPath, x: np.ndarray) -> None:
+    """Go to other positions, x (n, 3), if the minimum scaled Jacobian is higher there."""
+    before, least = path.x, path.least
+    path.move_to(x)
+    if not path.least.jacobian > least.jacobian:
+        path.move_to(before)
+
+
+def _improve_above(
+    path: CentralPath, floor: Least, start: Floors, given: np.ndarray, config: BalanceConfig
+) -> Iterator[Step]:
+    """Minimise the energy above a share of the highest values: less of them until the mean is no lower than given."""
+    energy = path.energy
     top, highest = path.least, path.x
     for share in config.kept_share:
         path.move_to(highest)
@@ -170,7 +201,6 @@ def balance(
             break
     else:
         yield from _return_towards(path, energy.to_edge_units(given), start, config.returns)
-    return Balanced(path.points, _message(path, top, energy.mean(measure(points, energy.mesh.hexes).q)))
 
 
 def _rise_on(path: CentralPath, target: Least, config: BalanceConfig) -> Iterator[Step]:

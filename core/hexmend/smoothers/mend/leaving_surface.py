@@ -48,9 +48,11 @@ class LeavingSurface:
     ):
         self.settings, self.sliding, self.mesh = settings, sliding, sliding.mesh
         self._untangled, self._optimise_shape = untangled, optimise_shape
-        self._nearly: MaxMinOptimiser | None = None  # with the fewest inverted hexes, where some are left
+        self._nearly: MaxMinOptimiser | None = None  # with the fewest inverted hexes, where some may be left
 
-    def untangle(self, candidates: Sequence[np.ndarray]) -> Generator[Step, None, MaxMinResult | None]:
+    def untangle(
+        self, optimum: np.ndarray, candidates: Sequence[np.ndarray]
+    ) -> Generator[Step, None, MaxMinResult | None]:
         """Let nodes leave the surface where the best of some points (n, 3) on it leave hexes inverted.
 
         None where no hex is inverted, or nodes must not leave the surface, or some hexes stay inverted.
@@ -60,15 +62,16 @@ class LeavingSurface:
         if not measure(starts[0], hexes).n_inverted or not self._tolerance > 0:
             return None
         limits, fewest = self._limits, len(hexes)
-        trials = [(start, limits[:1]) for start in starts[: RELEASE.starts]] + [(starts[0], limits[1:])]
-        for number, (start, within) in enumerate(trials):
-            if number == len(trials) - 1 and fewest <= RELEASE.few:  # linear programs do better
+        trials = [(optimum, limits[:1], True)]
+        trials += [(start, limits[:1], False) for start in starts[: RELEASE.starts]] + [(starts[0], limits[1:], False)]
+        for start, within, others_stay in trials:
+            if fewest <= RELEASE.few:  # linear programs do better
                 break
-            points, released = yield from untangle_released(self.sliding, start, self._untangled, within)
+            points, released = yield from untangle_released(self.sliding, start, self._untangled, within, others_stay)
             inverted = measure(points, hexes).n_inverted
             if inverted < fewest and released.size:
                 fewest, self._nearly = inverted, self._with_released(points, released)
-            if not inverted:
+            if not inverted and not (others_stay and self._nearly.corners.active_minimum < MAXMIN.barrier_safe):
                 return (yield from self._raise_untangled(points, released))
         return None
 
@@ -82,12 +85,39 @@ class LeavingSurface:
             return (yield from raise_in_wider_band(result, tolerance)) if wider else result
         optimiser = MaxMinOptimiser(self.mesh, start, self.sliding)
         if measure(result.optimiser.points, self.mesh.hexes).n_inverted:
-            return (yield from improve_off_surface(optimiser, self._limits, result, wanted, self._nearly))
+            starts = [optimiser] if self._nearly is None else [self._nearly, optimiser]
+            return (yield from improve_off_surface(starts, self._limits, result, wanted))
         nearer = [share * self.mesh.mean_edge_length for share in MAXMIN.off_surface_tolerances]
         reached = result.optimiser.envelope.max_deviation / (1 + SLP.band_excess)
         limits = [limit for limit in nearer if reached <= limit < (1 - MAXMIN.worth_widening) * tolerance]
-        result = yield from improve_off_surface(optimiser, [*limits, tolerance], result, wanted)
+        result = yield from improve_off_surface([optimiser], [*limits, tolerance], result, wanted)
         return (yield from raise_in_wider_band(result, tolerance)) if self.settings.maximises_jacobian else result
+
+    def boundary(self, result: MaxMinResult | None) -> SlidingBoundary:
+        """The boundary with the nodes free that left the surface, in the band of a result; as it was without one."""
+        if result is None or not result.optimiser.envelope.released.any():
+            return self.sliding
+        envelope = result.optimiser.envelope
+        return envelope.sliding.without_nodes(np.flatnonzero(envelope.off_surface), self._width(result))
+
+    def returned(self, result: MaxMinResult, points: np.ndarray) -> Generator[Step, None, MaxMinOptimiser]:
+        """Go on from a result to points (n, 3), whose boundary returns to the band of the result if it is outside.
+
+        Where it does not return, the optimiser stays at the result.
+        """
+        optimiser, limit = result.optimiser.fork(), self._width(result)
+        optimiser.move_to(points)
+        with optimiser.envelope.relaxed(limit):
+            yield from (step.step(infeasible=True) for step in optimiser.return_to_band(limit))
+        if optimiser.envelope.largest_deviation(optimiser.points, limit) > limit * (1 + SLP.band_excess):
+            optimiser.move_to(result.optimiser.points)
+        return optimiser
+
+    def _width(self, result: MaxMinResult) -> float:
+        """Distance of boundary and surface in the band of a result, or that of its points where they are outside."""
+        envelope = result.optimiser.envelope
+        far = envelope.largest_deviation(result.optimiser.points, envelope.max_deviation)
+        return max(far * (1 + SLP.band_excess), envelope.max_deviation)
 
     def _raise_untangled(self, points: np.ndarray, released: np.ndarray) -> Generator[Step, None, MaxMinResult]:
         """Go to the optimum of shape and raise the least from points (n, 3) whose nodes (k,) left the surface."""
@@ -97,6 +127,7 @@ class LeavingSurface:
         limit = min(enough, default=far)
         shape = yield from infeasible(self._optimise_shape(sliding.without_nodes(released, limit), points))
         optimiser = self._with_released(shape.points, released)
+        optimiser.envelope.limit_to(limit)
         if not self.settings.maximises_jacobian and optimiser.corners.active_minimum >= MAXMIN.barrier_safe:
             return MaxMinResult(optimiser, NO_CORNERS)
         nearer = [smaller for smaller in self._limits if smaller < limit]
@@ -115,6 +146,11 @@ class LeavingSurface:
         optimiser = MaxMinOptimiser(self.mesh, points, self.sliding)
         optimiser.release_nodes(released)
         return optimiser
+
+    @property
+    def nearly_untangled(self) -> bool:
+        """Few hexes or none are inverted where nodes have left the surface at the least distance."""
+        return self._nearly is not None and measure(self._nearly.points, self.mesh.hexes).n_inverted <= RELEASE.few
 
     @property
     def _limits(self) -> list[float]:

@@ -81,11 +81,10 @@ def raise_within_tolerance(
 
 
 def improve_off_surface(
-    optimiser: MaxMinOptimiser,
+    starts: Sequence[MaxMinOptimiser],
     limits: Sequence[float],
     reached: MaxMinResult,
     wanted: float,
-    other: MaxMinOptimiser | None = None,
     config: MaxMinConfig = MAXMIN,
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least with nodes of the boundary off the surface, then bring them back into its band.
@@ -95,8 +94,8 @@ def improve_off_surface(
 
     Parameters
     ----------
-    optimiser : MaxMinOptimiser
-        Where this begins.
+    starts : sequence of MaxMinOptimiser
+        Where this begins: from the next one where a hex is inverted after the first detour from one.
     limits : sequence of float
         Distances from the surface that the boundary may have, ascending, in the mesh's unit of length: the result has
         the least of them at which it is better than `reached` and no hex is inverted or, if none is there, acceptable.
@@ -104,8 +103,6 @@ def improve_off_surface(
         The result so far.
     wanted : float
         Minimum scaled Jacobian from which on there are no further detours.
-    other : MaxMinOptimiser, optional
-        Another start, with nodes off the surface already, where a hex is inverted after the first detour.
     config : MaxMinConfig
 
     Yields
@@ -118,11 +115,12 @@ def improve_off_surface(
     MaxMinResult
         The better one: this, if it is back in a band, or `reached`.
     """
-    far, factors = config.off_surface_limit * optimiser.mesh.mean_edge_length, iter(config.detour_factors)
-    target, factor = config.off_surface_factor * config.acceptable, next(factors)
-    result = yield from _detour(optimiser, limits, far, target, reached, config)
-    if other is not None and not result.least > 0:
-        result = yield from _better_from(other, limits[0], result, config)
+    far, factors = config.off_surface_limit * starts[0].mesh.mean_edge_length, iter(config.detour_factors)
+    target, factor, result = config.off_surface_factor * config.acceptable, next(factors), reached
+    for optimiser in starts:
+        result = yield from _detour(optimiser, limits, far, target, result, config)
+        if result.least > 0:
+            break
     for _ in range(config.detours):
         least = result.least
         if least >= wanted:
@@ -139,17 +137,6 @@ def improve_off_surface(
     if result is reached:
         yield result.step()
     return (yield from raise_to_the_end(result, config))
-
-
-def _better_from(
-    other: MaxMinOptimiser, max_deviation: float, result: MaxMinResult, config: MaxMinConfig
-) -> Generator[Step, None, MaxMinResult]:
-    """Raise the least from another start within a tolerance; return that, or `result` if it is no higher."""
-    higher = yield from infeasible(raise_within_tolerance(other, max_deviation, config.programs_between, config))
-    if not higher.least > result.least:
-        return result
-    yield higher.step()
-    return higher
 
 
 def raise_to_the_end(result: MaxMinResult, config: MaxMinConfig = MAXMIN) -> Generator[Step, None, MaxMinResult]:

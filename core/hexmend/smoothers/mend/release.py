@@ -70,6 +70,7 @@ def untangle_released(
     points: np.ndarray,
     untangle: Untangle,
     limits: Sequence[float],
+    others_stay: bool = False,
     rounds: int = RELEASE.rounds,
 ) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
     """Free the nodes at which the boundary holds hexes inverted, and untangle these hexes.
@@ -83,6 +84,8 @@ def untangle_released(
     limits : sequence of float
         Distances from the surface that the boundary may have, ascending, in the mesh's unit of length: the next one is
         tried where hexes are inverted still.
+    others_stay : bool
+        Nodes of the boundary that are not freed stay where they are; else they slide.
     rounds : int
         Times that more nodes are freed at one distance, at most.
 
@@ -104,8 +107,8 @@ def untangle_released(
             concerned = concerned_nodes(mesh, points, released) & sliding.leavable | released
             if not fewest or not concerned.any():
                 return points, np.flatnonzero(released)
-            nodes = np.flatnonzero(concerned)
-            after = yield from infeasible(untangle(sliding.without_nodes(nodes, limit), points))
+            around = sliding.without_nodes(np.flatnonzero(concerned), limit)
+            after = yield from infeasible(untangle(around.at_rest() if others_stay else around, points))
             inverted = measure(after, mesh.hexes).n_inverted
             if inverted >= fewest:
                 break

@@ -24,7 +24,7 @@ from hexmend.smoothers.mend.maxmin import MAXMIN, active_set, maximise_minimum
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
-from hexmend.smoothers.mend.off_surface import MaxMinResult
+from hexmend.smoothers.mend.off_surface import MaxMinResult, raise_to_the_end
 from hexmend.smoothers.mend.release import T, infeasible
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
 from hexmend.smoothers.mend.starts import raise_from_better
@@ -71,28 +71,26 @@ class Stages:
             yield from keeping(kept, mesh.hexes, islice(steps, MAXMIN.untangling_iterations))
             shape = yield from keeping(kept, mesh.hexes, self._sliding_shape(sliding, optimiser.points))
             candidates += [optimiser.points, shape.points]
-        result, leaving = None, None
-        if sliding is not None:
+        if sliding is None:
+            leaving, result = None, (yield from self._maxmin_stage(mesh, candidates, None))
+        else:
             leaving = LeavingSurface(self.settings, sliding, self._untangled, self._sliding_shape)
-            result = yield from leaving.untangle(candidates)
-        if result is None:
-            result = yield from self._maxmin_stage(mesh, candidates, sliding, fixed)
-            if sliding is not None and self.settings.maximises_jacobian:
-                least = result.least
-                result = yield from self._raise_in_wider_bands(sliding, self._bands(mesh)[1:], result)
-                if result.gains(least):
-                    result = yield from self._raise_from_wide_shape(sliding, fixed_optimum, result)
-        if leaving is not None and result is not None:
-            result = yield from leaving.raise_least(fixed_optimum, result)
+            result = yield from self._raise_sliding(leaving, fixed_optimum, candidates, fixed)
         if self.goal == "time-step":
             result = yield from maximise_time_step(mesh, candidates, sliding, result)
         points = shape.points if result is None else result.optimiser.points
         outcome = shape.outcome if result is None else Outcome.NO_IMPROVEMENT
         active, sentences, quality = None, [], None
-        if self.settings.balances and (result is None or not result.optimiser.envelope.released.any()):
-            energy = self._sound_energy(mesh, points, sliding)
-            balanced = yield from keeping(kept, mesh.hexes, balance(energy, points, given))
-            points = balanced.points
+        if self.settings.balances:
+            around, begin = None if leaving is None else leaving.boundary(result), None if kept is None else given
+            energy = self._sound_energy(mesh if around is None else around.mesh, points, around)
+            steps = balance(energy, points, given, begin=begin)
+            if leaving is None or result is None:
+                balanced = yield from keeping(kept, mesh.hexes, steps)
+                points = balanced.points
+            else:  # steps with released nodes may leave their band, to which the result returns
+                balanced = yield from infeasible(steps, every=1)
+                points = (yield from infeasible(leaving.returned(result, balanced.points))).points
             sentences.append(balanced.message)
         if self.settings.maximises_minimum:
             active = active_set(result.optimiser, result.active)
@@ -125,6 +123,31 @@ class Stages:
             return fixed, given, None
         balanced = yield from balance(self._sound_energy(mesh, optimum, None), optimum, given)
         return fixed, balanced.points, measure(balanced.points, mesh.hexes)
+
+    def _raise_sliding(
+        self,
+        leaving: LeavingSurface,
+        optimum: np.ndarray,
+        candidates: Sequence[np.ndarray],
+        fixed: MaxMinResult | None,
+    ) -> Generator[Step, None, MaxMinResult | None]:
+        """Raise the least on the surface from the best of some points (n, 3), then with nodes that leave it.
+
+        Nodes leave it from points `optimum` (n, 3) on. The result is no lower than `fixed`, that with the boundary
+        fixed; None where nothing is to be raised.
+        """
+        sliding, result = leaving.sliding, (yield from leaving.untangle(optimum, candidates))
+        if result is None:
+            result = yield from self._maxmin_stage(sliding.mesh, candidates, sliding, fixed)
+            if self.settings.maximises_jacobian and not leaving.nearly_untangled:
+                least = result.least
+                result = yield from self._raise_in_wider_bands(sliding, self._bands(sliding.mesh)[1:], result)
+                if result.gains(least):
+                    result = yield from self._raise_from_wide_shape(sliding, optimum, result)
+        if result is None:
+            return None
+        result = yield from leaving.raise_least(optimum, result)
+        return (yield from self._raise_released(leaving, result)) if self.settings.maximises_jacobian else result
 
     def sliding_boundary(self, mesh: Mesh) -> SlidingBoundary:
         """The boundary in the narrowest band; a tolerance in numbers says how far its sets too may move."""
@@ -225,6 +248,22 @@ class Stages:
         wide = sliding.with_band(self._bands(sliding.mesh)[-1])
         shape = yield from infeasible(self._sliding_shape(wide, points))
         higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [result.optimiser.points, shape.points], wide))
+        if not higher.least > result.least:
+            return result
+        yield higher.step()
+        return higher
+
+    def _raise_released(self, leaving: LeavingSurface, result: MaxMinResult) -> Generator[Step, None, MaxMinResult]:
+        """Raise along the central path where nodes have left the surface, then to the end."""
+        if not result.optimiser.envelope.released.any() or not result.least > 0:
+            return result
+        around = leaving.boundary(result)
+        energy = self._sound_energy(around.mesh, result.optimiser.points, around)
+        points = yield from infeasible(raise_jacobian(energy, result.optimiser.points))
+        optimiser = yield from infeasible(leaving.returned(result, points))
+        if not optimiser.corners.movable_minimum > MAXMIN.returned_share * result.least:
+            return result
+        higher = yield from infeasible(raise_to_the_end(MaxMinResult(optimiser, None)))
         if not higher.least > result.least:
             return result
         yield higher.step()

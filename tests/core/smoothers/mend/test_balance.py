@@ -18,7 +18,7 @@ from hexmend.quality import measure, summarise
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.run import smooth
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.mend.balance import _message
+from hexmend.smoothers.mend.balance import _message, balance
 from hexmend.smoothers.mend.inversion import inverted_corners
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid, scrambled
@@ -155,6 +155,17 @@ def test_figures_of_a_hex_that_stays_inverted_do_not_count_but_those_of_the_othe
     for name in ("q", "scaled_jacobian"):
         assert ranked(name, others, 0.99) > mend.rank(start, start)
         assert ranked(name, others, 1.01) == mend.rank(start, start)
+
+
+def test_the_floors_rise_from_the_higher_of_two_starts():
+    mesh = make("five-side", size=60, scramble=0.25, seed=1)
+    energy = MeshEnergy(mesh, ObjectiveNorm(1.0))
+    high = smooth(mesh, Mend()).mesh.points
+    low = mesh.points
+    assert movable_least(mesh, high).jacobian > movable_least(mesh, low).jacobian + 0.2
+    for points, other in ((low, high), (high, low)):
+        steps = balance(energy, points, low, begin=other)
+        assert next(steps).diagnostics["least"] > movable_least(mesh, high).jacobian
 
 
 def test_a_mesh_that_cannot_gain_stays():
