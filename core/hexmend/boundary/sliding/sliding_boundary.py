@@ -132,7 +132,8 @@ class SlidingBoundary(SlidingNodes):
         other, slides = copy.copy(self), mask(self.nodes, self.mesh.n_nodes)
         for name in _OF_SLIDING_NODES:
             vars(other).pop(name, None)
-        other.nodes, other._group, other._known = self.nodes[:0], self._group[:0], self._known[:0]
+        other.nodes, other._group = self.nodes[:0], self._group[:0]
+        other._cache = ClosestPointCache(self.surface.trees, other._group)
         other._number = index_of(other.nodes, self.mesh.n_nodes)
         other.mesh = self.mesh.with_fixed(self.mesh.fixed | slides)
         return other
