@@ -42,7 +42,7 @@ def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
     assert isinstance(limit, ActiveCorners)
     steps = list(
         improve_off_surface(
-            MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [room], MaxMinResult(other, limit), 0.2
+            [MaxMinOptimiser(sliding.mesh, mesh.points, sliding)], [room], MaxMinResult(other, limit), 0.2
         )
     )
     assert steps
@@ -57,7 +57,7 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     *_, limit = other.steps()
     other.corners.values[:] = 1.0  # as good as can be: nothing is better
     walk = improve_off_surface(
-        MaxMinOptimiser(sliding.mesh, mesh.points, sliding), [1e-9], MaxMinResult(other, limit), 0.2
+        [MaxMinOptimiser(sliding.mesh, mesh.points, sliding)], [1e-9], MaxMinResult(other, limit), 0.2
     )
     steps, result = walked(walk)
     assert result.optimiser is other
@@ -84,7 +84,7 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
 
     monkeypatch.setattr(MaxMinOptimiser, "return_to_band", recorded)
     optimiser = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    steps = list(improve_off_surface(optimiser, [room], MaxMinResult(other, limit), 0.2, config))
+    steps = list(improve_off_surface([optimiser], [room], MaxMinResult(other, limit), 0.2, config))
     assert len(returns[0]) > MAXMIN.programs_per_iteration
     for made in returns:
         shown = [k for k, points in enumerate(made) if any(step.infeasible and step.points is points for step in steps)]
@@ -97,7 +97,7 @@ def test_what_is_better_off_the_surface_and_back_in_its_band_is_taken():
     sliding = SlidingBoundary(mesh, max_deviation=room)
     other, off = (MaxMinOptimiser(sliding.mesh, mesh.points, sliding) for _ in range(2))
     limit = ActiveCorners(other.corners.active_minimum, np.array([0]), np.array([0]))
-    walk = improve_off_surface(off, [room], MaxMinResult(other, limit), 0.2, replace(MAXMIN, acceptable=0.3))
+    walk = improve_off_surface([off], [room], MaxMinResult(other, limit), 0.2, replace(MAXMIN, acceptable=0.3))
     _, result = walked(walk)
     assert result.optimiser is off
     assert result.active is not limit
