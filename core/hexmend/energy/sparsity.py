@@ -52,7 +52,7 @@ class BlockSparsity:
         Number of ghosts.
     bounds : (2 parts,) int32
         Limits of the parts, then of the separators, in slots.
-    order : (k,) int64
+    order : (k,) int32
         Slot of each free node of this rank, in the order of node numbers.
     has_opposite : bool
         Nodes that only opposite corners of hexes join have a block too; see `of_tetrahedra`.
@@ -73,7 +73,7 @@ class BlockSparsity:
             count = np.count_nonzero(free)
             parts = max((parts for least, parts in _PARTS if count >= least), default=1)
         self.nodes, self.bounds = ordering.slots(mesh.hexes, rings.start, rings.items, free, parts)
-        self.order, self.ghosts = np.argsort(self.nodes), 0
+        self.order, self.ghosts = np.argsort(self.nodes).astype(np.int32), 0
         if owned is not None:
             ghosts = np.flatnonzero(mesh.free & ~owned).astype(np.int32)
             self.nodes, self.ghosts = np.concatenate([self.nodes, ghosts]), ghosts.size

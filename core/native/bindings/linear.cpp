@@ -64,7 +64,7 @@ template <class Block> void bind_matrix(nb::module_ m) {
 template <class Real> void bind_vectors(nb::module_ m) {
     m.def("to_slots", &to_slots<Real>, "of_nodes"_a, "order"_a, "scale"_a, "of_slots"_a, ReleaseGil(),
           "Write vectors of nodes (k, 3), times a scale, to slots (k, 4), whose fourth number becomes 0.\n\n"
-          "Row k of of_nodes belongs to slot order[k], int64.");
+          "Row k of of_nodes belongs to slot order[k], int32.");
     m.def("from_slots", &from_slots<Real>, "of_slots"_a, "order"_a, "scale"_a, "of_nodes"_a, ReleaseGil(),
           "Write vectors of slots (k, 4), times a scale, to nodes (k, 3); see `to_slots`.");
     m.def("turn_blocks", &turn_blocks<Real>, "turn"_a, "at"_a, "rows"_a, "columns"_a, "off_diagonal"_a, ReleaseGil(),

@@ -281,8 +281,7 @@ std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Block
 }
 
 template <class Real>
-void to_slots(Points of_nodes, std::span<const std::int64_t> order, double scale,
-              std::span<std::array<Real, 4>> of_slots) {
+void to_slots(Points of_nodes, Indices order, double scale, std::span<std::array<Real, 4>> of_slots) {
     expect(order.size() == of_nodes.size() && of_slots.size() == of_nodes.size(),
            "of_nodes, order and of_slots have different lengths: expected a row a node");
     parallel_for(order.size(), NODES_PER_CHUNK, [&](std::int64_t k) {
@@ -291,8 +290,7 @@ void to_slots(Points of_nodes, std::span<const std::int64_t> order, double scale
     });
 }
 
-template <class Real>
-void from_slots(Vectors<Real> of_slots, std::span<const std::int64_t> order, double scale, std::span<Point> of_nodes) {
+template <class Real> void from_slots(Vectors<Real> of_slots, Indices order, double scale, std::span<Point> of_nodes) {
     expect(order.size() == of_nodes.size() && of_slots.size() == of_nodes.size(),
            "of_nodes, order and of_slots have different lengths: expected a row a node");
     parallel_for(order.size(), NODES_PER_CHUNK, [&](std::int64_t k) {
@@ -303,7 +301,7 @@ void from_slots(Vectors<Real> of_slots, std::span<const std::int64_t> order, dou
 
 template <class Block>
 void product(const BlockPattern &pattern, UpperBlocks<Block> off_diagonal, DiagonalBlocks<NumberOf<Block>> diagonal,
-             std::span<const std::int64_t> order, Points x, std::span<Point> y) {
+             Indices order, Points x, std::span<Point> y) {
     using V = Vec4<double>;
     BlockMatrix<Block, double> system(pattern, off_diagonal);
     std::vector<V> of(x.size()), there(x.size()), w(x.size()), odd(x.size() - pattern.first_separator());
@@ -319,11 +317,11 @@ void product(const BlockPattern &pattern, UpperBlocks<Block> off_diagonal, Diago
     template std::pair<int, SolveStatus> solve(const BlockPattern &, UpperBlocks<Block>, DiagonalBlocks<Real>, double, \
                                                Vectors<Real>, double, int, std::span<std::array<Real, 4>>,             \
                                                std::span<Real>, const Coupling<Real> &, const CoarsePattern *);        \
-    template void product<Block>(const BlockPattern &, UpperBlocks<Block>, DiagonalBlocks<Real>,                       \
-                                 std::span<const std::int64_t>, Points, std::span<Point>);
-#define FOR_REAL(Real)                                                                                     \
-    template void to_slots(Points, std::span<const std::int64_t>, double, std::span<std::array<Real, 4>>); \
-    template void from_slots(Vectors<Real>, std::span<const std::int64_t>, double, std::span<Point>);
+    template void product<Block>(const BlockPattern &, UpperBlocks<Block>, DiagonalBlocks<Real>, Indices, Points,      \
+                                 std::span<Point>);
+#define FOR_REAL(Real)                                                               \
+    template void to_slots(Points, Indices, double, std::span<std::array<Real, 4>>); \
+    template void from_slots(Vectors<Real>, Indices, double, std::span<Point>);
 using Singles = std::array<float, 9>;
 using Doubles = std::array<double, 9>;
 FOR_BLOCK(Singles, float)

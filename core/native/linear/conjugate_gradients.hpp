@@ -58,14 +58,12 @@ std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Block
 // Write right-hand sides or solutions of nodes, scaled, to their slots and back: row k of `of_nodes` belongs to slot
 // order[k]. The fourth number of a slot becomes 0.
 template <class Real>
-void to_slots(Points of_nodes, std::span<const std::int64_t> order, double scale,
-              std::span<std::array<Real, 4>> of_slots);
-template <class Real>
-void from_slots(Vectors<Real> of_slots, std::span<const std::int64_t> order, double scale, std::span<Point> of_nodes);
+void to_slots(Points of_nodes, Indices order, double scale, std::span<std::array<Real, 4>> of_slots);
+template <class Real> void from_slots(Vectors<Real> of_slots, Indices order, double scale, std::span<Point> of_nodes);
 
 // Write y = A x (k, 3) in double precision; row k of x and y belongs to slot order[k].
 template <class Block>
 void product(const BlockPattern &pattern, UpperBlocks<Block> off_diagonal, DiagonalBlocks<NumberOf<Block>> diagonal,
-             std::span<const std::int64_t> order, Points x, std::span<Point> y);
+             Indices order, Points x, std::span<Point> y);
 
 }  // namespace hexmend

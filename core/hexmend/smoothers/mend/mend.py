@@ -27,7 +27,7 @@ class Mend(MendSettings):
     help = "Untangles as far as the fixed nodes allow, then finds the best shape that lowers no key figure."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     iteration_limit = 1000
-    bytes_per_hex = 1400
+    bytes_per_hex = 1200
     keeps_linear_motion = True
 
     def steps(self, mesh: Mesh) -> Steps:
