@@ -120,9 +120,9 @@ def any_of_rows(marks: np.ndarray, rows: np.ndarray) -> np.ndarray:
     >>> any_of_rows(np.array([True, False, False]), np.array([[1, 2], [2, 0]])).tolist()
     [False, True]
     """
-    found = marks[rows[:, 0]]
+    found = marks.take(rows[:, 0])  # in half the time of marks[...]
     for column in range(1, rows.shape[1]):
-        found |= marks[rows[:, column]]
+        found |= marks.take(rows[:, column])
     return found
 
 
@@ -132,9 +132,9 @@ def largest_of_rows(values: np.ndarray, rows: np.ndarray) -> np.ndarray:
     >>> largest_of_rows(np.array([3.0, 1.0, 2.0]), np.array([[1, 2], [2, 0]])).tolist()
     [2.0, 3.0]
     """
-    largest = values[rows[:, 0]]
+    largest = values.take(rows[:, 0])
     for column in range(1, rows.shape[1]):
-        np.maximum(largest, values[rows[:, column]], out=largest)
+        np.maximum(largest, values.take(rows[:, column]), out=largest)
     return largest
 
 

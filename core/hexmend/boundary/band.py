@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.arrays import any_of_rows, mask, row_norms
+from hexmend.arrays import any_of_rows, differing_rows, mask, row_norms
 from hexmend.boundary.cell_extremes import extremes_in_cells
 from hexmend.boundary.closest_point import ClosestPoints, means
 from hexmend.boundary.near_points import NearPoints
@@ -62,6 +62,16 @@ class InitialDistances(NamedTuple):
     weights: np.ndarray
 
 
+class _Judged(NamedTuple):
+    """Samples that were outside the band at some node positions: the others are inside until their nodes move."""
+
+    points: np.ndarray  # (n, 3) float64
+    max_deviation: float
+    boundary: np.ndarray  # (s,) bool: samples of the boundary that were outside, or were not examined
+    surface: np.ndarray  # (t,) bool: samples of the surface
+    pieces: np.ndarray  # (t,) int32: pieces of the boundary near to samples of the surface
+
+
 class Band:
     """Two-sided distance between a boundary and the surface on which it slides, against a limit.
 
@@ -86,6 +96,7 @@ class Band:
     ):
         self.points, self._faces, self._start, self._given = points, faces, start, target
         self._first: ClosestPoints | None = None  # points of the boundary closest to `target_samples` at first
+        self._judged: _Judged | None = None  # by the last call of `nodes_outside_band`
         corners = points[faces.ravel()]
         size = float(np.linalg.norm(np.ptp(corners, axis=0))) if corners.size else 0.0
         self.max_deviation = max(max_deviation, _ROUNDING * size)
@@ -202,19 +213,29 @@ class Band:
         if not np.isfinite(self.max_deviation):
             return NO_NODES
         initial, nodes, _ = self.initial_surface_deviation
-        own = None if changed is None else np.flatnonzero(any_of_rows(changed, self.samples))
-        samples = self.samples if own is None else self.samples[own]
-        limits = self._allowed(
-            self._initial_boundary_deviation if own is None else self._initial_boundary_deviation[own]
-        )
-        boundary = self.target.beyond(means(points, samples), self._near_target, limits, own)
-        near = self._near_boundary
-        surface = self.skin.beyond(self.target_samples, near, self._allowed(initial), points=points)
-        surface = np.flatnonzero(surface)
+        near, (doubtful, surface) = self._near_boundary, self._doubtful_samples(points)
+        own = doubtful if changed is None else any_of_rows(changed, self.samples)
+        at, outside = np.flatnonzero(own), doubtful & ~own
+        samples, limits = self.samples[at], self._allowed(self._initial_boundary_deviation[at])
+        boundary = self.target.beyond(means(points, samples), self._near_target, limits, at)
+        outside[at] = boundary
+        limits = self._allowed(initial[surface])
+        surface = surface[self.skin.beyond(self.target_samples[surface], near, limits, surface, points)]
+        of_surface = mask(surface, len(self.target_samples))
+        self._judged = _Judged(points.copy(), self.max_deviation, outside, of_surface, near.pieces.copy())
         if not (surface.size or boundary.any()):
             return NO_NODES
         faces = self.skin.nodes_of_pieces(near.pieces[surface])
         return np.unique(np.concatenate([x.ravel() for x in (samples[boundary], faces, nodes[surface])]))
+
+    def _doubtful_samples(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Find samples that may be outside the band now: of the boundary, (s,) bool, and of the surface, (k,) int."""
+        judged = self._judged  # one read, as another thread may replace it
+        if judged is None or judged.max_deviation != self.max_deviation:
+            return np.ones(len(self.samples), dtype=bool), np.arange(len(self.target_samples))
+        moved = differing_rows(points, judged.points)
+        faces = any_of_rows(moved, self._faces)[self.skin.faces_of_pieces[judged.pieces]]
+        return judged.boundary | any_of_rows(moved, self.samples), np.flatnonzero(judged.surface | faces)
 
     def _allowed(self, initial: np.ndarray) -> np.ndarray:
         return np.maximum(initial, self.max_deviation) * (1 + _ROUNDING)

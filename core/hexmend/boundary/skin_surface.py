@@ -38,6 +38,8 @@ class SkinSurface:
     edges : SurfaceEdges
     trees : ClosestPointTrees
         All faces as one group, divided by `triangulate`.
+    faces_of_pieces : (p,) int64
+        Number of the face on which each piece of the trees lies.
     derived : dict
         Curves and patches by feature angle, for those who slide on the surface.
 
@@ -53,8 +55,9 @@ class SkinSurface:
         self.points, self.faces, self.name = points, faces, name
         self.derived: dict[float | str, PartitionedSurface] = {}
         self.nodes, self.edges = np.flatnonzero(mask(faces, len(points))), SurfaceEdges(faces, len(points))
-        vertices, triangles, _ = triangulate(points, faces)
+        vertices, triangles, face = triangulate(points, faces)
         self.trees = ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
+        self.faces_of_pieces = face[self.trees.order]
 
     def with_points(self, points: np.ndarray) -> SkinSurface:
         """Return a surface of the same faces with other node positions (n, 3) float64."""
@@ -137,8 +140,7 @@ class SkinSurface:
 
     def nodes_of_pieces(self, pieces: np.ndarray) -> np.ndarray:
         """Return the nodes of the faces on which pieces (k,), such as `NearPoints.pieces`, lie, (k, 4) or (k, 3)."""
-        pieces = self.trees.pieces[pieces]
-        return pieces if self.faces.shape[1] == 3 else self.faces[pieces[:, 2] - len(self.points)]
+        return self.faces[self.faces_of_pieces[pieces]]
 
     def check_near(self, mesh: Mesh) -> None:
         """Raise `MeshError` unless the boundary of a mesh lies near the surface."""

@@ -86,6 +86,24 @@ def test_nodes_have_left_the_band_where_they_are_further_than_its_tolerance_and_
     assert band_of(size=np.inf)[1].nodes_outside_band(points + 9).size == 0
 
 
+@pytest.mark.parametrize("target", [False, True])
+def test_what_was_found_at_earlier_places_does_not_change_which_nodes_have_left_the_band(target):
+    mesh, band = band_of(0.1, 0.15, target)
+    random, points, some_left = np.random.default_rng(3), mesh.points, set()
+    for step in range(30):
+        points = points.copy()
+        moved = random.choice(mesh.n_nodes, 3, replace=False)
+        points[moved] = mesh.points[moved] + random.uniform(-0.2, 0.2, (3, 3))
+        left = band.nodes_outside_band(points)
+        np.testing.assert_array_equal(left, band_of(0.1, 0.15, target)[1].nodes_outside_band(points))
+        some_left.add(left.size > 0)
+        if step % 7 == 0:  # a search with other places between
+            band.surface_deviation(mesh.points, limit=0.05)
+            points = mesh.points
+            assert band.nodes_outside_band(points).size == 0
+    assert some_left == {True, False}
+
+
 def test_midpoints_that_move_with_a_node_are_the_node_and_those_of_its_edges_and_faces():
     _, band = band_of()
     at = band.samples_at(np.array([0]))
