@@ -78,6 +78,7 @@ class SlidingEnergy(MeshEnergy):
         self._rows = np.searchsorted(self.nodes, nodes)
         self._sliding_blocks: dict[BlockSparsity, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
+        self._differentiated: tuple[tuple, np.ndarray] | None = None
         self._projected: tuple[np.ndarray, np.ndarray] | None = None
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
@@ -105,7 +106,7 @@ class SlidingEnergy(MeshEnergy):
         On a faceted surface the projection of a step across an edge is not along the tangent. With a target, steps
         that ascend along the tangent too are kept: thin hexes couple their nodes, which descend together.
         """
-        gradient = super().gradient(x, delta)
+        gradient = self._gradient_in_space(x, delta)
         rows, nodes, unit = self._rows, self.sliding_nodes, self.unit
         size = row_norms(step[rows])
         lengths = 1.0 if self.node_lengths is None else np.minimum(self.node_lengths[rows], 1.0)
@@ -146,10 +147,17 @@ class SlidingEnergy(MeshEnergy):
         return row_norms(self.sliding.project(points[nodes], nodes) - points[nodes])
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
-        gradient = super().gradient(x, delta)
+        gradient = self._gradient_in_space(x, delta).copy()
         along = self.projectors(x)[: self._rows.size]
         gradient[self._rows] = np.einsum("kij,kj->ki", along, gradient[self._rows])
         return gradient
+
+    def _gradient_in_space(self, x: np.ndarray, delta: float) -> np.ndarray:
+        """Compute the gradient of `MeshEnergy`, (k, 3), not to be changed; a line search needs it twice."""
+        key, known = (x, delta, self.norm, self.omitted, self.barrier, self.surface), self._differentiated
+        if known is None or not all(one is other for one, other in zip(known[0], key, strict=True)):
+            known = self._differentiated = key, super().gradient(x, delta)
+        return known[1]
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> SlidingHessian:
         return SlidingHessian(self, x, delta)

@@ -61,6 +61,8 @@ class MaxMinConfig:
         Linear programs outside the band, at most, and within it before the next detour.
     trial_iterations : int
         Iterations in which the more promising of two starts has to come as high as the other, at most.
+    shape_patience : int
+        Iterations in which the least may be lower than at another start before the optimum of shape is given up.
     untangling_iterations : int
         Iterations by which programs untangle a mesh whose boundary slides, before the barrier does.
     """
@@ -85,6 +87,7 @@ class MaxMinConfig:
     detour_programs: int = 90
     programs_between: int = 60
     trial_iterations: int = 10
+    shape_patience: int = 5
     untangling_iterations: int = 10
 
 

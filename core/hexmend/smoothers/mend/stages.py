@@ -27,7 +27,7 @@ from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.off_surface import MaxMinResult, raise_to_the_end
 from hexmend.smoothers.mend.release import T, infeasible
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
-from hexmend.smoothers.mend.starts import raise_from_better
+from hexmend.smoothers.mend.starts import raise_from_better, while_promising
 from hexmend.smoothers.mend.time_step import maximise_time_step
 from hexmend.smoothers.mend.untangling import Untangled, UntanglingConfig, untangle
 
@@ -69,8 +69,11 @@ class Stages:
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
             steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
             yield from keeping(kept, mesh.hexes, islice(steps, MAXMIN.untangling_iterations))
-            shape = yield from keeping(kept, mesh.hexes, self._sliding_shape(sliding, optimiser.points))
-            candidates += [optimiser.points, shape.points]
+            candidates.append(optimiser.points)
+            others = candidates if fixed is not None and self.settings.maximises_jacobian else []
+            start = self._start_at_shape(sliding, optimiser.points, others)
+            shape = (yield from keeping(kept, mesh.hexes, start)) or shape
+            candidates.append(shape.points)
         if sliding is None:
             leaving, result = None, (yield from self._maxmin_stage(mesh, candidates, None))
         else:
@@ -140,10 +143,7 @@ class Stages:
         if result is None:
             result = yield from self._maxmin_stage(sliding.mesh, candidates, sliding, fixed)
             if self.settings.maximises_jacobian and not leaving.nearly_untangled:
-                least = result.least
-                result = yield from self._raise_in_wider_bands(sliding, self._bands(sliding.mesh)[1:], result)
-                if result.gains(least):
-                    result = yield from self._raise_from_wide_shape(sliding, optimum, result)
+                result = yield from self._raise_in_wider_bands(sliding, optimum, result)
         if result is None:
             return None
         result = yield from leaving.raise_least(optimum, result)
@@ -187,17 +187,25 @@ class Stages:
         energy = self._energy(sliding.mesh, self.settings.first_norm_on(sliding.mesh), sliding)
         return (yield from self._shape(sliding.mesh.with_points(points), energy, True))
 
+    def _start_at_shape(
+        self, sliding: SlidingBoundary, points: np.ndarray, others: Sequence[np.ndarray]
+    ) -> Generator[Step, None, ShapeOptimum | None]:
+        """Go to the optimum of shape from points (n, 3) on; None where its least is lower than at another start."""
+        steps = self._sliding_shape(sliding, points)
+        return (yield from while_promising(steps, sliding.mesh, others, MAXMIN.shape_patience))
+
     def _maxmin_stage(
         self,
         mesh: Mesh,
         candidates: Sequence[np.ndarray],
         sliding: SlidingBoundary | None,
         fixed: MaxMinResult | None = None,
+        in_parts: bool = False,
     ) -> Generator[Step, None, MaxMinResult | None]:
         """Raise the minimum scaled Jacobian from the best of some points (n, 3), where it is the goal or not sound.
 
         None where shape is the goal and the least is sound. The result is no lower than `fixed`, that with the boundary
-        fixed.
+        fixed. For `in_parts` see `raise_jacobian`.
         """
         optimisers = (MaxMinOptimiser(mesh, points, sliding) for points in candidates)
         best = max(optimisers, key=lambda optimiser: optimiser.corners.active_minimum)
@@ -210,7 +218,7 @@ class Stages:
             groups = MAXMIN.max_groups
             if self.settings.maximises_jacobian and optimiser.corners.active_minimum > 0:
                 energy = self._sound_energy(mesh, optimiser.points, sliding)
-                optimiser.improve_to((yield from raise_jacobian(energy, optimiser.points)))
+                optimiser.improve_to((yield from raise_jacobian(energy, optimiser.points, in_parts)))
                 groups = 1
             return (yield from maximise_minimum(optimiser, target, groups=groups))
 
@@ -226,28 +234,35 @@ class Stages:
         return [*narrower[narrower < (1 - MAXMIN.worth_widening) * widest], widest]
 
     def _raise_in_wider_bands(
-        self, sliding: SlidingBoundary, bands: Sequence[float], result: MaxMinResult
+        self, sliding: SlidingBoundary, points: np.ndarray, result: MaxMinResult
     ) -> Generator[Step, None, MaxMinResult]:
-        """Let quads of the boundary be further from its surface, where that raises the least by much."""
-        for band in bands:
+        """Let quads of the boundary be further from its surface, where that raises the least by much.
+
+        For points (n, 3) see `_raise_once_more`.
+        """
+        least = result.least
+        for band in self._bands(sliding.mesh)[1:]:
             wide = sliding.with_band(band)
             higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [result.optimiser.points], wide))
             if not higher.gains(result.least):
                 break
             result = higher
             yield result.step()
-        return result
+        return (yield from self._raise_once_more(sliding, points, result)) if result.gains(least) else result
 
-    def _raise_from_wide_shape(
+    def _raise_once_more(
         self, sliding: SlidingBoundary, points: np.ndarray, result: MaxMinResult
     ) -> Generator[Step, None, MaxMinResult]:
-        """Raise from the optimum of shape in the widest band, if that is higher; it is reached from points (n, 3) on.
+        """Raise once more in the widest band, around the worst hexes alone, which takes less time.
 
+        This begins at the optimum of shape in that band, where that is higher; it is reached from points (n, 3) on.
         Where the band matters, the goal `shape`, whose band is that one, may end higher otherwise.
         """
-        wide = sliding.with_band(self._bands(sliding.mesh)[-1])
-        shape = yield from infeasible(self._sliding_shape(wide, points))
-        higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [result.optimiser.points, shape.points], wide))
+        wide, candidates = sliding.with_band(self._bands(sliding.mesh)[-1]), [result.optimiser.points]
+        shape = yield from infeasible(self._start_at_shape(wide, points, candidates))
+        if shape is not None:
+            candidates.append(shape.points)
+        higher = yield from infeasible(self._maxmin_stage(sliding.mesh, candidates, wide, in_parts=True))
         if not higher.least > result.least:
             return result
         yield higher.step()

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from hexmend.iteration import Step
-from hexmend.smoothers.mend.starts import raise_from_better
+from hexmend.smoothers.mend.starts import raise_from_better, while_promising
+from tests.core.grids import grid
 from tests.core.smoothers.mend.walks import walked
 
 
@@ -36,13 +37,13 @@ def test_a_start_that_overtakes_the_other_on_its_way_goes_on_though_its_optimise
 
 def test_a_start_whose_last_gains_do_not_lead_to_the_other_is_left_at_once():
     rising = [0.1, 0.11, 0.12, 0.121, 0.122, 0.123, 0.124, 0.125, 0.126, 0.127, 0.128, 0.129]
-    assert chosen(rising, [0.4, 0.5]) == (1, [4, 1])
+    assert chosen(rising, [0.4, 0.5]) == (1, [2, 1])
 
 
 def test_a_start_that_comes_nearer_has_all_iterations():
     rising = [0.1, *(0.1 + 0.03 * np.arange(1, 14))]
     assert chosen(rising, [0.35, 0.5]) == (0, [13, 0])
-    assert chosen(rising, [0.35, 0.5], trial=5) == (1, [4, 1])
+    assert chosen(rising, [0.35, 0.5], trial=6) == (1, [4, 1])
 
 
 @pytest.mark.parametrize("end", [0.2, 0.3])
@@ -61,3 +62,28 @@ def test_without_a_second_start_the_first_goes_to_its_end():
     steps, result = walked(raise_from_better(start, None, raise_least, 3))
     assert len(steps) == 20
     assert result.optimiser is start
+
+
+@pytest.mark.parametrize(
+    ("heights", "taken", "result"),
+    [
+        ([0.5, 0.5, 0.9, 0.5, 0.5, 0.5, 1.0], 6, None),  # lower three times on end
+        ([0.5, 0.5, 0.9, 0.5, 0.5, 0.9, 0.5], 7, "end"),
+        ([0.9, 0.5], 2, "end"),
+    ],
+)
+def test_steps_towards_a_start_end_where_their_least_stays_lower_than_at_another(heights, taken, result):
+    mesh = grid(2)
+    middle = int(np.flatnonzero(mesh.free)[0])
+
+    def points_at(height):
+        points = mesh.points.copy()
+        points[middle, 2] = height  # 1 makes cubes
+        return points
+
+    def towards_a_start():
+        yield from (Step(points_at(height)) for height in heights)
+        return "end"
+
+    steps, found = walked(while_promising(towards_a_start(), mesh, [points_at(0.3), points_at(0.7)], 3))
+    assert (len(steps), found) == (taken, result)
