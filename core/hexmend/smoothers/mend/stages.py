@@ -200,12 +200,11 @@ class Stages:
         candidates: Sequence[np.ndarray],
         sliding: SlidingBoundary | None,
         fixed: MaxMinResult | None = None,
-        in_parts: bool = False,
     ) -> Generator[Step, None, MaxMinResult | None]:
         """Raise the minimum scaled Jacobian from the best of some points (n, 3), where it is the goal or not sound.
 
         None where shape is the goal and the least is sound. The result is no lower than `fixed`, that with the boundary
-        fixed. For `in_parts` see `raise_jacobian`.
+        fixed.
         """
         optimisers = (MaxMinOptimiser(mesh, points, sliding) for points in candidates)
         best = max(optimisers, key=lambda optimiser: optimiser.corners.active_minimum)
@@ -218,7 +217,7 @@ class Stages:
             groups = MAXMIN.max_groups
             if self.settings.maximises_jacobian and optimiser.corners.active_minimum > 0:
                 energy = self._sound_energy(mesh, optimiser.points, sliding)
-                optimiser.improve_to((yield from raise_jacobian(energy, optimiser.points, in_parts)))
+                optimiser.improve_to((yield from raise_jacobian(energy, optimiser.points)))
                 groups = 1
             return (yield from maximise_minimum(optimiser, target, groups=groups))
 
@@ -253,7 +252,7 @@ class Stages:
     def _raise_once_more(
         self, sliding: SlidingBoundary, points: np.ndarray, result: MaxMinResult
     ) -> Generator[Step, None, MaxMinResult]:
-        """Raise once more in the widest band, around the worst hexes alone, which takes less time.
+        """Raise once more in the widest band.
 
         This begins at the optimum of shape in that band, where that is higher; it is reached from points (n, 3) on.
         Where the band matters, the goal `shape`, whose band is that one, may end higher otherwise.
@@ -262,7 +261,7 @@ class Stages:
         shape = yield from infeasible(self._start_at_shape(wide, points, candidates))
         if shape is not None:
             candidates.append(shape.points)
-        higher = yield from infeasible(self._maxmin_stage(sliding.mesh, candidates, wide, in_parts=True))
+        higher = yield from infeasible(self._maxmin_stage(sliding.mesh, candidates, wide))
         if not higher.least > result.least:
             return result
         yield higher.step()
