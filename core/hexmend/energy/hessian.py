@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.linear_operator import SymmetricOperator
-from hexmend.kernels import assembly, conjugate_gradients, release_free_memory, threads
+from hexmend.kernels import assembly, conjugate_gradients, threads
 from hexmend.kernels import objective as kernels
 
 if TYPE_CHECKING:
@@ -102,8 +102,6 @@ class Hessian(SymmetricOperator):
         energy = self.energy
         sparsity, packed = energy.sparsity, dtype is None and self._is_packed
         dtype = dtype or energy.precision
-        if packed:
-            release_free_memory()  # of the last step's temporary arrays
         fits = reuse is not None and (reuse.sparsity, reuse.dtype, reuse.packed) == (sparsity, dtype, packed)
         matrix = reuse.reset() if fits else AssembledHessian.zero(sparsity, dtype, packed)
         stretched = self._assemble(matrix)
