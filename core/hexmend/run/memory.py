@@ -114,7 +114,7 @@ def needed(method: Smoother | Recipe, mesh: Mesh | int) -> int:
     Examples
     --------
     >>> needed(METHODS["mend"](), 1_000_000) // 10**6, needed(METHODS["local-sd"](), 1_000_000) // 10**6
-    (1467, 467)
+    (1267, 467)
     """
     if isinstance(method, Recipe):
         return max(needed(stage.smoother, mesh) for stage in method.stages)

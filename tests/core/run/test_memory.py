@@ -92,7 +92,7 @@ def test_nothing_is_said_where_memory_suffices_or_nobody_knows():
 def test_what_is_short_names_figures_and_methods_that_would_do():
     mend = METHODS["mend"]()
     short = shortage(mend, 1_000_000, 1_000_000_000)
-    assert short.problem == "Mend on 1,000,000 hexes needs about 1.5 GB of memory, and 1.0 GB are free."
+    assert short.problem == "Mend on 1,000,000 hexes needs about 1.3 GB of memory, and 1.0 GB are free."
     assert len(short.lighter) == 3
     for cls, size in short.lighter:
         assert cls.optimises
@@ -157,7 +157,7 @@ def test_a_run_beyond_a_limit_is_refused_before_it_begins_unless_forced(words, m
     done = limited(310, *words)
     assert done.returncode == 3
     (line,) = done.stderr.splitlines()
-    assert line.startswith("hexmend: Mend on 1,000 hexes needs about 69 MB of memory, and ")
+    assert line.startswith("hexmend: Mend on 1,000 hexes needs about 68 MB of memory, and ")
     assert line.endswith(" or run it anyway (--force).")
     assert not (tmp_path / out).exists()
     done = limited(310, *words, "--force")
