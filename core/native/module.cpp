@@ -42,6 +42,7 @@ NB_MODULE(HEXMEND_MODULE, m) {
         [] {
 #ifdef __GLIBC__
             mallopt(M_MMAP_THRESHOLD, 4 << 20);
+            mallopt(M_TRIM_THRESHOLD, 32 << 20);  // it no longer adapts, and smaller arrays would come anew each time
 #endif
         },
         "From now on return arrays of 4 MiB and more to the system when they are freed, where the C library can: "

@@ -12,7 +12,7 @@ import numpy as np
 from hexmend.arrays import index_of
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.workspace import Workspace
-from hexmend.kernels import conjugate_gradients, ordering, release_free_memory
+from hexmend.kernels import LANES, conjugate_gradients, ordering, release_free_memory
 from hexmend.kernels import sparsity as kernels
 from hexmend.kernels.assembly import HexShares
 from hexmend.kernels.conjugate_gradients import BlockPattern, CoarsePattern
@@ -56,6 +56,9 @@ class BlockSparsity:
         Slot of each free node of this rank, in the order of node numbers.
     has_opposite : bool
         Nodes that only opposite corners of hexes join have a block too; see `of_tetrahedra`.
+    row_start, columns : (k + ghosts + 1,) int32, (blocks,) int32
+        Blocks above the diagonal, as compressed rows; found on first use, with a `MeshError` for more than 32 bits can
+        number.
     """
 
     def __init__(
@@ -146,8 +149,11 @@ class BlockSparsity:
 
     @cached_property
     def packs(self) -> bool:
-        """True if matrices need so much memory that their blocks are better packed."""
-        return self.ranks.sum(self.order.size) >= _LARGE
+        """True if matrices need so much memory that their blocks are better packed.
+
+        Processors without AVX unpack them too slowly.
+        """
+        return LANES > 2 and self.ranks.sum(self.order.size) >= _LARGE
 
     @property
     def first_separator(self) -> int:

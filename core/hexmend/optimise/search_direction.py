@@ -172,7 +172,7 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
     from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
     start = np.ones(hessian.shape[0])  # ARPACK's own start is random
-    matrix = hessian.assembled()
+    matrix = hessian.assembled(hessian.energy.precision)
     size = float(np.abs(matrix.diagonal_blocks).max(initial=0.0))
     if size == 0:
         return 0.0, 0.0

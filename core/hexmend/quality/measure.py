@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -71,6 +72,9 @@ class ElementQuality:
         if "_source" in self.__dict__:
             for name in (*_VALUES, "inverted"):
                 self.__dict__.pop(name, None)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in (*_VALUES, "against_target")}
 
     def __getattr__(self, name: str) -> np.ndarray:
         source = self.__dict__.get("_source")

@@ -1,5 +1,7 @@
 """Quality of hexes with known values, and its invariances."""
 
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -196,3 +198,22 @@ def test_the_mean_of_the_corners_qualities_is_the_hexes():
     corners = corner_qualities(mesh.points, mesh.hexes)
     np.testing.assert_allclose(corners.mean(axis=1), measure(mesh.points, mesh.hexes).q, atol=1e-12)
     assert (corner_qualities(np.zeros((8, 3)), np.arange(8)[None]) == 0).all()
+
+
+def test_a_released_quality_is_measured_again_and_its_pickle_has_the_values_alone():
+    mesh = scrambled(grid(4), 0.4, 3)
+    quality, kept = measure(mesh.points, mesh.hexes), measure(mesh.points.copy(), mesh.hexes)
+    inverted = quality.inverted.copy()
+    for released in (quality, kept):
+        released.release()
+        for name in ("q", "sigma", "scaled_jacobian", "eta"):
+            np.testing.assert_array_equal(getattr(released, name), getattr(measure(mesh.points, mesh.hexes), name))
+        np.testing.assert_array_equal(released.inverted, inverted)
+    assert "q" in kept.__dict__  # of points that may have changed since: they are not measured again
+    quality.release()
+    assert "q" not in quality.__dict__
+    again = pickle.loads(pickle.dumps(quality))
+    np.testing.assert_array_equal(again.q, quality.q)
+    assert len(pickle.dumps(quality)) < 5 * quality.q.nbytes
+    with pytest.raises(AttributeError, match="no attribute p"):
+        quality.p  # noqa: B018
