@@ -141,10 +141,18 @@ class ClosestPointCache:
     """
 
     def __init__(self, trees: ClosestPointTrees, group: np.ndarray):
-        self.kernel = closest_point.ClosestPointCache(
-            trees.box_trees, trees.roots[as_set(group, "group", len(trees.roots))]
-        )
-        self._slots = np.arange(len(group), dtype=np.int32)
+        self._set(trees, trees.roots[as_set(group, "group", len(trees.roots))])
+
+    def _set(self, trees: ClosestPointTrees, roots: np.ndarray) -> None:
+        self._trees, self._roots = trees, roots
+        self.kernel = closest_point.ClosestPointCache(trees.box_trees, roots)
+        self._slots = np.arange(len(roots), dtype=np.int32)
+
+    def __getstate__(self) -> tuple[ClosestPointTrees, np.ndarray]:
+        return self._trees, self._roots
+
+    def __setstate__(self, state: tuple[ClosestPointTrees, np.ndarray]) -> None:
+        self._set(*state)  # the pieces are found again
 
     def closest(self, x: np.ndarray, slots: np.ndarray | None = None) -> ClosestPoints:
         """Find the points of their groups that are closest to the points in some slots.

@@ -1,5 +1,6 @@
 """Closest points of moving points: the pieces that are kept of each find exactly what a search of the whole tree does."""
 
+import pickle
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 
@@ -163,3 +164,13 @@ def test_sliding_nodes_are_projected_as_by_a_search_whatever_was_projected_befor
         np.testing.assert_array_equal(sliding.project(x), searched)
         some = slice(seed, None, 3)
         np.testing.assert_array_equal(sliding.project(x[some], sliding.nodes[some]), searched[some])
+
+
+def test_a_pickled_cache_begins_anew():
+    trees = curves_and_patches(cylinder(16, 3))
+    cache = ClosestPointCache(trees, np.zeros(5, np.int64))
+    x = np.random.default_rng(4).normal(size=(5, 3))
+    found = cache.closest(x)
+    again = pickle.loads(pickle.dumps(cache)).closest(x)
+    np.testing.assert_array_equal(again.points, found.points)
+    np.testing.assert_array_equal(again.pieces, found.pieces)
