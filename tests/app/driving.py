@@ -54,8 +54,9 @@ def tick(box: QCheckBox):
 
 
 def named(parent: QWidget, kind: type[Part], name: str) -> Part:
-    """Return the only child widget of a type with an accessible name."""
-    (widget,) = (part for part in parent.findChildren(kind) if part.accessibleName() == name)
+    """Return the only child widget of a type with an accessible name; the visible one where Qt keeps others for later."""
+    parts = [part for part in parent.findChildren(kind) if part.accessibleName() == name]
+    (widget,) = parts if len(parts) == 1 else [part for part in parts if part.isVisible()]
     return widget
 
 
