@@ -45,9 +45,8 @@ NB_MODULE(HEXMEND_MODULE, m) {
             mallopt(M_TRIM_THRESHOLD, 32 << 20);  // it no longer adapts, and smaller arrays would come anew each time
 #endif
         },
-        "From now on return arrays of 4 MiB and more to the system when they are freed, where the C library can: "
-        "others\n"
-        "may fill their place only in part, and a process would hold more than it needs.");
+        "From now on return arrays of 4 MiB and more to the system when they are freed, where the C library can.\n\n"
+        "Others may fill their place only in part, and a process would hold more than it needs.");
     m.def("threads", &hexmend::threads, "Number of threads that run a loop of the calling thread.");
     m.def("set_threads", &hexmend::set_threads, "count"_a, "Set the number of threads of the calling thread.");
     m.def("set_default_threads", &hexmend::set_default_threads, "count"_a,

@@ -153,7 +153,10 @@ class SlidingEnergy(MeshEnergy):
         return gradient
 
     def _gradient_in_space(self, x: np.ndarray, delta: float) -> np.ndarray:
-        """Compute the gradient of `MeshEnergy`, (k, 3), not to be changed; a line search needs it twice."""
+        """Compute the gradient of `MeshEnergy`, (k, 3), not to be changed; a line search needs it twice.
+
+        It is known by the array x, as `projectors` are: points are not changed in place between calls.
+        """
         key, known = (x, delta, self.norm, self.omitted, self.barrier, self.surface), self._differentiated
         if known is None or not all(one is other for one, other in zip(known[0], key, strict=True)):
             known = self._differentiated = key, super().gradient(x, delta)
