@@ -10,6 +10,7 @@ from hexmend.cli.commands.bench import command
 from hexmend.gallery import make
 from hexmend.ranks.launching import launcher
 from hexmend.study.bench import scale, surface_quality, surfaces
+from hexmend.study.bench.freedom import FREEDOM, lower
 from hexmend.study.bench.scale import SCALE, measure_process
 from hexmend.study.bench.sections import sections
 from hexmend.study.bench.surface_quality import SURFACE_QUALITY
@@ -71,3 +72,19 @@ def test_quads_of_the_surface_end_better_with_weight(monkeypatch):
     assert with_quads["quad_q_mean"] > without["quad_q_mean"]
     head, _, *rows = SURFACE_QUALITY.lines(figures)
     assert {head.count("|")} == {row.count("|") for row in rows}
+
+
+def test_more_freedom_of_a_mesh_is_a_row_that_names_what_ends_lower(tmp_path, monkeypatch):
+    io.write(tmp_path / "cube.vtk", make("cube", size=27, scramble=0.3))
+    monkeypatch.setenv("HEXMEND_MESHES", str(tmp_path))
+    figures = FREEDOM.measure()
+    (row,) = figures["runs"]
+    assert not lower(row)
+    head, _, line, _, last = FREEDOM.lines(figures)
+    assert head.count("|") == line.count("|")
+    assert line.count("1.0000") == 7
+    assert last.startswith("0 of 6 pairs")
+    row["0.1"]["least"] -= 0.01
+    row["1"]["inverted"] = 1
+    assert lower(row) == ["0.03 to 0.1", "0.3 to 1"]
+    assert "(1)" in FREEDOM.lines(figures)[2]

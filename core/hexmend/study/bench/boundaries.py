@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import os
-import subprocess
-import sys
-import tempfile
-import time
 from pathlib import Path
 from typing import Any
 
-from hexmend.study.bench.section import BenchSection
+from hexmend.study.bench.section import BenchSection, smoothed
 
 #: Published lowest scaled Jacobian and distance of the surfaces in per cent of the diagonal, by file:
 #: HexOpt (bunny, CAD4, impeller), edge-cone rectification (block, cap, hanger), HybridOctree (bone), and two more;
@@ -42,14 +37,7 @@ def _measure() -> dict[str, Any]:
 
 def _row(path: Path, boundary: str) -> dict[str, Any]:
     """Run `hexmend smooth` on a mesh; return figures of its report and the seconds of the process."""
-    with tempfile.TemporaryDirectory() as folder:
-        output = Path(folder) / "report.json"
-        words = ["smooth", str(path), "-o", f"{folder}/out.vtu", "--json", str(output), "--boundary", boundary]
-        begun = time.perf_counter()
-        words += ["--method", "mend", "--set", "goal=scaled-jacobian"]
-        subprocess.run([sys.executable, "-m", "hexmend", *words], capture_output=True, check=False)
-        seconds = time.perf_counter() - begun
-        report = json.loads(output.read_text("utf-8"))
+    report, seconds = smoothed(path, "--boundary", boundary, "--method", "mend", "--set", "goal=scaled-jacobian")
     before, after, surface = report["before"], report["after"], report.get("surface") or {}
     return {
         "mesh": path.name,

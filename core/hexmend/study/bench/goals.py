@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import os
-import subprocess
-import sys
-import tempfile
-import time
 from pathlib import Path
 from typing import Any
 
-from hexmend.study.bench.section import BenchSection
+from hexmend.study.bench.section import BenchSection, smoothed
 
 #: Measured before: q min, q mean and minimum scaled Jacobian that hexsmoothing reaches, by file.
 HEXSMOOTHING = {
@@ -38,13 +33,7 @@ def _row(path: Path) -> dict[str, Any]:
     """Run `hexmend smooth` on a mesh with each goal; return figures of the reports and the seconds of each process."""
     row: dict[str, Any] = {"mesh": path.name, "hexsmoothing": HEXSMOOTHING.get(path.name)}
     for goal in _GOALS:
-        with tempfile.TemporaryDirectory() as folder:
-            output = Path(folder) / "report.json"
-            words = ["smooth", str(path), "-o", f"{folder}/out.vtu", "--json", str(output), "--goal", goal]
-            begun = time.perf_counter()
-            subprocess.run([sys.executable, "-m", "hexmend", *words], capture_output=True, check=False)
-            seconds = time.perf_counter() - begun
-            report = json.loads(output.read_text("utf-8"))
+        report, seconds = smoothed(path, "--goal", goal)
         row["given"] = {key: report["before"][key] for key in ("hexes", "inverted", *_FIGURES)}
         row[goal] = {key: report["after"][key] for key in ("inverted", *_FIGURES)} | {"seconds": seconds}
     return row

@@ -5,8 +5,11 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import tempfile
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 
@@ -52,3 +55,33 @@ def by_size(program: str) -> dict[str, Any]:
         done = subprocess.run([sys.executable, "-c", program, str(size)], capture_output=True, text=True, check=True)
         rows.append(json.loads(done.stdout))
     return {"sizes": rows}
+
+
+def smoothed(mesh: Path, *words: str) -> tuple[dict[str, Any], float]:
+    """Run `hexmend smooth` on a mesh.
+
+    Parameters
+    ----------
+    mesh : Path
+    *words : str
+        More options of the command.
+
+    Returns
+    -------
+    report : dict
+        What `--json` writes.
+    seconds : float
+        Of the whole process.
+
+    Raises
+    ------
+    FileNotFoundError
+        The command ended without a report.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder) / "report.json"
+        command = ["smooth", str(mesh), "-o", f"{folder}/out.vtu", "--json", str(output), *words]
+        begun = time.perf_counter()
+        subprocess.run([sys.executable, "-m", "hexmend", *command], capture_output=True, check=False)
+        seconds = time.perf_counter() - begun
+        return json.loads(output.read_text("utf-8")), seconds

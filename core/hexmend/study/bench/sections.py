@@ -19,6 +19,7 @@ from hexmend.smoothers import METHODS
 from hexmend.study.bench.boundaries import BOUNDARIES
 from hexmend.study.bench.default_method import OPTIMA, SIZES, UNTANGLING
 from hexmend.study.bench.files import FILES
+from hexmend.study.bench.freedom import FREEDOM
 from hexmend.study.bench.goals import GOALS
 from hexmend.study.bench.kernels import KERNELS, PRECONDITIONERS
 from hexmend.study.bench.memory import MEMORY
@@ -45,7 +46,7 @@ THESIS_SECONDS_PER_NODE = {
 
 def sections() -> dict[str, BenchSection]:
     """Return all sections by name, those of the entry-point group `hexmend.benchmarks` included."""
-    optimisation = OPTIMA, UNTANGLING, GOALS, BOUNDARIES, SURFACES, SURFACE_QUALITY, OFFSETS, REMARKS, SIZES
+    optimisation = OPTIMA, UNTANGLING, GOALS, BOUNDARIES, FREEDOM, SURFACES, SURFACE_QUALITY, OFFSETS, REMARKS, SIZES
     own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, *optimisation, SCALING, SCALE, FILES, MEMORY
     found = {section.name: section for section in own}
     for entry in entry_points(group="hexmend.benchmarks"):

@@ -9,8 +9,9 @@ from hexmend.cli.command import action
 from hexmend.errors import ParameterError
 
 _PARTS = (
-    "kernels, processes, iterations, preconditioners, optima, tangled, goals, boundaries, surfaces, surface-quality, "
-    "offsets, remarks, sizes, scaling, scale, files, memory, start, viewer, filters, views, view-share or watching"
+    "kernels, processes, iterations, preconditioners, optima, tangled, goals, boundaries, freedom, surfaces, "
+    "surface-quality, offsets, remarks, sizes, scaling, scale, files, memory, start, viewer, filters, views, "
+    "view-share or watching"
 )
 _COLLECTION = "collection"
 _COLLECTION_OPTIONS = (
