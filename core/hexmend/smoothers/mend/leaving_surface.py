@@ -25,7 +25,7 @@ from hexmend.smoothers.mend.off_surface import (
 )
 from hexmend.smoothers.mend.release import RELEASE, Untangle, infeasible, untangle_released
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum
-from hexmend.smoothers.sliding_smoother import UNLIMITED
+from hexmend.smoothers.sliding_smoother import AUTO_TOLERANCE, UNLIMITED
 
 #: Function that goes to the optimum of shape from some points (n, 3) on, with a boundary that slides.
 OptimiseShape: TypeAlias = Callable[[SlidingBoundary, np.ndarray], Generator[Step, None, ShapeOptimum]]
@@ -75,9 +75,14 @@ class LeavingSurface:
                 return (yield from self._raise_untangled(points, released))
         return None
 
-    def raise_least(self, start: np.ndarray, result: MaxMinResult) -> Generator[Step, None, MaxMinResult]:
-        """Let nodes leave the surface, from points `start` (n, 3) on, where the result on it is low."""
-        tolerance, wanted = self._tolerance, MAXMIN.acceptable
+    def raise_least(
+        self, start: np.ndarray, result: MaxMinResult, tolerance: float
+    ) -> Generator[Step, None, MaxMinResult]:
+        """Let nodes leave the surface, from points `start` (n, 3) on, where the result on it is low.
+
+        Their distance from it is one of `tolerances`.
+        """
+        wanted = MAXMIN.acceptable
         wanted = wanted if self.settings.maximises_jacobian else min(wanted, MAXMIN.barrier_safe)
         if not tolerance > 0 or result.least >= wanted:
             result = yield from raise_to_the_end(result)
@@ -121,7 +126,7 @@ class LeavingSurface:
 
     def _raise_untangled(self, points: np.ndarray, released: np.ndarray) -> Generator[Step, None, MaxMinResult]:
         """Go to the optimum of shape and raise the least from points (n, 3) whose nodes (k,) left the surface."""
-        sliding, tolerance = self.sliding, self._tolerance
+        sliding, tolerance = self.sliding, self.tolerances[0]
         far = MaxMinOptimiser(self.mesh, points, sliding).envelope.largest_deviation(points)
         enough = (limit for limit in self._limits if far <= limit * (1 + SLP.band_excess))
         limit = min(enough, default=far)
@@ -146,6 +151,15 @@ class LeavingSurface:
         optimiser = MaxMinOptimiser(self.mesh, points, self.sliding)
         optimiser.release_nodes(released)
         return optimiser
+
+    @property
+    def tolerances(self) -> list[float]:
+        """Distances from the surface that nodes may have where it holds the least down, ascending.
+
+        The larger begins at what is reached within the smaller, so that a larger tolerance ends no lower.
+        """
+        smaller, tolerance = AUTO_TOLERANCE * self.mesh.mean_edge_length, self._tolerance
+        return [smaller, tolerance] if tolerance > smaller * (1 + SLP.band_excess) else [tolerance]
 
     @property
     def nearly_untangled(self) -> bool:

@@ -139,21 +139,37 @@ class Stages:
         Nodes leave it from points `optimum` (n, 3) on. The result is no lower than `fixed`, that with the boundary
         fixed; None where nothing is to be raised.
         """
-        sliding, result = leaving.sliding, (yield from leaving.untangle(optimum, candidates))
+        result = yield from leaving.untangle(optimum, candidates)
         if result is None:
-            result = yield from self._maxmin_stage(sliding.mesh, candidates, sliding, fixed)
-            if self.settings.maximises_jacobian and not leaving.nearly_untangled:
-                result = yield from self._raise_in_wider_bands(sliding, optimum, result)
-        if result is None:
-            return None
-        result = yield from leaving.raise_least(optimum, result)
-        return (yield from self._raise_released(leaving, result)) if self.settings.maximises_jacobian else result
+            result = yield from self._maxmin_stage(leaving.mesh, candidates, leaving.sliding, fixed)
+            if result is None:
+                return None
+        on_surface = not result.optimiser.envelope.released.any() and not leaving.nearly_untangled
+        direct, tried, released = result, leaving.sliding.max_deviation, None
+        for tolerance in leaving.tolerances:
+            bands = [band for band in self._bands(leaving.mesh, tolerance) if band > tried]
+            if bands and on_surface:
+                begun = released is not None
+                direct, higher = yield from self._raise_in_wider_bands(leaving.sliding, optimum, direct, bands, begun)
+                result = result if begun and not higher.gains(result.least) else higher
+                tried = bands[-1]
+            result = yield from leaving.raise_least(optimum, result, tolerance)
+            on_surface = on_surface and not result.optimiser.envelope.released.any()
+            if self.settings.maximises_jacobian and result is not released:
+                result = released = yield from self._raise_released(leaving, result)
+        return result
 
     def sliding_boundary(self, mesh: Mesh) -> SlidingBoundary:
         """The boundary in the narrowest band; a tolerance in numbers says how far its sets too may move."""
         settings = self.settings
         sets_hold = settings.surface_tolerance == AUTO
-        return SlidingBoundary(mesh, settings.feature_angle, self._bands(mesh)[0], settings.slides, sets_hold)
+        return SlidingBoundary(
+            mesh,
+            settings.feature_angle,
+            self._bands(mesh, settings.absolute_tolerance(mesh))[0],
+            settings.slides,
+            sets_hold,
+        )
 
     def _shape(self, mesh: Mesh, energy: MeshEnergy, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
         """Untangle a mesh, then go to the optimum of shape."""
@@ -223,45 +239,54 @@ class Stages:
 
         return (yield from raise_from_better(best, reached, raise_least, MAXMIN.trial_iterations))
 
-    def _bands(self, mesh: Mesh) -> list[float]:
+    def _bands(self, mesh: Mesh, tolerance: float) -> list[float]:
         """Distances from the surface that quads of the boundary may have while nodes slide, ascending."""
-        tolerance, narrower = self.settings.absolute_tolerance(mesh), np.array(MAXMIN.bands) * mesh.mean_edge_length
-        widest = MAXMIN.surface_share * tolerance
+        narrower, widest = np.array(MAXMIN.bands) * mesh.mean_edge_length, MAXMIN.surface_share * tolerance
         if not self.settings.maximises_jacobian:
             return [widest]
         widest = max(widest, min(narrower[0], MAXMIN.first_share * tolerance))
         return [*narrower[narrower < (1 - MAXMIN.worth_widening) * widest], widest]
 
     def _raise_in_wider_bands(
-        self, sliding: SlidingBoundary, points: np.ndarray, result: MaxMinResult
-    ) -> Generator[Step, None, MaxMinResult]:
+        self,
+        sliding: SlidingBoundary,
+        points: np.ndarray,
+        direct: MaxMinResult,
+        bands: Sequence[float],
+        anyway: bool,
+    ) -> Generator[Step, None, tuple[MaxMinResult, MaxMinResult]]:
         """Let quads of the boundary be further from its surface, where that raises the least by much.
 
-        For points (n, 3) see `_raise_once_more`.
+        Each band, ascending, begins at the result of the narrower one, which does not depend on those that follow. For
+        points (n, 3) see `_raise_once_more`, which comes last; with `anyway` where no band raises the least, too.
+
+        Returns the result without that, where still wider bands begin, and the result with it.
         """
-        least = result.least
-        for band in self._bands(sliding.mesh)[1:]:
+        narrow = direct
+        for band in bands:
             wide = sliding.with_band(band)
-            higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [result.optimiser.points], wide))
-            if not higher.gains(result.least):
+            higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [direct.optimiser.points], wide))
+            if not higher.gains(direct.least):
                 break
-            result = higher
-            yield result.step()
-        return (yield from self._raise_once_more(sliding, points, result)) if result.gains(least) else result
+            direct = higher
+            yield direct.step()
+        if direct is narrow and not anyway:
+            return direct, direct
+        return direct, (yield from self._raise_once_more(sliding.with_band(bands[-1]), points, direct))
 
     def _raise_once_more(
-        self, sliding: SlidingBoundary, points: np.ndarray, result: MaxMinResult
+        self, wide: SlidingBoundary, points: np.ndarray, result: MaxMinResult
     ) -> Generator[Step, None, MaxMinResult]:
-        """Raise once more in the widest band.
+        """Raise once more in a wider band.
 
         This begins at the optimum of shape in that band, where that is higher; it is reached from points (n, 3) on.
         Where the band matters, the goal `shape`, whose band is that one, may end higher otherwise.
         """
-        wide, candidates = sliding.with_band(self._bands(sliding.mesh)[-1]), [result.optimiser.points]
+        candidates = [result.optimiser.points]
         shape = yield from infeasible(self._start_at_shape(wide, points, candidates))
         if shape is not None:
             candidates.append(shape.points)
-        higher = yield from infeasible(self._maxmin_stage(sliding.mesh, candidates, wide))
+        higher = yield from infeasible(self._maxmin_stage(wide.mesh, candidates, wide))
         if not higher.least > result.least:
             return result
         yield higher.step()
