@@ -38,6 +38,8 @@ class ReleaseConfig:
         still inverted.
     steps : tuple of float
         Distances of the boundary from the surface that are tried where no tolerance is given, in mean edge lengths.
+    smaller : tuple of float
+        Distances that are tried after a larger tolerance that was given, where its result may be lower than there.
     few : int
         Inverted hexes up to which the rest is left to linear programs.
     steps_per_iteration : int
@@ -47,6 +49,7 @@ class ReleaseConfig:
     starts: int = 2
     rounds: int = 3
     steps: tuple[float, ...] = (0.3, 0.5, 0.75, 1.0)
+    smaller: tuple[float, ...] = (0.1, 0.3)
     few: int = 5
     steps_per_iteration: int = 10
 

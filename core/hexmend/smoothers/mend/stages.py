@@ -79,6 +79,11 @@ class Stages:
         else:
             leaving = LeavingSurface(self.settings, sliding, self._untangled, self._sliding_shape)
             result = yield from self._raise_sliding(leaving, fixed_optimum, candidates, fixed)
+            near = leaving
+            while self.settings.maximises_jacobian and (near := near.within_less(result)):
+                nearer = yield from self._raise_sliding(near, fixed_optimum, candidates, fixed)
+                if nearer is not None and (result is None or nearer.least > result.least):
+                    leaving, result = near, nearer
         if self.goal == "time-step":
             result = yield from maximise_time_step(mesh, candidates, sliding, result)
         points = shape.points if result is None else result.optimiser.points
