@@ -50,7 +50,7 @@ class LeavingSurface:
         self.settings, self.sliding, self.mesh = settings, sliding, sliding.mesh
         self._untangled, self._optimise_shape = untangled, optimise_shape
         self._nearly: MaxMinOptimiser | None = None  # with the fewest inverted hexes, where some may be left
-        self.goes_further = False  # than within the least distance, which left many hexes inverted
+        self.widened = False  # than within the least distance, which left many hexes inverted
 
     def untangle(
         self, optimum: np.ndarray, candidates: Sequence[np.ndarray]
@@ -69,7 +69,7 @@ class LeavingSurface:
         for start, within, others_stay in trials:
             if fewest <= RELEASE.few:  # linear programs do better
                 break
-            self.goes_further = self.goes_further or within[:1] != limits[:1]
+            self.widened = self.widened or within[:1] != limits[:1]
             points, released = yield from untangle_released(self.sliding, start, self._untangled, within, others_stay)
             inverted = measure(points, hexes).n_inverted
             if inverted < fewest and released.size:
@@ -86,7 +86,7 @@ class LeavingSurface:
         settings, edge = self.settings, self.mesh.mean_edge_length
         smaller = [share for share in RELEASE.smaller if share * edge * (1 + SLP.band_excess) < self._tolerance]
         failed = result is None or not result.least > 0
-        if settings.surface_tolerance in (AUTO, UNLIMITED) or not smaller or not (failed or self.goes_further):
+        if settings.surface_tolerance in (AUTO, UNLIMITED) or not smaller or not (failed or self.widened):
             return None
         settings = replace(settings, surface_tolerance=smaller[-1])
         return LeavingSurface(settings, self.sliding, self._untangled, self._optimise_shape)
@@ -106,7 +106,7 @@ class LeavingSurface:
             return (yield from raise_in_wider_band(result, tolerance)) if wider else result
         optimiser = MaxMinOptimiser(self.mesh, start, self.sliding)
         if measure(result.optimiser.points, self.mesh.hexes).n_inverted:
-            self.goes_further = len(self._limits) > 1
+            self.widened = len(self._limits) > 1
             starts = [optimiser] if self._nearly is None else [self._nearly, optimiser]
             return (yield from improve_off_surface(starts, self._limits, result, wanted))
         nearer = [share * self.mesh.mean_edge_length for share in MAXMIN.off_surface_tolerances]
