@@ -50,7 +50,7 @@ class LeavingSurface:
         self.settings, self.sliding, self.mesh = settings, sliding, sliding.mesh
         self._untangled, self._optimise_shape = untangled, optimise_shape
         self._nearly: MaxMinOptimiser | None = None  # with the fewest inverted hexes, where some may be left
-        self.widened = False  # than within the least distance, which left many hexes inverted
+        self.widened = False  # distances beyond the least one were tried
 
     def untangle(
         self, optimum: np.ndarray, candidates: Sequence[np.ndarray]
