@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.arrays import any_of_rows, differing_rows, mask, row_norms
 from hexmend.boundary.cell_extremes import extremes_in_cells
-from hexmend.boundary.closest_point import ClosestPoints, means
+from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
 from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
 
@@ -97,6 +97,7 @@ class Band:
         self.points, self._faces, self._start, self._given = points, faces, start, target
         self._first: ClosestPoints | None = None  # points of the boundary closest to `target_samples` at first
         self._judged: _Judged | None = None  # by the last call of `nodes_outside_band`
+        self._known_limits: tuple[float, tuple[np.ndarray, np.ndarray]] | None = None  # and the width they are for
         corners = points[faces.ravel()]
         size = float(np.linalg.norm(np.ptp(corners, axis=0))) if corners.size else 0.0
         self.max_deviation = max(max_deviation, _ROUNDING * size)
@@ -212,33 +213,38 @@ class Band:
         """
         if not np.isfinite(self.max_deviation):
             return NO_NODES
-        initial, nodes, _ = self.initial_surface_deviation
-        near, (doubtful, surface) = self._near_boundary, self._doubtful_samples(points)
+        _, nodes, _ = self.initial_surface_deviation
+        (boundary_limits, surface_limits), near = self._limits, self._near_boundary
+        doubtful, of_surface = self._doubtful_samples(points)
         own = doubtful if changed is None else any_of_rows(changed, self.samples)
-        at, outside = np.flatnonzero(own), doubtful & ~own
-        samples, limits = self.samples[at], self._allowed(self._initial_boundary_deviation[at])
-        boundary = self.target.beyond(means(points, samples), self._near_target, limits, at)
-        outside[at] = boundary
-        limits = self._allowed(initial[surface])
-        surface = surface[self.skin.beyond(self.target_samples[surface], near, limits, surface, points)]
-        of_surface = mask(surface, len(self.target_samples))
+        boundary = self._near_target.means_beyond(self.target.trees, points, self.samples, own, boundary_limits)
+        vertices = vertices_of(points, self._faces)
+        surface = near.beyond_moving(self.skin.trees, vertices, self.target_samples, of_surface, surface_limits)
+        outside, of_surface = (doubtful & ~own) | boundary, mask(surface, len(self.target_samples))
         self._judged = _Judged(points.copy(), self.max_deviation, outside, of_surface, near.pieces.copy())
         if not (surface.size or boundary.any()):
             return NO_NODES
         faces = self.skin.nodes_of_pieces(near.pieces[surface])
-        return np.unique(np.concatenate([x.ravel() for x in (samples[boundary], faces, nodes[surface])]))
+        return np.unique(np.concatenate([x.ravel() for x in (self.samples[boundary], faces, nodes[surface])]))
 
     def _doubtful_samples(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Find samples that may be outside the band now: of the boundary, (s,) bool, and of the surface, (k,) int."""
+        """Find samples that may be outside the band now: of the boundary, (s,) bool, and of the surface, (t,) bool."""
         judged = self._judged  # one read, as another thread may replace it
         if judged is None or judged.max_deviation != self.max_deviation:
-            return np.ones(len(self.samples), dtype=bool), np.arange(len(self.target_samples))
+            return np.ones(len(self.samples), dtype=bool), np.ones(len(self.target_samples), dtype=bool)
         moved = differing_rows(points, judged.points)
-        faces = any_of_rows(moved, self._faces)[self.skin.faces_of_pieces[judged.pieces]]
-        return judged.boundary | any_of_rows(moved, self.samples), np.flatnonzero(judged.surface | faces)
+        pieces = any_of_rows(moved, self._faces).take(self.skin.faces_of_pieces)
+        return judged.boundary | any_of_rows(moved, self.samples), judged.surface | pieces.take(judged.pieces)
 
-    def _allowed(self, initial: np.ndarray) -> np.ndarray:
-        return np.maximum(initial, self.max_deviation) * (1 + _ROUNDING)
+    @property
+    def _limits(self) -> tuple[np.ndarray, np.ndarray]:
+        """Distances that samples of the boundary, (s,), and of the surface, (t,), are allowed to have."""
+        known = self._known_limits  # one read, as another thread may replace it
+        if known is None or known[0] != self.max_deviation:
+            initial = self._initial_boundary_deviation, self.initial_surface_deviation.distances
+            limits = tuple(np.maximum(one, self.max_deviation) * (1 + _ROUNDING) for one in initial)
+            known = self._known_limits = self.max_deviation, limits
+        return known[1]
 
     @cached_property
     def _near_target(self) -> NearPoints:

@@ -28,7 +28,7 @@ class NearPoints:
     def __init__(self, count: int):
         self.pieces, self._weights = np.full(count, -1, dtype=np.int32), np.zeros((count, 3))
         self._points: np.ndarray | None = None  # of the trees on which `_places` lie
-        self._places = np.empty((0, 3))
+        self._places = np.empty((count, 3))
 
     def store(self, found: ClosestPoints) -> None:
         """Store the closest points of all samples."""
@@ -69,19 +69,87 @@ class NearPoints:
             closest_point.distances_from(points, trees.pieces, x, self.pieces[some], self._weights[some], distances)
         far = ~(distances <= limits)  # nothing is near a sample that is not finite
         doubtful = np.flatnonzero(far)
-        if not doubtful.size:
+        if doubtful.size:
+            known = doubtful if samples is None else samples[doubtful]
+            far[doubtful] = self._search(trees, points, x[doubtful], limits[doubtful], known)
+        return far
+
+    def means_beyond(
+        self, trees: ClosestPointTrees, points: np.ndarray, nodes: np.ndarray, examined: np.ndarray, limits: np.ndarray
+    ) -> np.ndarray:
+        """Find samples that are further than their limits from the first group of trees; stores the closest points.
+
+        Parameters
+        ----------
+        trees : ClosestPointTrees
+            Those of each call have the same pieces.
+        points : (n, 3) float64
+        nodes : (count, 4) int32
+            Points whose mean is each sample.
+        examined : (count,) bool
+            Samples that are examined.
+        limits : (count,) float64
+            Not negative.
+
+        Returns
+        -------
+        (count,) bool
+            False for samples that are not examined.
+        """
+        self._places_on(trees)
+        beyond = np.empty(len(nodes), dtype=bool)
+        closest_point.means_beyond(trees.box_trees, points, nodes, examined, limits, self._kernel, beyond)
+        return beyond
+
+    def beyond_moving(
+        self, trees: ClosestPointTrees, points: np.ndarray, x: np.ndarray, examined: np.ndarray, limits: np.ndarray
+    ) -> np.ndarray:
+        """Find samples that are further than their limits from trees whose points have moved; stores the closest ones.
+
+        Parameters
+        ----------
+        trees : ClosestPointTrees
+            Those of each call have the same pieces.
+        points : (n, 3) float64
+            Points of the trees; they are fitted to these only where a search is needed.
+        x : (count, 3) float64
+            Positions of all samples.
+        examined : (count,) bool
+            Samples that are examined.
+        limits : (count,) float64
+            Not negative.
+
+        Returns
+        -------
+        (k,) int64
+            Numbers of these samples, ascending.
+        """
+        far = np.empty(len(x), dtype=bool)
+        closest_point.far_samples(points, trees.pieces, x, examined, limits, self._kernel, far)
+        far = np.flatnonzero(far)
+        if not far.size:
             return far
+        self._points = None
+        return far[self._search(trees, points, x[far], limits[far], far)]
+
+    @property
+    def _kernel(self) -> closest_point.NearPoints:
+        return closest_point.NearPoints(self.pieces, self._weights, self._places)
+
+    def _search(
+        self, trees: ClosestPointTrees, points: np.ndarray, x: np.ndarray, limits: np.ndarray, known: np.ndarray
+    ) -> np.ndarray:
+        """Search trees at these points for samples x (k, 3) with the numbers `known` (k,); True for those beyond."""
         if points is not trees.points:
             trees = trees.with_points(points)
-        known = doubtful if samples is None else samples[doubtful]
-        pieces, places, weights = self.pieces[known], np.empty((doubtful.size, 3)), np.empty((doubtful.size, 3))
-        found, limits = np.empty(doubtful.size), limits[doubtful]
-        closest_point.near(trees.box_trees, x[doubtful], limits, pieces, places, weights, found)
-        far[doubtful] = ~(found <= limits)
+        pieces, places, weights = self.pieces[known], np.empty((known.size, 3)), np.empty((known.size, 3))
+        found = np.empty(known.size)
+        closest_point.near(trees.box_trees, x, limits, pieces, places, weights, found)
         self.pieces[known], self._weights[known] = pieces, weights
         if self._points is not None:
+            places[pieces < 0] = np.inf
             self._places[known] = places
-        return far
+        return ~(found <= limits)
 
     def _places_on(self, trees: ClosestPointTrees) -> np.ndarray:
         """Return the positions of all points on trees, (count, 3); infinite where there is none."""

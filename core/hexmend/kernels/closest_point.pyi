@@ -74,6 +74,28 @@ def distances_from(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3
     weights (j, 3); infinite where the piece is -1.
     """
 
+class NearPoints:
+    """Points that were near samples before."""
+
+    def __init__(self, piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
+        """
+        The piece (s,) int32 on which each lies, -1 for none, its barycentric weights there (s, 3), and its
+        position (s, 3), infinite for none. Arrays are not copied, and are written.
+        """
+
+def means_beyond(trees: BoxTrees, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], samples: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], examined: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], near: NearPoints, beyond: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Write beyond (s,) bool: True where the mean of the four points of a row of samples (s, 4) int32, which
+    must exist, is further from the first tree than its limit (s,). False where examined (s,) bool is.
+    Points that are found become the near ones.
+    """
+
+def far_samples(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], examined: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], near: NearPoints, far: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Write far (s,) bool: True where x (s, 3) is further than its limit (s,) from the point of its piece with
+    its weights, whatever its position in near. False where examined (s,) bool is.
+    """
+
 def numbers_of_different_points(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first

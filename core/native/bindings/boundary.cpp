@@ -3,6 +3,7 @@
 #include "bindings/arrays.hpp"
 #include "boundary/closest_point.hpp"
 #include "boundary/closest_point_cache.hpp"
+#include "boundary/near_points.hpp"
 #include "boundary/surface_points.hpp"
 #include "boundary/vertex_normals.hpp"
 #include "smoothers/sliding.hpp"
@@ -55,6 +56,27 @@ void bind_closest_point(nb::module_ m) {
           ReleaseGil(),
           "Write the distance (j,) of each of x (j, 3) from a point: that of piece (j,) int32 with barycentric\n"
           "weights (j, 3); infinite where the piece is -1.");
+    nb::class_<NearPoints>(m, "NearPoints", "Points that were near samples before.")
+        .def(
+            "__init__",
+            [](NearPoints *self, std::span<std::int32_t> piece, std::span<Barycentric> weights,
+               std::span<Point> places) {
+                expect(weights.size() == piece.size() && places.size() == piece.size(),
+                       "piece, weights and places have different lengths: expected a row a sample");
+                new (self) NearPoints{piece, weights, places};
+            },
+            "piece"_a, "weights"_a, "places"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+            "The piece (s,) int32 on which each lies, -1 for none, its barycentric weights there (s, 3), and its\n"
+            "position (s, 3), infinite for none. Arrays are not copied, and are written.");
+    m.def("means_beyond", &means_beyond, "trees"_a, "points"_a, "samples"_a, "examined"_a, "limits"_a, "near"_a,
+          "beyond"_a, ReleaseGil(),
+          "Write beyond (s,) bool: True where the mean of the four points of a row of samples (s, 4) int32, which\n"
+          "must exist, is further from the first tree than its limit (s,). False where examined (s,) bool is.\n"
+          "Points that are found become the near ones.");
+    m.def("far_samples", &far_samples, "points"_a, "pieces"_a, "x"_a, "examined"_a, "limits"_a, "near"_a, "far"_a,
+          ReleaseGil(),
+          "Write far (s,) bool: True where x (s, 3) is further than its limit (s,) from the point of its piece with\n"
+          "its weights, whatever its position in near. False where examined (s,) bool is.");
     m.def("numbers_of_different_points", &numbers_of_different_points, "points"_a, ReleaseGil(),
           "The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first\n"
           "appear.");

@@ -1,6 +1,7 @@
 #include "boundary/closest_point.hpp"
 
 #include "boundary/four_pieces.hpp"
+#include "boundary/near_points.hpp"
 #include "simd/threads.hpp"
 #include "simd/vectors.hpp"
 
@@ -113,23 +114,13 @@ void distances_from(Points points, std::span<const Piece> pieces, Points x, Indi
     expect(piece.size() == x.size() && weights.size() == x.size() && distances.size() == x.size(),
            "x, piece, weights and distances have different lengths: expected a row a point");
     expect_known(piece, pieces.size());
-    parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
-        distances[i] = INF;
-        if (piece[i] < 0) return;
-        auto [a, b, c] = pieces[piece[i]];
-        V3<double> known =
-            weights[i][0] * vector(points[a]) + weights[i][1] * vector(points[b]) + weights[i][2] * vector(points[c]);
-        distances[i] = std::sqrt(square(known - vector(x[i])));
-    });
+    parallel_for(x.size(), POINTS_PER_CHUNK,
+                 [&](std::int64_t i) { distances[i] = distance_from(points, pieces, x[i], piece[i], weights[i]); });
 }
 
 void means(Points points, std::span<const std::array<Node, 4>> nodes, std::span<Point> x) {
     expect(x.size() == nodes.size(), "x: a row for each of nodes is expected");
-    parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
-        V3<double> sum = vector(points[nodes[i][0]]);
-        for (int k = 1; k < 4; ++k) sum = sum + vector(points[nodes[i][k]]);
-        x[i] = point(0.25 * sum);
-    });
+    parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) { x[i] = point(mean_of(points, nodes[i])); });
 }
 
 }  // namespace hexmend

@@ -1,0 +1,44 @@
+// Points of surfaces that were near samples before: they tell which samples cannot be far from a surface now, without a
+// search.
+#pragma once
+
+#include "boundary/closest_point.hpp"
+#include "simd/vectors.hpp"
+
+namespace hexmend {
+
+// The point near to each sample: the piece on which it lies, -1 for none, its barycentric weights there, and its
+// position, infinite for none.
+struct NearPoints {
+    std::span<std::int32_t> piece;
+    std::span<Barycentric> weights;
+    std::span<Point> places;
+};
+
+// The mean of four points.
+inline V3<double> mean_of(Points points, const std::array<Node, 4> &nodes) {
+    V3<double> sum = vector(points[nodes[0]]);
+    for (int k = 1; k < 4; ++k) sum = sum + vector(points[nodes[k]]);
+    return 0.25 * sum;
+}
+
+// The distance of x from the point of a piece with some weights; infinite where the piece is -1.
+inline double distance_from(Points points, std::span<const Piece> pieces, const Point &x, std::int32_t piece,
+                            const Barycentric &weights) {
+    if (piece < 0) return INF;
+    auto [a, b, c] = pieces[piece];
+    V3<double> known = weights[0] * vector(points[a]) + weights[1] * vector(points[b]) + weights[2] * vector(points[c]);
+    return length(known - vector(x));
+}
+
+// Write `beyond`: whether the mean of four points is further than its limit from the first tree, false for samples that
+// are not examined. Points that are found are stored.
+void means_beyond(const BoxTrees &trees, Points points, std::span<const std::array<Node, 4>> samples,
+                  std::span<const bool> examined, Numbers limits, const NearPoints &near, std::span<bool> beyond);
+
+// Write `far`: whether x is further than its limit from the point of its piece with its weights, false for samples that
+// are not examined. Places are not used: the pieces may have moved.
+void far_samples(Points points, std::span<const Piece> pieces, Points x, std::span<const bool> examined, Numbers limits,
+                 const NearPoints &near, std::span<bool> far);
+
+}  // namespace hexmend

@@ -1,0 +1,100 @@
+"""Samples that are further than a limit from a surface, by points that were near them before."""
+
+import numpy as np
+import pytest
+
+from hexmend.boundary.closest_point import ClosestPointTrees
+from hexmend.boundary.near_points import NearPoints
+from hexmend.kernels import closest_point
+
+#: Nodes of a plane at z = 0 in nine squares, each of two triangles.
+PLANE = np.array([[x, y, 0.0] for x in (-9, -3, 3, 9) for y in (-9, -3, 3, 9)])
+TRIANGLES = np.array(
+    [[4 * i + j, 4 * i + j + 1, 4 * i + j + 5] for i in range(3) for j in range(3)]
+    + [[4 * i + j, 4 * i + j + 5, 4 * i + j + 4] for i in range(3) for j in range(3)],
+    dtype=np.int32,
+)
+
+
+def plane(points=PLANE):
+    return ClosestPointTrees(points, TRIANGLES, np.zeros(len(TRIANGLES), dtype=np.int64))
+
+
+def places(rng, count):
+    """Make points above and below the plane, whose distance from it is that of their height."""
+    return rng.uniform([-8, -8, -2], [8, 8, 2], (count, 3))
+
+
+def test_the_mean_of_four_points_is_beyond_its_limit_by_its_height_whatever_was_near_before():
+    rng, trees, near = np.random.default_rng(7), plane(), NearPoints(3000)
+    samples = rng.integers(0, 500, (3000, 4)).astype(np.int32)
+    limits = rng.uniform(0.1, 1.0, 3000)
+    for _ in range(4):
+        points = places(rng, 500)
+        examined = rng.random(3000) < 0.7
+        height = np.abs(points[samples].mean(axis=1)[:, 2])
+        beyond = near.means_beyond(trees, points, samples, examined, limits)
+        np.testing.assert_array_equal(beyond, examined & (height > limits))
+        assert 0 < beyond.sum() < examined.sum()
+
+
+def test_points_near_samples_are_on_the_surface_and_within_the_limit():
+    rng, trees, points = np.random.default_rng(8), plane(), places(np.random.default_rng(9), 400)
+    samples = np.repeat(np.arange(400, dtype=np.int32), 4).reshape(-1, 4)
+    piece, weights, found = np.full(400, -1, dtype=np.int32), np.empty((400, 3)), np.full((400, 3), np.inf)
+    near, limits = closest_point.NearPoints(piece, weights, found), rng.uniform(0.1, 1.0, 400)
+    every, beyond = np.ones(400, dtype=bool), np.empty(400, dtype=bool)
+    closest_point.means_beyond(trees.box_trees, points, samples, every, limits, near, beyond)
+    np.testing.assert_allclose(np.einsum("ki,kij->kj", weights, PLANE[trees.pieces[piece]]), found, atol=1e-12)
+    apart = np.linalg.norm(found - points, axis=1)
+    np.testing.assert_array_less(apart, np.maximum(np.abs(points[:, 2]), limits) + 1e-12)
+
+
+def test_a_sample_that_was_nowhere_is_near_nothing_at_the_origin():
+    trees, near = plane(PLANE + [0, 0, 5]), NearPoints(1)
+    samples, every, limit = np.zeros((1, 4), dtype=np.int32), np.ones(1, dtype=bool), np.ones(1)
+    for x in [0, 0, 5.0], [np.nan, 0, 0], [0, 0, 0]:
+        beyond = near.means_beyond(trees, np.array([x], dtype=float), samples, every, limit)
+        assert beyond.tolist() == [x != [0, 0, 5.0]]
+
+
+def test_a_sample_that_was_nowhere_is_near_nothing_at_the_origin_by_its_position_either():
+    trees, near = plane(PLANE + [0, 0, 5]), NearPoints(1)
+    for x in [0, 0, 5.0], [np.nan, 0, 0], [0, 0, 0]:
+        beyond = near.beyond(trees, trees.points, np.array([x], dtype=float), np.ones(1))
+        assert beyond.tolist() == [x != [0, 0, 5.0]]
+
+
+def test_samples_are_beyond_a_plane_that_has_moved_by_their_distance_from_where_it_is_now():
+    rng, trees, near = np.random.default_rng(9), plane(), NearPoints(2000)
+    x, limits = places(rng, 2000), rng.uniform(0.1, 1.0, 2000)
+    for height in 0.0, 0.3, -0.2, 0.0:
+        examined = rng.random(2000) < 0.6
+        beyond = near.beyond_moving(trees, PLANE + [0, 0, height], x, examined, limits)
+        np.testing.assert_array_equal(beyond, np.flatnonzero(examined & (np.abs(x[:, 2] - height) > limits)))
+        assert 0 < beyond.size < examined.sum()
+
+
+def test_samples_are_far_by_the_distance_from_their_points_as_the_pieces_are_now():
+    rng = np.random.default_rng(10)
+    points, pieces = rng.normal(size=(50, 3)), rng.integers(0, 50, (80, 3)).astype(np.int32)
+    piece, weights = rng.integers(-1, 80, 1500).astype(np.int32), rng.dirichlet(np.ones(3), 1500)
+    x, limits, examined = rng.normal(size=(1500, 3)), rng.uniform(0.5, 3.0, 1500), rng.random(1500) < 0.8
+    distance = np.linalg.norm(np.einsum("ki,kij->kj", weights, points[pieces[piece]]) - x, axis=1)
+    far = np.empty(1500, dtype=bool)
+    near = closest_point.NearPoints(piece, weights, np.zeros((1500, 3)))
+    closest_point.far_samples(points, pieces, x, examined, limits, near, far)
+    np.testing.assert_array_equal(far, examined & ((piece < 0) | (distance > limits)))
+    assert np.count_nonzero(far[piece >= 0]) > 0
+
+
+def test_rows_of_different_numbers_and_pieces_that_do_not_exist_are_rejected():
+    trees, none = plane(), np.empty((0, 3))
+    with pytest.raises(ValueError, match="expected a row a sample"):
+        closest_point.NearPoints(np.zeros(2, np.int32), none, none)
+    near = NearPoints(2)
+    with pytest.raises(ValueError, match="expected a row a sample"):
+        near.beyond_moving(trees, PLANE, np.zeros((3, 3)), np.ones(3, bool), np.ones(3))
+    near.pieces[0] = len(TRIANGLES)
+    with pytest.raises(ValueError, match="out of range"):
+        near.beyond_moving(trees, PLANE, np.zeros((2, 3)), np.ones(2, bool), np.ones(2))
