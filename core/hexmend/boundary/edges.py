@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.kernels import closest_point, incidence
+from hexmend.kernels import closest_point
 from hexmend.mesh.topology.components import components
 
 
@@ -36,18 +36,13 @@ class SurfaceEdges:
 
     def __init__(self, faces: np.ndarray, n: int):
         self.faces, self.n = faces, n
-        width = faces.shape[1]
-        sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2)
-        self._sides = np.flatnonzero(sides[:, 0] != sides[:, 1])
-        sides = sides[self._sides]
-        self._order = _order_of_pairs(sides, n)
-        key = self.keys_of(sides[self._order])
-        self._first = np.flatnonzero(np.append(True, key[1:] != key[:-1])[: key.size])
-        self.key, self.count = key[self._first], np.diff(self._first, append=key.size)
-        pair = self._order[self._first], self._order[self._first + (self.count > 1)]
-        self.nodes = np.stack(_ordered(sides[pair[0]]), axis=1)
-        self.neighbours = np.stack([self._sides[side] // width for side in pair], axis=1)
-        self.opposed = sides[pair[0], 0] != sides[pair[1], 0]
+        width, corners = faces.shape[1], np.ascontiguousarray(faces, dtype=np.int32).ravel()
+        self.nodes, self._sides, self._first = closest_point.edges_of_faces(corners, width, n)
+        self.key, self.count = edge_keys(self.nodes, n), np.diff(self._first).astype(np.int64)
+        first = self._first[:-1]
+        pair = self._sides[first], self._sides[first + (self.count > 1)]
+        self.neighbours = np.stack([side // width for side in pair], axis=1).astype(np.int64)
+        self.opposed = corners[pair[0]] != corners[pair[1]]
 
     def keys_of(self, edges: np.ndarray) -> np.ndarray:
         """Return the unique number of each edge (m, 2), whatever its direction, (m,) int64."""
@@ -60,17 +55,7 @@ class SurfaceEdges:
         1 where the surface around the node is a disc, more where sheets touch at it, 0 where there is no face.
         """
         faces = np.ascontiguousarray(self.faces, dtype=np.int32)
-        sides, first = self._sides[self._order], np.append(self._first, len(self._order))
-        sides, first = sides.astype(np.int32), first.astype(np.int32)
-        return closest_point.count_fans(faces.ravel(), faces.shape[1], sides, first, self.n)
-
-
-def _order_of_pairs(pairs: np.ndarray, n: int) -> np.ndarray:
-    """Order pairs (k, 2) of n nodes by the lower node, then by the higher one, equal ones as given; (k,) int32."""
-    order = np.arange(len(pairs), dtype=np.int32)
-    for node in reversed(_ordered(pairs)):
-        order = order[incidence.grouped(np.ascontiguousarray(node[order], np.int32), n)[1]]
-    return order
+        return closest_point.count_fans(faces.ravel(), faces.shape[1], self._sides, self._first, self.n)
 
 
 def _ordered(pairs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -102,6 +102,15 @@ def numbers_of_different_points(points: Annotated[NDArray[numpy.float64], dict(s
     appear.
     """
 
+def edges_of_faces(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], width: int, nodes: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+    """
+    The edges of faces: nodes (e, 2) int32, the lower one first, ascending; the sides on each (s,) int32,
+    ascending; and where those of each edge begin, (e + 1,) int32.
+
+    faces (k * width,) int32 are the nodes of faces one after the other, below `nodes`; its side s runs from
+    the node in place s to the next of the face. A side between equal nodes lies on no edge.
+    """
+
 def count_fans(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], width: int, sides: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     The number of fans at each of `nodes` nodes, faces connected by edges (nodes,) int32.

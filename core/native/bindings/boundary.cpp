@@ -80,6 +80,11 @@ void bind_closest_point(nb::module_ m) {
     m.def("numbers_of_different_points", &numbers_of_different_points, "points"_a, ReleaseGil(),
           "The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first\n"
           "appear.");
+    m.def("edges_of_faces", &edges_of_faces, "faces"_a, "width"_a, "nodes"_a, ReleaseGil(),
+          "The edges of faces: nodes (e, 2) int32, the lower one first, ascending; the sides on each (s,) int32,\n"
+          "ascending; and where those of each edge begin, (e + 1,) int32.\n\n"
+          "faces (k * width,) int32 are the nodes of faces one after the other, below `nodes`; its side s runs from\n"
+          "the node in place s to the next of the face. A side between equal nodes lies on no edge.");
     m.def("count_fans", &count_fans, "faces"_a, "width"_a, "sides"_a, "first"_a, "nodes"_a, ReleaseGil(),
           "The number of fans at each of `nodes` nodes, faces connected by edges (nodes,) int32.\n\n"
           "faces (k * width,) int32 are the nodes of faces one after the other; its side s runs from the node in place "

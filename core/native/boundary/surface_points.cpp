@@ -7,6 +7,7 @@
 #include <new>
 #include <numeric>
 
+#include "mesh/csr.hpp"
 #include "mesh/incidence.hpp"
 
 namespace hexmend {
@@ -35,6 +36,36 @@ std::unique_ptr<std::int32_t[], Free> zeros(std::size_t count) {
     return std::unique_ptr<std::int32_t[], Free>(p);
 }
 
+// The side that follows another of its face.
+std::int32_t next_side(std::int32_t side, int width) { return side % width + 1 < width ? side + 1 : side + 1 - width; }
+
+// A side of a face by its higher node, the upper half, and its number, the lower half.
+using HigherAndSide = std::uint64_t;
+std::int32_t higher(HigherAndSide side) { return static_cast<std::int32_t>(side >> 32); }
+
+// Sides at the lower node of each, ascending: start of each row, and items.
+std::pair<std::vector<std::int32_t>, std::vector<HigherAndSide>> sides_at_nodes(Indices faces, int width,
+                                                                                std::int64_t nodes) {
+    std::vector<std::int32_t> start(nodes + 1);
+    auto for_each_side = [&](const auto &body) {
+        for (std::int32_t side = 0; side < static_cast<std::int32_t>(faces.size()); ++side) {
+            const auto [low, high] = std::minmax({faces[side], faces[next_side(side, width)]});
+            if (low < high) body(side, low, high);
+        }
+    };
+    for_each_side([&](std::int32_t, Node low, Node) { ++start[low + 1]; });
+    accumulate(start);
+    std::vector<HigherAndSide> sides(start.back());
+    std::vector<std::int32_t> next(start.begin(), start.end() - 1);
+    for_each_side([&](std::int32_t side, Node low, Node high) {
+        sides[next[low]++] = std::uint64_t(high) << 32 | std::uint32_t(side);
+    });
+    const auto *begin = start.data();
+    auto *all = sides.data();
+    parallel_for(nodes, ROWS_PER_CHUNK, [=](std::int64_t i) { std::sort(all + begin[i], all + begin[i + 1]); });
+    return {std::move(start), std::move(sides)};
+}
+
 }  // namespace
 
 IntArray numbers_of_different_points(Points points) {
@@ -53,11 +84,30 @@ IntArray numbers_of_different_points(Points points) {
     return {std::move(numbers)};
 }
 
+std::tuple<OwnedArray<std::int32_t, 2>, IntArray, IntArray> edges_of_faces(Indices faces, int width,
+                                                                           std::int64_t nodes) {
+    expect(width > 0 && faces.size() % width == 0, "faces: `width` nodes of each are expected");
+    for (Node node : faces) expect(node >= 0 && node < nodes, "faces: a node is out of range");
+    const auto [start, at_nodes] = sides_at_nodes(faces, width, nodes);
+    std::vector<std::int32_t> edges, sides(at_nodes.size()), first;
+    edges.reserve(at_nodes.size() + 2), first.reserve(at_nodes.size() / 2 + 1);  // most have two sides
+    for (std::int64_t node = 0; node < nodes; ++node) {
+        for (std::int32_t k = start[node]; k < start[node + 1]; ++k) {
+            sides[k] = static_cast<std::int32_t>(at_nodes[k]);
+            if (k > start[node] && higher(at_nodes[k]) == higher(at_nodes[k - 1])) continue;
+            edges.push_back(static_cast<std::int32_t>(node)), edges.push_back(higher(at_nodes[k]));
+            first.push_back(k);
+        }
+    }
+    first.push_back(static_cast<std::int32_t>(sides.size()));
+    return {{std::move(edges)}, {std::move(sides)}, {std::move(first)}};
+}
+
 IntArray count_fans(Indices faces, int width, Indices sides, Indices first, std::int64_t nodes) {
     std::vector<std::int32_t> parent(faces.size()), count(nodes);  // corners of faces that are of one fan are joined
     std::iota(parent.begin(), parent.end(), 0);
     auto join_corners = [&](std::int32_t one, std::int32_t other) { join(parent, std::array{one, other}, 2); };
-    auto next = [&](std::int32_t corner) { return corner % width + 1 < width ? corner + 1 : corner + 1 - width; };
+    auto next = [&](std::int32_t corner) { return next_side(corner, width); };
     for (std::size_t e = 0; e + 1 < first.size(); ++e) {
         for (std::int32_t k = first[e] + 1; k < first[e + 1]; ++k) {
             const std::int32_t one = sides[k - 1], other = sides[k];

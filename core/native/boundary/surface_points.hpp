@@ -1,6 +1,8 @@
-// Points of large surfaces: equal ones, fans of faces around them, and those with the largest and the least value in
-// each cell of a lattice.
+// Points and edges of large surfaces: equal points, edges of faces, fans of faces around points, and points with the
+// largest and the least value in each cell of a lattice.
 #pragma once
+
+#include <tuple>
 
 #include "mesh/array_views.hpp"
 
@@ -8,6 +10,12 @@ namespace hexmend {
 
 // The number of each point among the different ones, in the order of their first appearance; 0 and -0 are equal.
 IntArray numbers_of_different_points(Points points);
+
+// The edges of faces: the nodes of each, the lower one first, ascending; the sides that lie on each, ascending; and the
+// place of its first side, with one more at the end. `faces` has the nodes of each face, `width` of them, below
+// `nodes`; its side s runs from faces[s] to the next of the face. A side between equal nodes lies on no edge.
+std::tuple<OwnedArray<std::int32_t, 2>, IntArray, IntArray> edges_of_faces(Indices faces, int width,
+                                                                           std::int64_t nodes);
 
 // Number of fans, which are faces connected by edges, at each of `nodes` nodes. `faces` has the nodes of each face,
 // `width` of them; its side s runs from faces[s] to the next of the face. Edge e has sides[first[e]] to sides[first[e +
