@@ -83,6 +83,9 @@ WRITERS = {
     "text.stl": in_text,
     "blank-lines.stl": edited(in_text, lambda text: text.replace("facet n", "\n  facet n") + "\n\n"),
     "capitals.stl": edited(in_text, str.upper),
+    "returns.stl": edited(in_text, lambda text: text.replace("\n", "\r")),
+    "notes.stl": edited(in_text, lambda text: text.replace("\n", " note\n")),
+    "tabs.stl": edited(in_text, lambda text: text.replace("vertex ", "\tvertex\t ")),
     "two-solids.stl": edited(in_text, lambda text: text.replace("  facet", "endsolid a\nsolid b\n facet", 1)),
     "binary.ply": lambda path, data: data.save(path),
     "text.ply": in_text,
@@ -154,6 +157,14 @@ BAD = {
     "junk.stl": (b"\0" * 200, "is not an STL file"),
     "cut-short.stl": (
         b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n",
+        "cannot be read as STL",
+    ),
+    "uneven.stl": (
+        b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nvertex 1 0 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
+        "cannot be read as STL",
+    ),
+    "run-together.stl": (
+        b"solid a\nfacet normal 0 0 1\nouter loop\nvertex0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
         "cannot be read as STL",
     ),
     "points.obj": (b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "holds no surface"),

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.decimals import parse_numbers
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.surfaces.format import Polygons, SurfaceFormat, parse_surface, register
 
@@ -33,6 +34,21 @@ def read(path: Path) -> Polygons:
 
 def _corners(data: bytes) -> np.ndarray:
     """Parse the corners of all facets, (3 k, 3) float64; raises ValueError where a facet has not three of them."""
+    lines = [line.strip() for line in data.replace(b"\r", b"\n").split(b"\n")]
+    lines = [line for line in lines if line.startswith((b"vertex ", b"vertex\t", b"facet"))]
+    in_order = len(lines) % 4 == 0 and all(
+        line.startswith(b"vertex" if row else b"facet") for row in range(4) for line in lines[row::4]
+    )
+    del lines[::4]
+    if in_order and {*map(len, map(bytes.split, lines))} <= {4}:
+        numbers = parse_numbers(b" ".join(lines).replace(b"vertex", b" "), np.float64)
+        if numbers is not None and numbers.size == 3 * len(lines):
+            return numbers.reshape(-1, 3)
+    return _corners_by_words(data)
+
+
+def _corners_by_words(data: bytes) -> np.ndarray:
+    """Parse the corners of all facets as `_corners` does, whatever else their lines hold, in three times the time."""
     words = map(bytes.split, re.split(rb"[\r\n]+", data))
     lines = [line for line in words if line and line[0] in (b"facet", b"vertex")]
     kinds = [line[0] for line in lines]
