@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.arrays import any_of_rows, differing_rows, mask, row_norms
+from hexmend.arrays import any_of_rows, differing_rows, extent, mask, row_norms
 from hexmend.boundary.cell_extremes import extremes_in_cells
 from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
 from hexmend.boundary.near_points import NearPoints
@@ -99,7 +99,7 @@ class Band:
         self._judged: _Judged | None = None  # by the last call of `nodes_outside_band`
         self._known_limits: tuple[float, tuple[np.ndarray, np.ndarray]] | None = None  # and the width they are for
         corners = points[faces.ravel()]
-        size = float(np.linalg.norm(np.ptp(corners, axis=0))) if corners.size else 0.0
+        size = float(np.linalg.norm(extent(corners))) if corners.size else 0.0
         self.max_deviation = max(max_deviation, _ROUNDING * size)
 
     @cached_property

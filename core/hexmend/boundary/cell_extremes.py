@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import bounds
 from hexmend.kernels import closest_point
 
 #: Cells of a lattice for each point up to which a table of all cells is small.
@@ -31,8 +32,10 @@ def extremes_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.n
     >>> extremes_in_cells(x, np.array([1.0, 2.0, 3.0, 0.0]), 1.0).tolist()
     [0, 2, 3]
     """
-    place = np.floor((x - x.min(axis=0, initial=np.inf)) / cell)
-    layers = place.max(axis=0, initial=0.0) + 1
+    if not len(x):
+        return np.empty(0, dtype=np.int64)
+    place = np.floor((x - bounds(x)[0]) / cell)
+    layers = bounds(place)[1] + 1
     if layers.prod() <= _MAX_CELLS * len(x):
         cells = int(layers.prod())
         number = ((place[:, 0] * layers[1] + place[:, 1]) * layers[2] + place[:, 2]).astype(np.int32)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.kernels import closest_point
+from hexmend.kernels import closest_point, incidence
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.validation import as_faces, as_points, points_like
 
@@ -71,11 +71,10 @@ class ClosestPointTrees:
             raise MeshError(
                 f"pieces have shape {pieces.shape} and group {group.shape}: expected (k, 3), and a group for each"
             )
-        order = np.argsort(group, kind="stable")
-        start = np.searchsorted(group[order], np.arange(group.max(initial=-1) + 2)).astype(np.int32)
-        pieces = np.ascontiguousarray(pieces[order], dtype=np.int32)
+        start, order = incidence.grouped(group.astype(np.int32), int(group.max(initial=-1)) + 1)
+        pieces = np.ascontiguousarray(pieces.take(order, axis=0), dtype=np.int32)
         within, self.boxes, self.links, self.roots = closest_point.build_trees(points, pieces, start)
-        self.points, self.pieces, self.order = points, np.ascontiguousarray(pieces[within]), order[within]
+        self.points, self.pieces, self.order = points, pieces.take(within, axis=0), order.take(within).astype(np.int64)
 
     @property
     def box_trees(self) -> closest_point.BoxTrees:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.aliases import old_keywords
+from hexmend.arrays import extent
 from hexmend.boundary.classification import boundary_of
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, angle_in_degrees, dihedral_angles
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
@@ -159,7 +160,7 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEAT
         max_distance=float(max(one.max() for one in both)),
         mean_distance=float(max(one.mean() for one in both)),
         edge_length=before.mean_edge_length,
-        diagonal=float(np.linalg.norm(np.ptp(was, axis=0))),
+        diagonal=float(np.linalg.norm(extent(was))),
         volume_change=(new.volume() - volume) / volume if volume else 0.0,
         moved=int(np.count_nonzero(np.linalg.norm(now - was, axis=1) > _MOVE_TOLERANCE * before.mean_edge_length)),
         features=int(np.count_nonzero(sharp)),

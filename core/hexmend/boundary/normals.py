@@ -48,7 +48,7 @@ class PieceDirections:
 
 def triangle_normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Unit normals of triangles, (t, 3), 0 for one without area."""
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    a, b, c = (vertices.take(triangles[:, k], axis=0) for k in range(3))
     return unit_vectors(cross_products(b - a, c - a))
 
 

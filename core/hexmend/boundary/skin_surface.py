@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from functools import cached_property
 
 import numpy as np
 
@@ -64,6 +65,7 @@ class SkinSurface:
         other, points = copy.copy(self), points_like(points, self.points.shape)
         other.points, other.trees = points, self.trees.with_points(vertices_of(points, self.faces))
         other.derived = {}
+        vars(other).pop("_edge_lengths", None)
         return other
 
     def samples(self, spacing: float = 0.0) -> np.ndarray:
@@ -73,10 +75,15 @@ class SkinSurface:
         """
         edges, faces = self.edges.nodes, self.faces
         if spacing > 0:
-            one, other = (self.points[edges[:, end]] for end in range(2))
-            longer = row_norms(other - one) > spacing
+            longer = self._edge_lengths > spacing
             edges, faces = edges[longer], faces[mask(self.edges.neighbours[longer].ravel(), len(faces))]
         return np.concatenate([self.points[self.nodes], _middles(self.points, edges), _middles(self.points, faces)])
+
+    @cached_property
+    def _edge_lengths(self) -> np.ndarray:
+        """Length of each edge, (e,); a run and its report need those of a large surface again."""
+        one, other = (self.points.take(self.edges.nodes[:, end], axis=0) for end in range(2))
+        return row_norms(other - one)
 
     def distances(self, x: np.ndarray) -> np.ndarray:
         """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit."""
@@ -159,10 +166,10 @@ class SkinSurface:
     def volume(self) -> float:
         """Return the enclosed volume of a closed surface."""
         x, triangles = self.trees.points - self.points[self.nodes].mean(axis=0), self.trees.pieces
-        a, b, c = (x[triangles[:, k]] for k in range(3))
+        a, b, c = (x.take(triangles[:, k], axis=0) for k in range(3))
         return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
 
 
 def _middles(points: np.ndarray, rows: np.ndarray) -> np.ndarray:
     """Return the mean of the points (n, 3) of each row (k, w) of nodes, (k, 3)."""
-    return sum(points[rows[:, column]] for column in range(rows.shape[1])) / rows.shape[1]
+    return sum(points.take(rows[:, column], axis=0) for column in range(rows.shape[1])) / rows.shape[1]

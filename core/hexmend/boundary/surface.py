@@ -59,7 +59,9 @@ class PartitionedSurface:
         patch, segments = boundary.patch_of_face[face], boundary.segments
         pieces = np.concatenate([triangles, segments[:, [0, 1, 1]]])
         self._group_of_given = np.concatenate([patch, self.n_patches + boundary.curve_of_segment])
-        self.trees = ClosestPointTrees(vertices, pieces, self._group_of_given)
+        # One patch without a curve is the whole surface.
+        is_whole = whole is not None and self.n_patches == 1 and not len(segments)
+        self.trees = whole if is_whole else ClosestPointTrees(vertices, pieces, self._group_of_given)
         self._given = self.trees.order  # number of each piece among the triangles and segments as given
         self._directions = PieceDirections(vertices, triangles, patch, points, boundary)
         self._whole = whole

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from hexmend.arrays import bounds
 from hexmend.kernels import elements
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MIRRORED_MID_NODES
@@ -117,7 +118,7 @@ def _handedness(points: np.ndarray, hexes: np.ndarray, bound: float) -> tuple[np
 
 def _rounding_bound(points: np.ndarray) -> float:
     """Bound of the rounding errors of all hexes with these corners (n, 3)."""
-    low, high = points.min(axis=0), points.max(axis=0)
+    low, high = bounds(points)
     with np.errstate(all="ignore"):
         largest = np.maximum(np.abs(low), np.abs(high)).max()
         return float(65 * np.finfo(np.float64).eps * largest * np.square(high - low).sum())

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
+from hexmend.arrays import bounds
 from hexmend.errors import MeshError
 
 #: Largest coordinate and smallest extent of a mesh: beyond them fourth powers of lengths overflow or vanish.
@@ -35,7 +36,7 @@ def check_size(points: np.ndarray) -> None:
     """Raise `MeshError` if points (n, 3) are so far apart, or so close, that volumes overflow or vanish."""
     if not len(points):
         return
-    low, high = points.min(axis=0), points.max(axis=0)
+    low, high = bounds(points)
     far, size = max(-low.min(), high.max()), float((high - low).max())
     if far > MAX_COORDINATE:
         raise MeshError(

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from hexmend.arrays import differing_rows
+from hexmend.arrays import differing_rows, extent
 from hexmend.boundary import SlidingBoundary
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
 from hexmend.mesh.mesh import Mesh
@@ -97,7 +97,7 @@ def absolute_tolerance(mesh: Mesh, tolerance: float | str) -> float:
         return np.inf
     if isinstance(tolerance, str) and tolerance.endswith("%"):
         boundary = mesh.surface_points[mesh.topology.boundary]
-        return float(tolerance[:-1]) / 100 * (float(np.linalg.norm(np.ptp(boundary, axis=0))) if boundary.size else 0.0)
+        return float(tolerance[:-1]) / 100 * (float(np.linalg.norm(extent(boundary))) if boundary.size else 0.0)
     return (AUTO_TOLERANCE if tolerance == AUTO else float(tolerance)) * mesh.mean_edge_length
 
 

@@ -46,6 +46,9 @@ def test_samples_at_a_spacing_leave_out_midpoints_of_shorter_edges_and_of_faces_
     middles = [[5, 0.5, 0], [5, 1, 0]], [[11 / 3, 2 / 3, 0]]
     np.testing.assert_allclose(skin.samples(2.0), np.concatenate([x, *middles]))
     np.testing.assert_array_equal(skin.samples(20.0), x)
+    np.testing.assert_allclose(
+        skin.with_points(x / 4).samples(2.0), np.concatenate([x, middles[0][:1], middles[1]]) / 4
+    )
 
 
 def test_a_skin_whose_nodes_have_moved_is_elsewhere_and_the_first_is_not(skin):

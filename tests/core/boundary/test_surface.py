@@ -278,3 +278,22 @@ def test_a_known_piece_shortens_the_search_and_changes_no_place(seed):
     np.testing.assert_allclose(again.points, found.points, atol=1e-12)
     np.testing.assert_array_equal(again.pieces, found.pieces)
     assert (known != found.pieces).any()  # and is not written to
+
+
+@pytest.mark.parametrize("solid", [ball(4), cylinder(16, 3)], ids=["one patch", "three patches"])
+def test_trees_that_are_built_already_serve_a_surface_of_one_patch_and_change_nothing(solid):
+    faces = solid.topology.boundary_faces
+    boundary = classify(solid.points, faces, 60.0)
+    vertices, triangles, _ = triangulate(solid.points, faces)
+    whole = ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
+    given, own = PartitionedSurface(solid.points, boundary, whole), PartitionedSurface(solid.points, boundary)
+    assert (given.trees is whole) == (boundary.n_patches == 1)
+    x = np.random.default_rng(2).normal(size=(200, 3))
+    patch = np.arange(200) % boundary.n_patches
+    found, expected = given.trees.closest(x, patch), own.trees.closest(x, patch)
+    np.testing.assert_array_equal(found.points, expected.points)
+    np.testing.assert_array_equal(found.pieces, expected.pieces)
+    np.testing.assert_array_equal(given.directions(found), own.directions(expected))
+    both = given.with_union(np.ones(boundary.n_patches, bool)), own.with_union(np.ones(boundary.n_patches, bool))
+    last = np.full(200, boundary.n_patches + boundary.n_curves)
+    np.testing.assert_array_equal(*(one.trees.closest(x, last).points for one in both))

@@ -90,7 +90,7 @@ def _below_weight(group: np.ndarray, weight: np.ndarray, counts: np.ndarray, lea
 def dihedral_angles(points: np.ndarray, edges: SurfaceEdges) -> np.ndarray:
     """Angles between the normals of the two faces of each edge, in degrees, 0 without a normal; (e,) float64."""
     normals = face_normals(points, edges.faces)
-    one, other = (normals[edges.neighbours[:, side]] for side in (0, 1))
+    one, other = (normals.take(edges.neighbours[:, side], axis=0) for side in (0, 1))  # in a third of the time of []
     other = np.where(edges.opposed[:, None], other, -other)
     angle = np.degrees(np.arctan2(row_norms(cross_products(one, other)), np.einsum("ij,ij->i", one, other)))
     return np.where(edges.count == 2, angle, 0.0)
@@ -98,8 +98,8 @@ def dihedral_angles(points: np.ndarray, edges: SurfaceEdges) -> np.ndarray:
 
 def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Unit normals of the faces' mean planes, 0 for a face of negligible area; (k, 3) float64."""
-    first = points[faces[:, 0]]
-    x = [points[faces[:, corner]] - first for corner in range(1, faces.shape[1])]
+    first = points.take(faces[:, 0], axis=0)
+    x = [points.take(faces[:, corner], axis=0) - first for corner in range(1, faces.shape[1])]
     area = sum(cross_products(one, other) for one, other in pairwise(x))  # twice the area vector
     size = row_norms(area)
     perimeter = row_norms(x[0]) + sum(row_norms(other - one) for one, other in pairwise(x)) + row_norms(x[-1])

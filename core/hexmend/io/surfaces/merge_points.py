@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.arrays import mask
+from hexmend.arrays import bounds, extent, mask
 from hexmend.kernels import closest_point
 from hexmend.mesh.topology.close_pairs import close_pairs
 from hexmend.mesh.topology.components import components
@@ -44,13 +44,13 @@ def merge_points(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.
     if not used.all():
         points, faces = points[used], (np.cumsum(used) - 1)[faces]
     points, group = _different_points(points)
-    distance = _MERGE_TOLERANCE * float(np.linalg.norm(np.ptp(points, axis=0)))
+    distance = _MERGE_TOLERANCE * float(np.linalg.norm(extent(points)))
     pairs = close_pairs(points, distance)
     if len(pairs):
         merged = components(len(points), pairs)
         _, first = np.unique(merged, return_index=True)
         points, group = points[first], merged[group]
-    return points, group[faces]
+    return points, group.take(faces)
 
 
 def _different_points(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -58,16 +58,17 @@ def _different_points(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     number = closest_point.numbers_of_different_points(points)
     first = np.empty(number.max() + 1, dtype=np.int64)
     first[number[::-1]] = np.arange(len(points))[::-1]
-    points = points[first]
+    points = points.take(first, axis=0)
     order = np.argsort(_places_on_curve(points), kind="stable")
     place = np.empty(len(points), dtype=np.int64)
     place[order] = np.arange(len(points))
-    return points[order], place[number]
+    return points.take(order, axis=0), place.take(number)
 
 
 def _places_on_curve(points: np.ndarray) -> np.ndarray:
     """Places of points (n, 3) on a curve that fills their box, the Z-order of Morton (1966), (n,) uint64."""
-    low, size = points.min(axis=0), float(np.ptp(points, axis=0).max())
+    low, high = bounds(points)
+    size = float((high - low).max())
     cells = ((points - low) / (size or 1.0) * _CURVE_CELLS).astype(np.uint64)
     code = np.zeros(len(points), dtype=np.uint64)
     for axis in range(3):

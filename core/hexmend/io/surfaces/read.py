@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.arrays import cross_products, mask, row_norms
+from hexmend.arrays import cross_products, extent, mask, row_norms
 from hexmend.boundary import SkinSurface
 from hexmend.errors import FileError
 from hexmend.io.base.numbering import first_out_of_range
@@ -65,7 +65,8 @@ def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
     faces = _with_equal_width([nodes for nodes in polygons.faces if nodes.size and nodes.shape[1] > 2])
     points, faces = merge_points(polygons.points, faces)
     # Drop faces with fewer than three different corners.
-    faces = faces[_count_distinct(faces) >= 3]
+    sound = _count_distinct(faces) >= 3
+    faces = faces if sound.all() else faces[sound]
     if not _has_area(points, faces):
         problem = "holds no surface: it has no triangle or quad with an area"
         raise FileError(path, problem, "Choose a file with the surface of the body.")
@@ -75,7 +76,7 @@ def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
 def _in_order_of_points(faces: np.ndarray, n: int) -> np.ndarray:
     """Sort faces (k, w) int32 by their lowest nodes: neighbours follow each other then, as those nodes do."""
     lowest = reduce(np.minimum, (faces[:, corner] for corner in range(faces.shape[1])))
-    return faces[incidence.grouped(lowest, n)[1]]
+    return faces.take(incidence.grouped(lowest, n)[1], axis=0)
 
 
 def _count_distinct(rows: np.ndarray) -> np.ndarray:
@@ -91,7 +92,7 @@ def _has_area(points: np.ndarray, faces: np.ndarray) -> bool:
     if not len(faces):
         return False
     points = points - points[faces[0, 0]]
-    x, area = points / np.ptp(points[mask(faces, len(points))], axis=0).max(), 0.0
+    x, area = points / extent(points[mask(faces, len(points))]).max(), 0.0
     for first in range(0, len(faces), _FACES_AT_A_TIME):  # a few of them tell it of most surfaces
         corners = x[faces[first : first + _FACES_AT_A_TIME]]  # (k, width, 3)
         sides = corners[:, 1:] - corners[:, :1]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.arrays import bounds
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.validation import as_hexes, as_points
 
@@ -96,7 +97,7 @@ def in_unit(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, float]:
     used = points[hexes.ravel()] if len(hexes) * 8 < len(points) else points
     if not len(used):
         return np.zeros((3, len(points))), 1.0
-    low, high = used.min(axis=0), used.max(axis=0)
+    low, high = bounds(used)
     centre, size = low / 2 + high / 2, float((high / 2 - low / 2).max())
     exponent = int(np.frexp(size)[1]) if size > 0 else 0
     # In two steps, as the unit's reciprocal may overflow.
