@@ -91,7 +91,8 @@ def dihedral_angles(points: np.ndarray, edges: SurfaceEdges) -> np.ndarray:
     """Angles between the normals of the two faces of each edge, in degrees, 0 without a normal; (e,) float64."""
     normals = face_normals(points, edges.faces)
     one, other = (normals.take(edges.neighbours[:, side], axis=0) for side in (0, 1))  # in a third of the time of []
-    other = np.where(edges.opposed[:, None], other, -other)
+    if not edges.opposed.all():
+        other = np.where(edges.opposed[:, None], other, -other)
     angle = np.degrees(np.arctan2(row_norms(cross_products(one, other)), np.einsum("ij,ij->i", one, other)))
     return np.where(edges.count == 2, angle, 0.0)
 
@@ -104,6 +105,8 @@ def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     size = row_norms(area)
     perimeter = row_norms(x[0]) + sum(row_norms(other - one) for one, other in pairwise(x)) + row_norms(x[-1])
     sound = size > _MIN_AREA_RATIO * perimeter**2 / 8
+    if sound.all():
+        return area / size[:, None]
     return np.where(sound[:, None], area, 0.0) / np.where(sound, size, 1.0)[:, None]
 
 

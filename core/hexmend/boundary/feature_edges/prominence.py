@@ -10,6 +10,7 @@ import numpy as np
 
 from hexmend.arrays import any_of_rows, mask
 from hexmend.boundary.edges import SurfaceEdges, segment_pairs
+from hexmend.kernels import incidence
 
 #: Dihedral angle, in degrees, above which an edge may stand out, and turn above which a node of a curve may.
 LEAST_ANGLE = 40.0
@@ -44,8 +45,8 @@ def surrounding_angles(edges: SurfaceEdges, angle: np.ndarray, chosen: np.ndarra
     for _ in range(2):  # the edges at these nodes, then those at their neighbours
         which = np.flatnonzero(any_of_rows(mask(near, edges.n), edges.nodes))
         near = edges.nodes[which].ravel()
-    order = np.argsort(near, kind="stable")
-    start, number = np.searchsorted(near[order], np.arange(edges.n + 1)), which[order // 2]
+    start, order = incidence.grouped(near, edges.n)
+    number = which[order // 2]
     row, node = np.repeat(np.arange(chosen.size), 2), edges.nodes[chosen].ravel()
     row, first = _joined(row, node, start, number)
     row, node = _unique_pairs(np.repeat(row, 2), edges.nodes[first].ravel(), edges.n)

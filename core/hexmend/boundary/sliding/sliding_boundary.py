@@ -90,7 +90,8 @@ class SlidingBoundary(SlidingNodes):
         nodes = np.flatnonzero(slides)
         super().__init__(boundary.with_faces(moves_with), surface, nodes, start, target, max_deviation)
         if target is not None:
-            mesh = mesh.with_points(self.projected(mesh.points))
+            at_start = np.array_equal(mesh.points, start)
+            mesh = mesh.with_points(self._start if at_start else self.projected(mesh.points))
             self.points = mesh.surface_points
         self.mesh = mesh.with_fixed(mesh.fixed & ~slides)
         self._left_faces = whole.faces[~moves_with]
