@@ -9,7 +9,7 @@ from typing import Self
 
 import numpy as np
 
-from hexmend.arrays import differing_rows, index_of, mask
+from hexmend.arrays import cross_products, differing_rows, index_of, mask
 from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPointCache, ClosestPoints, triangulate
@@ -130,10 +130,10 @@ class SlidingNodes(Band):
         """
         of, found = self.nodes if nodes is None else nodes, self._closest(x, nodes)
         curve = self.node_class[of] == NodeClass.CURVE
-        weights = found.weights.copy()
-        weights[curve, 2] = 1.0  # a segment has two
-        inner = weights.min(axis=1, keepdims=True) > _INTERIOR_WEIGHT
-        along = np.where(inner, self.surface.directions(found, smooth=False), self.surface.directions(found))
+        inside = found.weights > _INTERIOR_WEIGHT
+        at_side = np.flatnonzero(~(inside[:, 0] & inside[:, 1] & (inside[:, 2] | curve)))  # a segment has two weights
+        along = self.surface.directions(found, smooth=False)
+        along[at_side] = self.surface.directions(found.rows(at_side))
         bases = np.zeros((len(of), 3, 3))
         bases[curve, :, 0] = along[curve]
         bases[~curve, :, :2] = _tangent_basis(along[~curve])
@@ -272,6 +272,8 @@ def _undone(before: np.ndarray, after: np.ndarray, rejected: Callable[[np.ndarra
 def _tangent_basis(normals: np.ndarray) -> np.ndarray:
     """Two unit vectors at right angles to each other and to each normal, the columns of (k, 3, 2); 0 where it is 0."""
     axis = np.abs(normals).argmin(axis=1)
-    first = np.cross(normals, np.eye(3)[axis])
-    first /= np.maximum(np.linalg.norm(first, axis=1, keepdims=True), np.finfo(float).tiny)
-    return np.stack([first, np.cross(normals, first)], axis=-1)
+    first = cross_products(normals, np.eye(3)[axis])
+    squares = first * first
+    size = np.sqrt(squares[:, 0] + squares[:, 1] + squares[:, 2])
+    first /= np.maximum(size, np.finfo(float).tiny)[:, None]
+    return np.stack([first, cross_products(normals, first)], axis=-1)
