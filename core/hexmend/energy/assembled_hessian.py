@@ -66,15 +66,24 @@ class AssembledHessian(SymmetricOperator):
         """Zero the storage for reuse; the old matrix becomes invalid."""
         if not self.packed:  # those are written, not added to
             self.off_diagonal.fill(0)
+        elif not len(self.off_diagonal):
+            self.off_diagonal = _packed_blocks(self.sparsity)
         self.diagonal.fill(0)
         self.exponent = 0
         return self
 
+    def lend_memory(self) -> None:
+        """Let the workspace use the memory of packed blocks until `reset`; the matrix becomes invalid."""
+        if self.packed and len(self.off_diagonal):
+            self.sparsity.workspace.give(self.off_diagonal)
+            self.off_diagonal = self.off_diagonal[:0].copy()
+
     @classmethod
     def zero(cls, sparsity: BlockSparsity, dtype: type, packed: bool = False) -> AssembledHessian:
         """Make a zero matrix of a sparsity pattern; `packed`: with blocks of 24 bytes for single precision."""
-        count = sparsity.blocks + 1
-        off_diagonal = np.zeros((count, 12), np.int16) if packed else np.zeros((count, 9), dtype)
+        off_diagonal = _packed_blocks(sparsity) if packed else np.zeros((sparsity.blocks + 1, 9), dtype)
+        if packed:
+            off_diagonal.fill(0)
         return cls(sparsity, off_diagonal, np.zeros((sparsity.nodes.size, 6), dtype))
 
     @property
@@ -165,8 +174,8 @@ class AssembledHessian(SymmetricOperator):
         if size == 0 or not np.isfinite(size):
             return CGResult(np.zeros(right.size), 0, False)
         exponent = int(np.frexp(size)[1])
-        b = self._to_slots(right, -exponent)  # scaling by a power of two is exact
-        sparsity, x = self.sparsity, np.empty_like(b)
+        x = self._to_slots(right, -exponent)  # scaling by a power of two is exact
+        sparsity = self.sparsity
         coupled = sparsity.ranks.count > 1
         pattern = sparsity.pattern
         size = kernels.workspace_size(pattern, sparsity.ghosts, coupled)
@@ -174,12 +183,12 @@ class AssembledHessian(SymmetricOperator):
         if coarse is not None:
             size += kernels.coarse_workspace_size(coarse)
         coupling = (sparsity.ghosts, sparsity.ranks.sum, sparsity.exchange) if coupled else ()
-        work = sparsity.workspace.array((size,), b.dtype.type)
+        work = sparsity.workspace.array((size,), x.dtype.type)
         blocks = self.off_diagonal, self.diagonal
         count, end = kernels.solve(
-            pattern, *blocks, damping, b, tolerance, iterations, x, work, *coupling, coarse=coarse
+            pattern, *blocks, damping, x, tolerance, iterations, x, work, *coupling, coarse=coarse
         )
-        del b, work
+        del work
         if self.packed:  # the line search of a large mesh needs the memory
             sparsity.workspace.release()
         solution = self._from_slots(x, exponent - self.exponent)
@@ -215,6 +224,13 @@ class AssembledHessian(SymmetricOperator):
         row, column = np.broadcast_arrays(row, column)
         blocks = np.ldexp(blocks.astype(np.float64), self.exponent)
         return coo_array((blocks.ravel(), (row.ravel(), column.ravel())), shape=self.shape).tocsr()
+
+
+def _packed_blocks(sparsity: BlockSparsity) -> np.ndarray:
+    """Take memory for packed blocks from the workspace; all but the unused one may have any values."""
+    blocks = sparsity.workspace.take((sparsity.blocks + 1, 12), np.int16)
+    blocks[-1] = 0
+    return blocks
 
 
 def unpack_symmetric(blocks: np.ndarray) -> np.ndarray:

@@ -288,6 +288,10 @@ class MeshEnergy(TargetScales):
         """Storage for the contributions of hexes at their corners, (m, 8, 3), until the workspace is used again."""
         return self._workspace.array((self.mesh.n_hexes, 8, 3), np.float64)
 
+    def release_workspace(self) -> None:
+        """Free the memory of temporary arrays until they are wanted again."""
+        self._workspace.release()
+
     def as_points(self, x: np.ndarray) -> np.ndarray:
         """Check positions of all nodes, (n, 3) float64; raises `MeshError` for another shape or type."""
         return points_like(x, self.mesh.points.shape, "places of nodes")

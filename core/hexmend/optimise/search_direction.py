@@ -128,6 +128,7 @@ class TruncatedNewton:
             del solved  # large meshes have no memory for two solutions
             solved = self._solve(matrix, gradient.ravel(), tolerance, damping)
             count += solved.iterations
+        matrix.lend_memory()  # to the next gradient
         self._damping = damping if damping > self._damping else damping / config.damping_decay
         if self._damping < config.min_damping:
             self._damping = 0.0

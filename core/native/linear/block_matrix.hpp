@@ -43,6 +43,11 @@ template <class Real> HalfBlock<Real> half_block(const SymmetricMatrix &a) {
     return {four(a.xx, a.xy, a.xz), four(a.yy, a.yz, a.zz)};
 }
 
+template <class Real> std::array<Real, 6> narrowed(const SymmetricMatrix &a) {
+    auto number = [](double x) { return static_cast<Real>(x); };
+    return {number(a.xx), number(a.xy), number(a.xz), number(a.yy), number(a.yz), number(a.zz)};
+}
+
 template <class Real> SymmetricMatrix widened(const std::array<Real, 6> &a) {
     return {a[0], a[1], a[2], a[3], a[4], a[5]};
 }
@@ -120,7 +125,8 @@ template <class Stored, class Number = NumberOf<Stored>> class BlockMatrix {
 
     // Forward substitution: body(i, lower) returns p for slot i and a summand; lower is the row left of the diagonal
     // times the p of earlier slots. Returns the sum of the summands. w has a vector for each slot, and `odd` a second
-    // one for each separator, because two parts add to it; both are zero before and after.
+    // one for each separator, because two parts add to it; both are zero before and, but for what body(i, lower) writes
+    // to w[i], after.
     template <class Body> double forward(V *w, V *odd, const Body &body) {
         auto rows = [&](std::int32_t begin, std::int32_t end, int range) {
             const bool separator = range >= parts_;

@@ -63,6 +63,12 @@ template <class Real> class CoarseSpace {
             for (int k = 0; k < 3; ++k) y_[4 * a + k] = static_cast<Real>(solution_[3 * a + k]);
     }
 
+    // Keep y, and add it to a later one.
+    void keep() { kept_ = y_; }
+    void add_kept() {
+        for (std::size_t k = 0; k < y_.size(); ++k) y_[k] += kept_[k];
+    }
+
     // Row i of A R y. The fourth number may be anything.
     V row(std::int32_t i) const {
         V total{};
@@ -84,7 +90,7 @@ template <class Real> class CoarseSpace {
     bool positive_ = false;
     std::vector<Vec4<double>> sums_;  // of aggregates, for each range
     std::vector<double> solution_;
-    std::vector<Real> y_;
+    std::vector<Real> y_, kept_;
     EnvelopeCholesky factor_;
 
     void add_to(int range, std::int32_t aggregate, const V &v) {

@@ -61,19 +61,18 @@ template <class Block> class PreconditionedCG {
             free = array + size;
         };
         const auto size = system.size(), separators = size - pattern.first_separator();
-        take(inverse_, size);
-        for (auto *vector : {&residual_, &v_, &product_, &w_}) take(*vector, size);
+        for (auto *vector : {&residual_, &v_, &w_}) take(*vector, size);
         take(odd_, separators), take(t_, size + coupling.ghosts);
         std::fill(odd_, odd_ + separators, V{}), std::fill(t_ + size, t_ + size + coupling.ghosts, V{});
         if (coupling.exchange) take(from_ghosts_, size);
-        take(increased_, size);
+        take(inverse_, size), take(increased_, size);
         sum_over_slots([&](std::int32_t i) {
             v_[i] = w_[i] = V{};
             if (from_ghosts_) from_ghosts_[i] = V{};
             const auto own = widened(diagonal[i]);
             auto [d, inverse] = make_positive_definite(own);
             increased_[i] = std::memcmp(&d, &own, sizeof d) ? 0 : AS_GIVEN;
-            inverse_[i] = half_block<Real>((1 / (1 + damping)) * inverse);
+            inverse_[i] = narrowed<Real>((1 / (1 + damping)) * inverse);
             return 0.0;
         });
         for (std::int64_t i = 0; i < size; ++i)
@@ -87,7 +86,7 @@ template <class Block> class PreconditionedCG {
     // Compute the first residual, (D + L)^-1 right; returns its square.
     double start(Vectors<Real> right) {
         return system_.forward(w_, odd_, [&](std::int32_t i, const V &below) {
-            residual_[i] = inverse_[i] * (load(right[i].data()) - below);
+            residual_[i] = inverse(i) * (load(right[i].data()) - below);
             return std::pair{residual_[i], square_of_residual(i)};
         });
     }
@@ -106,20 +105,18 @@ template <class Block> class PreconditionedCG {
     // Project the first residual by the coarse space: (D + L)^-1 (right - A R E^-1 R' right); returns its square.
     double project(Vectors<Real> right) {
         over_slots([&](std::int32_t i, int range) { coarse_->restrict_to(range, i, load(right[i].data())); });
-        coarse_->solve();
+        coarse_->solve(), coarse_->keep();
         return system_.forward(w_, odd_, [&](std::int32_t i, const V &below) {
-            residual_[i] = inverse_[i] * (load(right[i].data()) - coarse_->row(i) - below);
+            residual_[i] = inverse(i) * (load(right[i].data()) - coarse_->row(i) - below);
             return std::pair{residual_[i], square_of_residual(i)};
         });
     }
 
-    // Complete x, R E^-1 R' right + (I - R E^-1 (A R)') x; without `right`, its first summand is left out.
-    void complete(const Vectors<Real> *right, std::span<std::array<Real, 4>> x) {
-        over_slots([&](std::int32_t i, int range) {
-            coarse_->add(range, i, -load(x[i].data()));
-            if (right) coarse_->restrict_to(range, i, load((*right)[i].data()));
-        });
+    // Complete x, (I - R E^-1 (A R)') x and, with `projected`, what `project` found, R E^-1 R' right.
+    void complete(bool projected, std::span<std::array<Real, 4>> x) {
+        over_slots([&](std::int32_t i, int range) { coarse_->add(range, i, -load(x[i].data())); });
         coarse_->solve();
+        if (projected) coarse_->add_kept();
         over_slots([&](std::int32_t i, int) {
             V there = load(x[i].data()) + coarse_->prolonged(i);
             std::memcpy(x[i].data(), &there, sizeof there);
@@ -132,7 +129,7 @@ template <class Block> class PreconditionedCG {
             for (auto i = end - 1; i >= begin; --i) {
                 V v = positive(i) * residual_[i] + beta * v_[i];
                 v_[i] = v;
-                t_[i] = inverse_[i] * (v - system_.row_times(i, t_));
+                t_[i] = inverse(i) * (v - system_.row_times(i, t_));
                 if (coarse_) coarse_->add(range, i, t_[i]);
             }
             return 0.0;
@@ -143,23 +140,23 @@ template <class Block> class PreconditionedCG {
         if (coupling_.exchange) add_ghosts();
     }
 
-    // Compute product = (D + L)^-1 A t = t + (D + L)^-1 (v + R t + rest t), or that of P A; returns its product with v.
+    // Compute (D + L)^-1 A t = t + (D + L)^-1 (v + R t + rest t), or that of P A, in w; returns its product with v.
     double curvature() {
         return system_.forward(w_, odd_, [&](std::int32_t i, const V &below) {
             V right = from_ghosts_ ? v_[i] + from_ghosts_[i] : v_[i];
             if (coarse_) right -= coarse_->row(i);
-            V p = inverse_[i] * (right + rest(i) * t_[i] - below);
-            product_[i] = p + t_[i];
-            return std::pair{p, dot(v_[i], product_[i])};
+            V p = inverse(i) * (right + rest(i) * t_[i] - below);
+            w_[i] = p + t_[i];  // no later row adds to it
+            return std::pair{p, dot(v_[i], w_[i])};
         });
     }
 
-    // Advance x and the residual by alpha; returns the square of the residual.
-    double advance(Real alpha, std::span<std::array<Real, 4>> x) {
+    // Advance x, 0 at first whatever it holds, and the residual by alpha; returns the square of the residual.
+    double advance(Real alpha, bool first, std::span<std::array<Real, 4>> x) {
         return sum_over_slots([&](std::int32_t i) {
-            V there = load(x[i].data()) + alpha * t_[i];
+            V there = (first ? V{} : load(x[i].data())) + alpha * t_[i];
             std::memcpy(x[i].data(), &there, sizeof there);
-            residual_[i] -= alpha * product_[i];
+            residual_[i] -= alpha * std::exchange(w_[i], V{});
             return square_of_residual(i);
         });
     }
@@ -167,7 +164,7 @@ template <class Block> class PreconditionedCG {
     // Write x for a first direction of negative curvature: that direction or, where it overflowed, block Jacobi's.
     void fall_back(bool finite, Vectors<Real> right, std::span<std::array<Real, 4>> x) {
         sum_over_slots([&](std::int32_t i) {
-            V there = finite ? t_[i] : inverse_[i] * load(right[i].data());
+            V there = finite ? t_[i] : inverse(i) * load(right[i].data());
             std::memcpy(x[i].data(), &there, sizeof there);
             return 0.0;
         });
@@ -177,16 +174,18 @@ template <class Block> class PreconditionedCG {
     BlockMatrix<Block> &system_;
     DiagonalBlocks<Real> own_;
     Real damped_, share_;
-    HalfBlock<Real> *inverse_;  // D^-1, damped
+    std::array<Real, 6> *inverse_;  // D^-1, damped
     // Of each slot the number of its damped D among increased_blocks_, or AS_GIVEN where D is the diagonal block.
     static constexpr std::int32_t AS_GIVEN = -1;
     std::int32_t *increased_;
     std::vector<HalfBlock<Real>> increased_blocks_;
-    V *residual_, *v_, *t_, *product_;
+    V *residual_, *v_, *t_;
     const Coupling<Real> &coupling_;
     CoarseSpace<Real> *coarse_ = nullptr;
     V *from_ghosts_ = nullptr;  // R t, if processes are coupled
-    V *w_, *odd_;               // contributions of rows to later rows, see `forward`
+    V *w_, *odd_;               // contributions of rows to later rows, see `forward`; w: the product afterwards
+
+    HalfBlock<Real> inverse(std::int32_t i) const { return HalfBlock<Real>::of(inverse_[i]); }
 
     // D of slot i, damped.
     HalfBlock<Real> positive(std::int32_t i) const {
@@ -253,14 +252,18 @@ std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Block
     if (coarse && !coarse->positive()) coarse.reset();
     if (coarse) solver.deflate(*coarse);
     auto total = [&](double own) { return coupling.sum ? coupling.sum(own) : own; };
-    std::fill(x.begin(), x.end(), std::array<Real, 4>{});
     double square = total(solver.start(right));
-    if (square == 0) return {0, DONE};
-    double goal = tolerance * tolerance * square, beta = 0;
+    const double goal = tolerance * tolerance * square;
+    double beta = 0;
     auto end = [&](int count, SolveStatus status) {
-        if (coarse) solver.complete(&right, x);
+        if (count == 0) std::fill(x.begin(), x.end(), std::array<Real, 4>{});
+        if (coarse) solver.complete(true, x);
         return std::pair{count, status};
     };
+    if (square == 0) {
+        coarse.reset();
+        return end(0, DONE);
+    }
     if (coarse && (square = solver.project(right)) <= goal) return end(0, DONE);
     for (int count = 1; count <= max_iterations; ++count) {
         solver.next_direction(static_cast<Real>(beta));
@@ -269,15 +272,15 @@ std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Block
             if (count > 1) return end(count, NEGATIVE_CURVATURE);
             const bool finite = std::isfinite(curvature);
             solver.fall_back(finite, right, x);
-            if (coarse && finite) solver.complete(nullptr, x);
+            if (coarse && finite) solver.complete(false, x);
             return {count, NEGATIVE_CURVATURE};
         }
         double before = square;
-        square = total(solver.advance(static_cast<Real>(square / curvature), x));
+        square = total(solver.advance(static_cast<Real>(square / curvature), count == 1, x));
         if (square <= goal) return end(count, DONE);
         beta = square / before;
     }
-    return end(max_iterations, TOO_MANY);
+    return end(std::max(max_iterations, 0), TOO_MANY);
 }
 
 template <class Real>

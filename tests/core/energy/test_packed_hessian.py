@@ -10,6 +10,7 @@ from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import assembly, conjugate_gradients
+from hexmend.optimise.search_direction import TruncatedNewton
 from tests.core.grids import grid, scrambled
 
 #: Largest error of a number, relative to the largest of its block.
@@ -144,6 +145,42 @@ def test_large_matrices_are_packed_unless_a_precision_is_asked_for(monkeypatch, 
     monkeypatch.setattr("hexmend.energy.sparsity._LARGE", 28)
     small = MeshEnergy(energy.mesh)
     assert not small.hessian(hessian.x).assembled().packed
+
+
+def test_the_gradient_has_the_memory_of_a_packed_matrix_until_the_next_one_is_assembled(monkeypatch):
+    monkeypatch.setattr("hexmend.energy.sparsity._LARGE", 1)
+    energy = MeshEnergy(scrambled(grid(6), 0.1, 1), ObjectiveNorm(1.0))
+    x = energy.to_edge_units(energy.mesh.points)
+    there = energy.moved(x, np.full((energy.nodes.size, 3), 1e-3) * np.arange(3))
+    expected, gradient = energy.hessian(there).assembled().unpacked_blocks(), energy.gradient(there)
+    matrix = energy.hessian(x).assembled()
+    blocks = matrix.off_diagonal
+    workspace = energy.sparsity.workspace
+    assert not np.shares_memory(blocks, energy.corner_buffer)
+    matrix.lend_memory()
+    matrix.lend_memory()  # once is enough
+    assert np.shares_memory(blocks, workspace.array((blocks.nbytes,), np.uint8))
+    np.testing.assert_array_equal(energy.gradient(there), gradient)
+    again = energy.hessian(there).assembled(reuse=matrix)
+    assert again is matrix
+    np.testing.assert_array_equal(energy.gradient(there), gradient)  # in other memory than the matrix
+    np.testing.assert_array_equal(again.unpacked_blocks(), expected)
+
+
+def test_a_direction_leaves_no_memory_that_is_used_twice(monkeypatch):
+    def directions(energy):
+        direction, x = TruncatedNewton(), energy.to_edge_units(energy.mesh.points)
+        for _ in range(3):
+            gradient = energy.gradient(x, 0.1)
+            found = direction(energy.value(x, 0.1), gradient, energy.hessian(x, 0.1)).vector
+            yield found
+            x = energy.moved(x, found, 0.5)
+
+    mesh = scrambled(grid(6), 0.1, 1)
+    exact = list(directions(MeshEnergy(mesh, ObjectiveNorm(1.0))))
+    monkeypatch.setattr("hexmend.energy.sparsity._LARGE", 1)
+    for one, other in zip(directions(MeshEnergy(mesh, ObjectiveNorm(1.0))), exact, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-3 * np.abs(other).max())
 
 
 def test_a_matrix_that_is_changed_after_it_is_assembled_is_not_packed(monkeypatch):

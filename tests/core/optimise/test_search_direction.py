@@ -32,6 +32,9 @@ class Matrix:
         self.asked.append((right.copy(), tolerance, iterations, damping))
         return SimpleNamespace(x=right / 2, iterations=3, negative_curvature=damping < self.needed)
 
+    def lend_memory(self):
+        pass
+
 
 def tolerances(lengths, unit=1.0, **options):
     find, matrix = TruncatedNewton(TruncatedNewtonConfig(**options)), Matrix()

@@ -60,8 +60,20 @@ def inverted_corners(points: np.ndarray, hexes: np.ndarray, quality: ElementQual
     (m,) uint8
         Bit t set: corner tetrahedron t of the hex is inverted.
     """
+    return corners_of_inverted(points, hexes, np.flatnonzero(quality.inverted))
+
+
+def corners_of_inverted(points: np.ndarray, hexes: np.ndarray, where: np.ndarray) -> np.ndarray:
+    """Mark the corner tetrahedra with sigma <= 0 of the hexes `where` (k,), as `inverted_corners`.
+
+    Their qualities, which large meshes do not keep, are not measured again for it.
+
+    Returns
+    -------
+    (m,) uint8
+        As of `inverted_corners`.
+    """
     bits = np.zeros(len(hexes), np.uint8)
-    where = np.flatnonzero(quality.inverted)
     inverted = ~(corner_determinants(points, hexes, where) > 0)
     bits[where] = pack_corners(inverted)
     return bits

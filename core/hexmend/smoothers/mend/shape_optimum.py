@@ -88,6 +88,7 @@ def optimise_shape(
         del points  # large meshes have no memory for those before the first step
         reached = yield from steps
         if reached.outcome is not None:
+            energy.release_workspace()
             return reached
         points, (p, offset) = reached.points, energy.norm
         energy = energy.with_objective(ObjectiveNorm(min(2 * p, max_p), offset), energy.omitted)

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.energy import MeshEnergy
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
-from hexmend.smoothers.mend.inversion import count_inverted, inverted_corners, recentre_far_nodes
+from hexmend.smoothers.mend.inversion import corners_of_inverted, count_inverted, recentre_far_nodes
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
 from hexmend.smoothers.mend.newton_steps import NEWTON, NewtonConfig
 
@@ -87,11 +88,15 @@ class Untangled:
 
 @dataclass(frozen=True, eq=False)
 class _Iterate:
-    """Nodes at x (n, 3), in mean edge lengths, how many hexes are inverted there and the least relative determinant."""
+    """Nodes at x (n, 3), in mean edge lengths, the hexes that are inverted there, and the least relative determinant.
+
+    Those of `where` (k,) are inverted, `inverted` of them by corners that count.
+    """
 
     x: np.ndarray
     points: np.ndarray
     quality: ElementQuality
+    where: np.ndarray
     inverted: int
     worst: float
 
@@ -104,11 +109,11 @@ class _Iterate:
     def of(
         cls, x: np.ndarray, points: np.ndarray, quality: ElementQuality, energy: MeshEnergy, locked: np.ndarray
     ) -> _Iterate:
-        where = np.flatnonzero(quality.inverted)
+        own = where = np.flatnonzero(quality.inverted)
         if energy.ranks.count > 1:
-            where = where[energy.counted[where]]
-        count, worst = count_inverted(points, energy.mesh.hexes, locked, where, energy.hex_sizes)
-        return cls(x, points, quality, energy.ranks.sum(count), energy.ranks.least(worst))
+            own = where[energy.counted[where]]
+        count, worst = count_inverted(points, energy.mesh.hexes, locked, own, energy.hex_sizes)
+        return cls(x, points, quality, where, energy.ranks.sum(count), energy.ranks.least(worst))
 
 
 def untangle(
@@ -151,14 +156,14 @@ def untangle(
             now = yield from steps
         if now.inverted:
             sweeps = config.few_sweeps if few else config.sweeps
-            x = local_sweeps(energy, now.x, now.quality.inverted, locked, delta, sweeps)
+            x = local_sweeps(energy, now.x, mask(now.where, mesh.n_hexes), locked, delta, sweeps)
             now = _Iterate.at(x, energy, locked)
             diagnostics = {"delta": delta, "sweeps": sweeps}
             yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, norm=energy.norm)
         idle = 0 if now.inverted < fewest else idle + 1
         fewest = min(fewest, now.inverted)
         epsilon *= config.reduction
-    return Untangled(now.points, now.quality, inverted_corners(now.points, mesh.hexes, now.quality) | locked)
+    return Untangled(now.points, now.quality, corners_of_inverted(now.points, mesh.hexes, now.where) | locked)
 
 
 def _newton_steps(
