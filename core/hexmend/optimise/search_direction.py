@@ -70,6 +70,8 @@ class TruncatedNewtonConfig:
         Most iterations of conjugate gradients.
     loosest, tightest : float
         Bounds of the tolerance, in (0, 1).
+    loosest_definite : float, optional
+        The upper bound after a step whose Hessian was positive definite as it is, if it differs.
     gradient_floor : float
         Share of the first gradient at which a solution is as good as rounding allows.
     max_damping_increases : int
@@ -86,6 +88,7 @@ class TruncatedNewtonConfig:
     iterations: int = 200
     loosest: float = 0.2
     tightest: float = 1e-3
+    loosest_definite: float | None = None
     gradient_floor: float = 1e-9
     max_damping_increases: int = 6
     damping_growth: float = 4.0
@@ -112,7 +115,7 @@ class TruncatedNewton:
     def __init__(self, config: TruncatedNewtonConfig | None = None):
         self.config = config or TruncatedNewtonConfig()
         self._first = self._last = np.inf
-        self._damping = 0.0
+        self._damping, self._is_definite = 0.0, False
         self._matrix: AssembledHessian | None = None
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
@@ -129,6 +132,7 @@ class TruncatedNewton:
             solved = self._solve(matrix, gradient.ravel(), tolerance, damping)
             count += solved.iterations
         matrix.lend_memory()  # to the next gradient
+        self._is_definite = damping == 0
         self._damping = damping if damping > self._damping else damping / config.damping_decay
         if self._damping < config.min_damping:
             self._damping = 0.0
@@ -144,11 +148,13 @@ class TruncatedNewton:
         """Return the tolerance at a gradient of this length."""
         if self._first == np.inf:
             self._first = self._last = length
+        loosest = self.config.loosest_definite if self._is_definite else None
+        loosest = self.config.loosest if loosest is None else loosest
         if length == 0:
-            return self.config.loosest
+            return loosest
         goal = max(0.9 * (length / self._last) ** 2, self.config.gradient_floor * self._first / length)
         self._last = length
-        return float(np.clip(goal, self.config.tightest, self.config.loosest))
+        return float(np.clip(goal, self.config.tightest, loosest))
 
 
 @dataclass(frozen=True)

@@ -60,6 +60,15 @@ def test_the_tolerance_stays_within_its_bounds():
     assert tolerances([1.0, 1.0, 1e-3, 0.0], loosest=0.3, tightest=0.01) == [0.3, 0.3, 0.01, 0.3]
 
 
+def test_after_a_definite_matrix_the_tolerance_may_have_another_bound():
+    lengths = [1.0, 1.0, 1.0]
+    assert tolerances(lengths, loosest=0.3, loosest_definite=0.1) == [0.3, 0.1, 0.1]
+    find, matrix = TruncatedNewton(TruncatedNewtonConfig(loosest=0.3, loosest_definite=0.1)), Matrix(needed=1e-3)
+    for _ in range(3):  # with the damping of 0.002, 0.002, and none
+        find(1.0, np.array([[1.0, 0.0, 0.0]]), matrix)
+    assert [tolerance for _, tolerance, _, _ in matrix.asked] == [0.3] * len(matrix.asked)
+
+
 def test_the_direction_is_the_solution_for_minus_the_gradient():
     find, matrix = TruncatedNewton(TruncatedNewtonConfig(iterations=17)), Matrix()
     gradient = np.array([[1.0, -2.0, 3.0], [4.0, 5.0, -6.0]])

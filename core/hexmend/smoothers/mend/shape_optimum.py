@@ -36,6 +36,12 @@ class ShapeOptimumConfig:
     negligible_move, negligible_fall : float
         Where another stage follows, this one ends when no node moves further than the first, in mean edge lengths or in
         lengths of its target, and the objective falls by less than the second, as a share of it.
+    large : int
+        Free nodes from which on `NewtonConfig.for_large_mesh` holds and, where another stage follows, this one ends too
+        as soon as a slope that falls once more as much as it did counts as zero: a step takes seconds there, and no
+        figure shows what it gains.
+    small_move : float
+        Longest move of a node with which a large mesh may end so, in the lengths above.
     rounding : float
         Slope, as a share of the energy, up to which it counts as zero.
     newton : NewtonConfig
@@ -50,6 +56,8 @@ class ShapeOptimumConfig:
     min_fall_omitting: float = 2e-2
     negligible_move: float = 1e-4
     negligible_fall: float = 1e-3
+    large: int = 400_000
+    small_move: float = 1e-2
     rounding: float = 1e-10
     newton: NewtonConfig = DEFLATED_NEWTON
 
@@ -98,7 +106,10 @@ def _minimise(
     energy: MeshEnergy, points: np.ndarray, p_will_rise: bool, intermediate: bool, config: ShapeOptimumConfig
 ) -> Generator[Step, None, ShapeOptimum]:
     """Minimise the energy with one p; if p rises afterwards, only until no node moves far."""
-    omitted, direction = energy.omitted, config.newton.direction()
+    is_large = energy.ranks.sum(energy.nodes.size) >= config.large
+    newton = config.newton.for_large_mesh() if is_large else config.newton
+    omitted, direction, before = energy.omitted, newton.direction(), 0.0
+    may_end = is_large and intermediate and not p_will_rise
     min_fall = config.min_fall_omitting if energy.ranks.any(omitted) else config.min_fall
     x, full_step = energy.to_edge_units(points), False
     values: list[float] = []
@@ -107,7 +118,7 @@ def _minimise(
             poor = energy.hex_energies(x) > config.poor
             if energy.ranks.any(poor):
                 x = local_sweeps(energy, x, poor, omitted, 0.0, config.sweeps)
-        descent = config.newton.step(energy, x, 0.0, direction)
+        descent = newton.step(energy, x, 0.0, direction)
         if descent is None or (descent.alpha == 0 and (descent.slope < 0 or intermediate)):
             break
         values.append(descent.value - energy.cube_value)
@@ -115,7 +126,9 @@ def _minimise(
         if judged and values[-config.window] - values[-1] < min_fall * values[-1]:
             return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)
         diagnostics, full_step = descent.diagnostics(0.0) | {"p": energy.norm.p}, descent.backtracks == 0
-        x = descent.x
+        x, slope = descent.x, -descent.slope
+        is_last = may_end and full_step and slope**2 <= config.rounding * descent.value * before
+        before = slope if full_step else 0.0
         del descent  # large meshes have no memory for its direction
         move, relative_move = _largest_moves(energy, points, x)
         points = energy.to_mesh_units(x)
@@ -124,6 +137,8 @@ def _minimise(
             break
         crawls = len(values) > 1 and values[-2] - values[-1] < config.negligible_fall * values[-1]
         if intermediate and crawls and relative_move < config.negligible_move:
+            return ShapeOptimum(points, Outcome.CONVERGED)
+        if is_last and relative_move < config.small_move:
             return ShapeOptimum(points, Outcome.CONVERGED)
     if p_will_rise:
         return ShapeOptimum(points, None)
