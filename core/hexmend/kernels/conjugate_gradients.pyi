@@ -83,8 +83,8 @@ def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.int16], d
     off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one; or (blocks + 1, 12) int16,
     packed, for vectors in single precision, see `assembly.assemble_packed`. diagonal (k, 6). damping:
     this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand
-    side, both in the norm of M^-1. work: see `workspace_size`. Writes x; returns the iterations and the
-    status. With `coarse` the iteration is deflated by the translations of aggregates, unless the matrix is not
+    side, both in the norm of M^-1. work: see `workspace_size`. Writes x, which may be rhs; returns the
+    iterations and the status. With `coarse` the iteration is deflated by the translations of aggregates, unless the matrix is not
     positive definite for these already; where processes share a matrix, it is not.
 
     Where several processes share a matrix, its columns from k on belong to ghosts, slots of other
