@@ -89,6 +89,7 @@ class MeshEnergy(TargetScales):
         self.barrier: FloorBarrier | None = None
         self.surface: SurfaceTerm | None = None
         self._workspace = Workspace()
+        self._evaluated: tuple[tuple, tuple, tuple] | None = None
 
     @cached_property
     def slots(self) -> np.ndarray:
@@ -219,7 +220,8 @@ class MeshEnergy(TargetScales):
     def with_barriers(self, x: np.ndarray, delta: float, among: np.ndarray | None = None) -> np.ndarray:
         """Compute eta(H) plus the barrier at points x (n, 3), (k,) float64, of some hexes (k,) int or of all."""
         if among is None:
-            return self.hex_energies(x, delta) + self.barriers(x)
+            eta, barriers = self._terms_of_hexes(x, delta, 1.0)
+            return eta + barriers
         hexes, omitted, target = self.mesh.hexes[among], self.omitted[among], self._target_of(among)
         values = energies(x, hexes, delta, omitted, 1.0, target)
         if self.barrier is not None:
@@ -229,18 +231,33 @@ class MeshEnergy(TargetScales):
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Compute the sum of eta(H)^p at points x (n, 3); +inf at delta = 0 if any hex is inverted."""
         p, offset = self.norm
-        eta = self.hex_energies(x, delta, offset)
+        eta, barriers = self._terms_of_hexes(x, delta, offset)
         with np.errstate(over="ignore"):  # near the barrier, or with a node far away, it is infinite
+            own = None if self.limits_moves else eta  # what is not kept can be overwritten
             if p == 2:
-                np.square(eta, out=eta)
+                eta = np.square(eta, out=own)
             elif p != 1:
-                np.power(eta, p, out=eta)
+                eta = np.power(eta, p, out=own)
             values = eta[self.counted]
-            barriers = self.barriers(x)
             own = float(values.sum() + (0.0 if np.isscalar(barriers) else barriers[self.counted].sum()))
         if self.surface is not None:
             own += self.surface.value(self.as_points(x), self.norm)
         return self.ranks.sum(own)
+
+    def _terms_of_hexes(self, x: np.ndarray, delta: float, offset: float) -> tuple[np.ndarray, np.ndarray | float]:
+        """Compute eta(H) and the barrier of every hex, (m,) each.
+
+        Where steps are limited they are kept for the last x, and not to be changed: the last trial of a line search is
+        where the next step begins. It is known by the array x: points are not changed in place between calls.
+        """
+        if not self.limits_moves:
+            return self.hex_energies(x, delta, offset), self.barriers(x)
+        known = self._evaluated  # one read, as another thread may replace it
+        same = known is not None and all(a is b for a, b in zip(known[0], (x, self.omitted, self.barrier), strict=True))
+        if not same or known[1] != (delta, offset):
+            terms = self.hex_energies(x, delta, offset), self.barriers(x)
+            known = self._evaluated = (x, self.omitted, self.barrier), (delta, offset), terms
+        return known[2]
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Compute the gradient with respect to the free nodes at points x (n, 3), (k, 3): (B.3), (B.21), (C.2)."""

@@ -134,18 +134,35 @@ def descend(
         found = steepest_descent(value, gradient, hessian)
         slope = _limit(energy, x, delta, found.vector, gradient, max_step, by_edges=False)
 
-    def value_along(alpha: float) -> float:
-        return energy.value(energy.moved(x, found.vector, alpha), delta)
-
     for trial in range(DESCENT.searches):
-        alpha, backtracks = search(value_along, value, slope)  # A.5
-        moved = energy.moved(x, found.vector, alpha)
+        line = _Line(energy, x, delta, found.vector)
+        alpha, backtracks = search(line.value, value, slope)  # A.5
+        moved = line.points(alpha)
         infeasible = energy.infeasible_nodes(x, moved)
         if infeasible is None:
             return Descent(moved, value, slope, length, found, alpha, backtracks)
         found.vector[infeasible[energy.nodes]] *= 0.5 if trial < DESCENT.searches // 2 else 0.0
         slope, search = energy.directional_derivative(x, delta, found.vector, gradient), search.with_initial_step(alpha)
     return Descent(x, value, slope, length, found, 0.0, backtracks)
+
+
+class _Line:
+    """Points x (n, 3) on a line along a step (k, 3); those of the last trial are kept."""
+
+    def __init__(self, energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray):
+        self._energy, self._x, self._delta, self._step = energy, x, delta, step
+        self._last: tuple[float, np.ndarray] | None = None
+
+    def points(self, alpha: float) -> np.ndarray:
+        """Return the points after a step of length alpha, (n, 3)."""
+        if self._last is None or self._last[0] != alpha:
+            self._last = None  # large meshes have no memory for both
+            self._last = alpha, self._energy.moved(self._x, self._step, alpha)
+        return self._last[1]
+
+    def value(self, alpha: float) -> float:
+        """Compute the energy at `points`."""
+        return self._energy.value(self.points(alpha), self._delta)
 
 
 def _limit(

@@ -1,5 +1,7 @@
 """Derivatives of the energy along the surface, against differences."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,6 +9,7 @@ from hypothesis import strategies as st
 
 from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.energy import ObjectiveNorm, SlidingEnergy
+from hexmend.energy.floor_barrier import FloorBarrier
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 
@@ -91,3 +94,24 @@ def test_the_gradient_leads_nowhere_off_the_surface(solid):
     rows = np.searchsorted(energy.nodes, energy.sliding.nodes)
     gradient = energy.gradient(x, 0.05)[rows]
     np.testing.assert_allclose(np.einsum("kij,kj->ki", energy.projectors(x), gradient), gradient, atol=1e-12)
+
+
+def test_values_that_are_kept_are_those_of_another_energy_only_where_it_is_the_same():
+    energy, x, _ = at("cylinder", 5, 2.0)
+    floors = np.full(energy.mesh.n_hexes, -1.5)
+    barriers = [None, *(FloorBarrier(floors, floors, energy.omitted, 4.0, 4.0, weight) for weight in (1.0, 2.0))]
+    omitted = np.zeros(energy.mesh.n_hexes, np.uint8)
+    omitted[0] = 1
+    cases = [
+        energy.with_objective(ObjectiveNorm(p, offset), of).with_barrier(barrier)
+        for p, offset, of, barrier in itertools.product([1.0, 2.0], [1.0, 0.5], [energy.omitted, omitted], barriers)
+    ]
+    values = []
+    for case, delta in itertools.product(cases, [0.05, 0.1]):
+        fresh = at("cylinder", 5, 2.0)[0].with_objective(case.norm, case.omitted).with_barrier(case.barrier)
+        each = case.with_barriers(x, delta).copy()
+        for of in (case, energy.with_objective(case.norm, case.omitted).with_barrier(case.barrier)):
+            values.append(of.value(x, delta))
+            assert values[-1] == fresh.value(x.copy(), delta) == of.value(x, delta)
+            np.testing.assert_array_equal(of.with_barriers(x, delta), each)
+    assert len(set(values)) == len(values) // 2
