@@ -6,6 +6,8 @@ import numpy as np
 
 #: Rows of large arrays that are worked on at a time, so that temporary arrays stay small.
 BLOCK = 65_536
+#: Number that so many marks in a row make.
+_WORDS = {2: np.uint16, 4: np.uint32, 8: np.uint64}
 
 
 class _Memory:
@@ -141,8 +143,11 @@ def any_of_rows(marks: np.ndarray, rows: np.ndarray) -> np.ndarray:
     >>> any_of_rows(np.array([True, False, False]), np.array([[1, 2], [2, 0]])).tolist()
     [False, True]
     """
+    width = rows.shape[1]
+    if width in _WORDS and len(rows) <= BLOCK:
+        return marks.take(rows).view(_WORDS[width])[:, 0] != 0
     found = marks.take(rows[:, 0])  # in half the time of marks[...]
-    for column in range(1, rows.shape[1]):
+    for column in range(1, width):
         found |= marks.take(rows[:, column])
     return found
 
@@ -165,7 +170,8 @@ def differing_rows(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     >>> differing_rows(np.zeros((2, 3)), np.array([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]])).tolist()
     [False, True]
     """
-    return (a[:, 0] != b[:, 0]) | (a[:, 1] != b[:, 1]) | (a[:, 2] != b[:, 2])
+    differs = a != b
+    return differs[:, 0] | differs[:, 1] | differs[:, 2]
 
 
 def mask(numbers: np.ndarray, n: int) -> np.ndarray:

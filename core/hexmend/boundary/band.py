@@ -224,8 +224,10 @@ class Band:
         self._judged = _Judged(points.copy(), self.max_deviation, outside, of_surface, near.pieces.copy())
         if not (surface.size or boundary.any()):
             return NO_NODES
-        faces = self.skin.nodes_of_pieces(near.pieces[surface])
-        return np.unique(np.concatenate([x.ravel() for x in (self.samples[boundary], faces, nodes[surface])]))
+        found = np.zeros(len(points), dtype=bool)
+        for of in (self.samples[boundary], self.skin.nodes_of_pieces(near.pieces[surface]), nodes[surface]):
+            found[of] = True
+        return np.flatnonzero(found)
 
     def _doubtful_samples(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Find samples that may be outside the band now: of the boundary, (s,) bool, and of the surface, (t,) bool."""

@@ -198,8 +198,9 @@ class SlidingNodes(Band):
         changed : (n,) bool, optional
             Nodes at which the band is examined; all by default.
         """
-        flipped = self.boundary.faces[self.flipped_quads(before, after)].ravel()
-        return np.union1d(flipped, self.nodes_outside_band(after, changed))
+        found = mask(self.boundary.faces[self.flipped_quads(before, after)], len(after))
+        found[self.nodes_outside_band(after, changed)] = True
+        return np.flatnonzero(found)
 
     def reject_flips(self, before: np.ndarray, after: np.ndarray, exempt: np.ndarray | None = None) -> np.ndarray:
         """Undo the moves of nodes whose quads a step flips, until none is flipped.

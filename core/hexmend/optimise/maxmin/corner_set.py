@@ -110,7 +110,7 @@ class MovableCorners:
 
     def hexes_at(self, nodes: np.ndarray) -> np.ndarray:
         """Hexes attached to some nodes, ascending, (k,) int."""
-        return np.unique(self.mesh.topology.node_corners.of(nodes) // 8)
+        return np.flatnonzero(mask(self.mesh.topology.node_corners.of(nodes) // 8, self.mesh.n_hexes))
 
     def update(self, points: np.ndarray, hexes: np.ndarray) -> None:
         """Compute the values of some hexes (k,) at points (n, 3)."""

@@ -1,0 +1,16 @@
+"""Marks of rows, however wide and many they are."""
+
+import numpy as np
+import pytest
+
+from hexmend.arrays import BLOCK, any_of_rows
+
+
+@pytest.mark.parametrize("width", range(1, 10))
+@pytest.mark.parametrize("count", [0, 50, BLOCK + 1])
+def test_a_row_is_marked_if_one_of_its_numbers_is(width, count):
+    random = np.random.default_rng(width)
+    marks, rows = random.random(200) < 0.2, random.integers(0, 200, (count, width)).astype(np.int32)
+    found = any_of_rows(marks, rows)
+    assert found.dtype == bool
+    np.testing.assert_array_equal(found, marks[rows].any(axis=1))
