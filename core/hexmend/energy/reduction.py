@@ -46,7 +46,10 @@ class Reduction:
         self._own, self._tied = np.flatnonzero(root[free] == free), np.flatnonzero(root[free] != free)
         self._turn = turn[free]
         self._bent = np.flatnonzero((self._turn != np.eye(3)).any(axis=(1, 2)))
+        self._scales = np.einsum("kii->ki", self._turn).copy()  # all of T in planes and lines of the axes
+        self._skew = self._bent[(self._turn != self._scales[:, :, None] * np.eye(3)).any(axis=(1, 2))[self._bent]]
         self._turned: dict[tuple[BlockSparsity, np.dtype], tuple] = {}
+        self._others: dict[np.dtype, tuple[np.ndarray, np.ndarray]] = {}
         self._maps: dict[BlockSparsity, tuple[np.ndarray, ...]] = {}
         own_turn = turn[self.nodes]
         self._restricted = np.flatnonzero((own_turn != np.eye(3)).any(axis=(1, 2)))
@@ -59,14 +62,17 @@ class Reduction:
 
     def expand(self, steps: np.ndarray) -> np.ndarray:
         """T times steps of the independent nodes, (j, 3): those of all free nodes, (k, 3)."""
-        steps = steps[self.row]
-        steps[self._bent] = np.einsum("kij,kj->ki", self._turn[self._bent], steps[self._bent])
+        steps = steps.take(self.row, axis=0)
+        turned = np.einsum("kij,kj->ki", self._turn[self._skew], steps[self._skew])
+        steps *= self._scales
+        steps[self._skew] = turned
         return steps
 
     def contract(self, forces: np.ndarray) -> np.ndarray:
         """T^T times vectors of all free nodes, (k, 3): those of the independent nodes, (j, 3)."""
-        forces = forces.copy()
-        forces[self._bent] = np.einsum("kji,kj->ki", self._turn[self._bent], forces[self._bent])
+        turned = np.einsum("kji,kj->ki", self._turn[self._skew], forces[self._skew])
+        forces = forces * self._scales
+        forces[self._skew] = turned
         sums = forces[self._own]
         np.add.at(sums, self.row[self._tied], forces[self._tied])
         return sums
@@ -102,17 +108,25 @@ class Reduction:
         """
         dtype = full.dtype
         turn, (scaled, scale), (turned, row, column), slots = self._turned_blocks(full)
-        full.off_diagonal[scaled] *= scale
+        full.off_diagonal[scaled] = full.off_diagonal.take(scaled, axis=0, mode="clip") * scale  # faster than *=
         conjugate_gradients.turn_blocks(turn.reshape(-1, 9), turned, row, column, full.off_diagonal)
         own = turn[slots].transpose(0, 2, 1) @ unpack_symmetric(full.diagonal[slots]) @ turn[slots]
         full.diagonal[slots] = own.reshape(-1, 9)[:, _UPPER]
         matrix = self._merged(full) if self.has_ties else full
-        slots, admitted = matrix.order[self._restricted], self._projectors.astype(dtype)
-        trace = matrix.diagonal[slots][:, [0, 3, 5]].sum(axis=1)
-        size = np.abs(trace / np.maximum(np.trace(admitted, axis1=1, axis2=2), 1))
+        slots, (dimensions, others) = matrix.order[self._restricted], self._inadmissible_blocks(dtype)
+        diagonal = matrix.diagonal.take(slots, axis=0)
+        size = np.abs(diagonal[:, [0, 3, 5]].sum(axis=1) / dimensions)
         size = np.where(size > 0, size, 1)  # a scale between the extreme eigenvalues
-        matrix.diagonal[slots] += size[:, None] * (np.eye(3, dtype=dtype) - admitted).reshape(-1, 9)[:, _UPPER]
+        matrix.diagonal[slots] = diagonal + size[:, None] * others
         return matrix
+
+    def _inadmissible_blocks(self, dtype: np.dtype) -> tuple[np.ndarray, np.ndarray]:
+        """Number of directions of each restricted node, at least 1, (r,), and projectors to the others, (r, 6)."""
+        if dtype not in self._others:
+            admitted = self._projectors.astype(dtype)
+            others = (np.eye(3, dtype=dtype) - admitted).reshape(-1, 9)[:, _UPPER]
+            self._others[dtype] = np.maximum(np.trace(admitted, axis1=1, axis2=2), 1), others
+        return self._others[dtype]
 
     def _turned_blocks(self, full: AssembledHessian) -> tuple:
         """T of each slot, and the blocks above the diagonal and the slots that it changes; it depends on the pattern.
