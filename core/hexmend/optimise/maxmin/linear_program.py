@@ -202,7 +202,8 @@ def build_program(
     count = first[node_index + 1] - first[node_index]  # directions of the node
     pair = np.repeat(np.arange(node_index.size), count)
     direction = np.arange(pair.size) + np.repeat(first[node_index] - np.cumsum(count) + count, count)
-    values = -np.einsum("ki,ki->k", slopes[model[pair], place[pair]], directions.projected[direction])
+    along = directions.projected.take(direction, axis=0)
+    values = -np.einsum("ki,ki->k", np.repeat(slopes[model, place], count, axis=0), along)
     unknowns = directions.n_unknowns + 1
     matrix = _with_gains(model[pair], directions.columns[direction], values, constraints.has_gain, unknowns)
     if directions.unknown is not None:  # tied nodes share a column
@@ -229,7 +230,8 @@ def _with_gains(
     row: np.ndarray, column: np.ndarray, values: np.ndarray, gains: np.ndarray, unknowns: int
 ) -> SparseRows:
     """Make rows of some values (k,), whose rows ascend, that end with gains (r,) in the last column."""
-    start = np.searchsorted(row, np.arange(gains.size + 1))
-    ends = start[1:]
-    columns, values = np.insert(column, ends, unknowns - 1), np.insert(values, ends, gains)
-    return SparseRows(start + np.arange(gains.size + 1), columns, values)
+    start = np.searchsorted(row, np.arange(gains.size + 1)) + np.arange(gains.size + 1)
+    at, last = np.arange(row.size) + row, start[1:] - 1
+    columns, all_values = np.full(row.size + gains.size, unknowns - 1), np.empty(row.size + gains.size)
+    columns[at], all_values[at], all_values[last] = column, values, gains
+    return SparseRows(start, columns, all_values)

@@ -32,11 +32,8 @@ class GrowingProgram:
         self._solver = _Quiet()
         for name, value in _OPTIONS.items():
             self._solver.setOptionValue(name, value)
-        model = highspy.HighsLp()
-        model.num_col_, model.num_row_ = cost.size, 0
-        model.col_cost_, model.col_lower_, model.col_upper_ = cost, lower, upper
-        model.a_matrix_.start_ = np.zeros(cost.size + 1, dtype=np.int32)
-        self._solver.passModel(model)
+        no_rows = np.zeros(cost.size, np.int32), np.empty(0, np.int32), np.empty(0)
+        self._solver.addCols(cost.size, cost, lower, upper, 0, *no_rows)
 
     def add_rows(self, start: np.ndarray, columns: np.ndarray, values: np.ndarray, limits: np.ndarray) -> None:
         """Add rows: start (r,) int of each in columns (k,) int and values (k,) float64, and their limits (r,)."""
