@@ -12,8 +12,9 @@ from hexmend.optimise.maxmin.directions import StepDirections
 
 #: Cost, in scaled Jacobian, of moving all nodes by their shortest edge: nodes without effect stay.
 MOVE_COST = 0.05
-#: Distance of a model from its bound, in radii of the region, up to which the program begins with it.
-INITIAL_MARGIN = 0.3
+#: Distance of a model from its bound, in radii of the region, up to which the program begins with it: by default, and
+#: where few of the others turn out to be violated.
+INITIAL_MARGIN, SMALL_MARGIN = 0.3, 0.1
 #: Violation from which on a model that was omitted is added.
 MAX_VIOLATION = 1e-7
 #: Coefficient from which on HiGHS refuses a row (its option large_matrix_value).
@@ -81,6 +82,7 @@ def solve(
     constraints: LinearConstraints,
     radius: float,
     may_decrease: bool = False,
+    margin: float = INITIAL_MARGIN,
 ) -> LPSolution | None:
     """Find the lengths of the steps that raise the least most; None where the program has no solution.
 
@@ -98,6 +100,8 @@ def solve(
         Longest step in a direction.
     may_decrease : bool
         The least may fall, so that the constant bounds can be kept.
+    margin : float
+        Distance of a model from its bound, in radii, up to which the program begins with it.
 
     Returns
     -------
@@ -109,7 +113,7 @@ def solve(
     if not np.abs(program.matrix.values).max(initial=0.0) < MAX_COEFFICIENT:
         return None  # a node is so far away that no step can be found with the others
     limits, matrix, solver = program.limits, program.matrix, GrowingProgram(program.cost, program.lower, program.upper)
-    taken, order = limits < INITIAL_MARGIN * radius, []
+    taken, order = limits < margin * radius, []
     added = np.flatnonzero(taken)
     while True:
         solver.add_rows(*matrix.rows(added), limits[added])

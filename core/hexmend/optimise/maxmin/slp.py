@@ -22,7 +22,7 @@ from hexmend.optimise.maxmin.corner_measure import SCALED_JACOBIAN, CornerMeasur
 from hexmend.optimise.maxmin.corner_set import MovableCorners
 from hexmend.optimise.maxmin.directions import step_directions
 from hexmend.optimise.maxmin.envelope import Envelope
-from hexmend.optimise.maxmin.linear_program import LinearConstraints, solve
+from hexmend.optimise.maxmin.linear_program import INITIAL_MARGIN, SMALL_MARGIN, LinearConstraints, solve
 from hexmend.optimise.maxmin.slp_config import SLP, SLPConfig
 
 
@@ -294,7 +294,9 @@ class MaxMinOptimiser:
         directions = step_directions(x, size[nodes], radius, nodes, slides, envelope.sliding)
         if motion is not None:
             directions = constrained_directions(directions, nodes, size[nodes], motion)
-        solved = solve(nodes, directions, constraints.concatenate(bounds), radius, may_decrease=outside is not None)
+        on_surface = envelope.sliding is not None and not envelope.released.any()
+        margin = SMALL_MARGIN if on_surface else INITIAL_MARGIN
+        solved = solve(nodes, directions, constraints.concatenate(bounds), radius, outside is not None, margin)
         if solved is None:
             return 0.0, self.points, nodes
         self._multipliers = near, np.bincount(models.corner, solved.multipliers[: slack.size], near.size)
