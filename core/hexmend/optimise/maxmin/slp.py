@@ -94,6 +94,8 @@ class MaxMinOptimiser:
         The band in which the boundary stays.
     programs : int
         Number of linear programs that were solved.
+    at_maximum : bool
+        The last linear program promised no gain, whatever its trust region: no step raises the least.
     """
 
     def __init__(
@@ -107,6 +109,7 @@ class MaxMinOptimiser:
         self.config = config
         self.points, self.corners = points, MovableCorners(mesh, points, measure)
         self.envelope, self.programs = Envelope(mesh.n_nodes, sliding), 0
+        self.at_maximum = False
         self._begin()
 
     @property
@@ -144,7 +147,7 @@ class MaxMinOptimiser:
 
     def move_to(self, points: np.ndarray) -> None:
         """Go on from other points (n, 3)."""
-        self.points = points
+        self.points, self.at_maximum = points, False
         self.corners.update(points, np.arange(self.mesh.n_hexes))
 
     def steps(self, target: float = np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
@@ -270,7 +273,7 @@ class MaxMinOptimiser:
 
         Returns the gain that it promises, all points with these nodes moved and projected, and the numbers of these.
         """
-        self.programs += 1
+        self.programs, self.at_maximum = self.programs + 1, False
         corners, envelope, radius, least = self.corners, self.envelope, self._radius, self.corners.active_minimum
         nodes = corners.movable(np.unique(corners.nodes_of(low)))
         if outside is not None:
@@ -299,6 +302,7 @@ class MaxMinOptimiser:
         solved = solve(nodes, directions, constraints.concatenate(bounds), radius, outside is not None, margin)
         if solved is None:
             return 0.0, self.points, nodes
+        self.at_maximum = solved.gain <= self.config.no_gain * radius
         self._multipliers = near, np.bincount(models.corner, solved.multipliers[: slack.size], near.size)
         points = self.points.copy()
         lengths = solved.lengths[directions.columns, None]

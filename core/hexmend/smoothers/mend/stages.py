@@ -275,7 +275,7 @@ class Stages:
                 break
             direct = higher
             yield direct.step()
-        if direct is narrow and not anyway:
+        if direct.least < MAXMIN.acceptable or (direct is narrow and not anyway):  # nodes leave where it is too low
             return direct, direct
         return direct, (yield from self._raise_once_more(sliding.with_band(bands[-1]), points, direct))
 
@@ -285,12 +285,15 @@ class Stages:
         """Raise once more in a wider band.
 
         This begins at the optimum of shape in that band, where that is higher; it is reached from points (n, 3) on.
+        Otherwise it begins at the result, unless linear programs have shown that no step from there raises the least.
         Where the band matters, the goal `shape`, whose band is that one, may end higher otherwise.
         """
         candidates = [result.optimiser.points]
         shape = yield from infeasible(self._start_at_shape(wide, points, candidates))
         if shape is not None:
             candidates.append(shape.points)
+        elif result.optimiser.at_maximum:
+            return result
         higher = yield from infeasible(self._maxmin_stage(wide.mesh, candidates, wide))
         if not higher.least > result.least:
             return result

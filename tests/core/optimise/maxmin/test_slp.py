@@ -101,6 +101,21 @@ def test_corners_at_the_end_hold_each_other(seed):
         assert there.min() < values.min() + 3 * MOVE_COST * reach + 10 * reach**2
 
 
+def test_at_a_maximum_no_step_raises_the_least_and_nowhere_before():
+    mesh = one_free_node(2)
+    raising = MaxMinOptimiser(mesh, mesh.points)
+    assert not raising.at_maximum
+    for step in raising.steps():
+        if not isinstance(step, ActiveCorners):
+            assert not raising.at_maximum
+    assert raising.at_maximum
+    assert steepest(mesh, raising.points, step) < MOVE_COST
+    list(raising.steps(target=-1.0))  # solves no program
+    assert raising.at_maximum
+    raising.move_to(mesh.points)
+    assert not raising.at_maximum
+
+
 def test_nothing_is_raised_beyond_its_target():
     mesh = scrambled(grid(4), 0.4, 2)
     raising = MaxMinOptimiser(mesh, mesh.points)
