@@ -96,6 +96,8 @@ class MaxMinOptimiser:
         Number of linear programs that were solved.
     at_maximum : bool
         The last linear program promised no gain, whatever its trust region: no step raises the least.
+    band_limits : bool
+        The band around the surface limited the gain of the last linear program.
     """
 
     def __init__(
@@ -109,7 +111,7 @@ class MaxMinOptimiser:
         self.config = config
         self.points, self.corners = points, MovableCorners(mesh, points, measure)
         self.envelope, self.programs = Envelope(mesh.n_nodes, sliding), 0
-        self.at_maximum = False
+        self.at_maximum = self.band_limits = False
         self._begin()
 
     @property
@@ -273,7 +275,7 @@ class MaxMinOptimiser:
 
         Returns the gain that it promises, all points with these nodes moved and projected, and the numbers of these.
         """
-        self.programs, self.at_maximum = self.programs + 1, False
+        self.programs, self.at_maximum, self.band_limits = self.programs + 1, False, False
         corners, envelope, radius, least = self.corners, self.envelope, self._radius, self.corners.active_minimum
         nodes = corners.movable(np.unique(corners.nodes_of(low)))
         if outside is not None:
@@ -303,6 +305,7 @@ class MaxMinOptimiser:
         if solved is None:
             return 0.0, self.points, nodes
         self.at_maximum = solved.gain <= self.config.no_gain * radius
+        self.band_limits = bool((solved.multipliers[slack.size :] > self.config.min_multiplier).any())
         self._multipliers = near, np.bincount(models.corner, solved.multipliers[: slack.size], near.size)
         points = self.points.copy()
         lengths = solved.lengths[directions.columns, None]

@@ -262,13 +262,16 @@ class Stages:
     ) -> Generator[Step, None, tuple[MaxMinResult, MaxMinResult]]:
         """Let quads of the boundary be further from its surface, where that raises the least by much.
 
-        Each band, ascending, begins at the result of the narrower one, which does not depend on those that follow. For
-        points (n, 3) see `_raise_once_more`, which comes last; with `anyway` where no band raises the least, too.
+        Each band, ascending, begins at the result of the narrower one, which does not depend on those that follow. A
+        band raises nothing where the least is at a maximum that the narrower one does not limit. For points (n, 3) see
+        `_raise_once_more`, which comes last; with `anyway` where no band raises the least, too.
 
         Returns the result without that, where still wider bands begin, and the result with it.
         """
         narrow = direct
         for band in bands:
+            if direct.optimiser.at_maximum and not direct.optimiser.band_limits:
+                break
             wide = sliding.with_band(band)
             higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [direct.optimiser.points], wide))
             if not higher.gains(direct.least):

@@ -116,6 +116,14 @@ def test_at_a_maximum_no_step_raises_the_least_and_nowhere_before():
     assert not raising.at_maximum
 
 
+@pytest.mark.parametrize(("share", "limits"), [(0.02, True), (np.inf, False)])
+def test_a_narrow_band_limits_the_least(share, limits):
+    mesh = slid(cylinder(16, 3), 0.25, 3)
+    sliding = SlidingBoundary(mesh, max_deviation=share * mesh.mean_edge_length)
+    raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
+    assert limits == any(raising.band_limits for _ in raising.steps())
+
+
 def test_nothing_is_raised_beyond_its_target():
     mesh = scrambled(grid(4), 0.4, 2)
     raising = MaxMinOptimiser(mesh, mesh.points)

@@ -212,6 +212,17 @@ def test_the_boundary_is_no_further_away_than_pays():
     np.testing.assert_array_equal(narrow.mesh.points, wide.mesh.points)
 
 
+def test_no_wider_band_is_tried_where_the_band_does_not_limit_the_least(monkeypatch):
+    wider, with_band = [], SlidingBoundary.with_band
+    monkeypatch.setattr(
+        SlidingBoundary, "with_band", lambda sliding, width: wider.append(width) or with_band(sliding, width)
+    )
+    smooth(slid(grid(3, 2, 2), 0.2, 1), Mend(goal="scaled-jacobian", boundary="slide"))  # a block is flat
+    assert not wider
+    smooth(SMALL["five-side"](), Mend(goal="scaled-jacobian", boundary="slide"))
+    assert wider
+
+
 def test_nodes_may_leave_a_surface_without_a_limit_of_the_distance():
     mesh = SMALL["ball"]()
     result = smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance="unlimited"))
