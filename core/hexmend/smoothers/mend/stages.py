@@ -78,28 +78,15 @@ class Stages:
             leaving, result = None, (yield from self._maxmin_stage(mesh, candidates, None))
         else:
             leaving = LeavingSurface(self.settings, sliding, self._untangled, self._sliding_shape)
-            result = yield from self._raise_sliding(leaving, fixed_optimum, candidates, fixed)
-            near = leaving
-            while self.settings.maximises_jacobian and (near := near.within_less(result)):
-                nearer = yield from self._raise_sliding(near, fixed_optimum, candidates, fixed)
-                if nearer is not None and (result is None or nearer.least > result.least):
-                    leaving, result = near, nearer
+            leaving, result = yield from self._raise_within_tolerances(leaving, fixed_optimum, candidates, fixed)
         if self.goal == "time-step":
             result = yield from maximise_time_step(mesh, candidates, sliding, result)
         points = shape.points if result is None else result.optimiser.points
         outcome = shape.outcome if result is None else Outcome.NO_IMPROVEMENT
         active, sentences, quality = None, [], None
         if self.settings.balances:
-            around, begin = None if leaving is None else leaving.boundary(result), None if kept is None else given
-            energy = self._sound_energy(mesh if around is None else around.mesh, points, around)
-            steps = balance(energy, points, given, begin=begin)
-            if leaving is None or result is None:
-                balanced = yield from keeping(kept, mesh.hexes, steps)
-                points = balanced.points
-            else:  # steps with released nodes may leave their band, to which the result returns
-                balanced = yield from infeasible(steps, every=1)
-                points = (yield from infeasible(leaving.returned(result, balanced.points))).points
-            sentences.append(balanced.message)
+            points, message = yield from self._balance(mesh, points, given, leaving, result, kept)
+            sentences.append(message)
         if self.settings.maximises_minimum:
             active = active_set(result.optimiser, result.active)
             sentences.append(limit_message(result.optimiser, result.active))
@@ -131,6 +118,47 @@ class Stages:
             return fixed, given, None
         balanced = yield from balance(self._sound_energy(mesh, optimum, None), optimum, given)
         return fixed, balanced.points, measure(balanced.points, mesh.hexes)
+
+    def _balance(
+        self,
+        mesh: Mesh,
+        points: np.ndarray,
+        given: np.ndarray,
+        leaving: LeavingSurface | None,
+        result: MaxMinResult | None,
+        kept: ElementQuality | None,
+    ) -> Generator[Step, None, tuple[np.ndarray, str]]:
+        """Raise the floors from points (n, 3) on; points whose figures are not to fall, and the quality that is kept.
+
+        Returns the points, and a sentence about the floors.
+        """
+        around, begin = None if leaving is None else leaving.boundary(result), None if kept is None else given
+        energy = self._sound_energy(mesh if around is None else around.mesh, points, around)
+        steps = balance(energy, points, given, begin=begin)
+        if leaving is None or result is None:
+            balanced = yield from keeping(kept, mesh.hexes, steps)
+            return balanced.points, balanced.message
+        balanced = yield from infeasible(steps, every=1)  # steps with released nodes may leave their band
+        returned = yield from infeasible(leaving.returned(result, balanced.points))
+        return returned.points, balanced.message
+
+    def _raise_within_tolerances(
+        self,
+        leaving: LeavingSurface,
+        optimum: np.ndarray,
+        candidates: Sequence[np.ndarray],
+        fixed: MaxMinResult | None,
+    ) -> Generator[Step, None, tuple[LeavingSurface, MaxMinResult | None]]:
+        """Raise the least within the tolerance, then within less where it may come higher; see `_raise_sliding`.
+
+        Returns the better result, and the boundary that it was reached with.
+        """
+        result, near = (yield from self._raise_sliding(leaving, optimum, candidates, fixed)), leaving
+        while self.settings.maximises_jacobian and (near := near.within_less(result)):
+            nearer = yield from self._raise_sliding(near, optimum, candidates, fixed)
+            if nearer is not None and (result is None or nearer.least > result.least):
+                leaving, result = near, nearer
+        return leaving, result
 
     def _raise_sliding(
         self,
