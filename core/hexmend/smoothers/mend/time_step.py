@@ -12,7 +12,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.corner_measure import time_step_measure
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.smoothers.mend.maxmin import maximise_minimum
-from hexmend.smoothers.mend.off_surface import MaxMinResult
+from hexmend.smoothers.mend.surface.detours import MaxMinResult
 
 #: Factor of the rise from which on the stage begins again with a larger unit: its thresholds suit values near 1.
 _NEW_UNIT = 2.0

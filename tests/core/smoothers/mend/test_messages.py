@@ -11,7 +11,7 @@ from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.quality.regressions import REGRESSION_KEYS
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.maxmin import MAXMIN
-from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface, raise_in_wider_band
+from hexmend.smoothers.mend.surface.detours import MaxMinResult, improve_off_surface, raise_in_wider_band
 from tests.core.boundary.solids import ball, slid
 from tests.core.smoothers.mend.walks import walked
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend.iteration import Step
-from hexmend.smoothers.mend.starts import raise_from_better, while_promising
+from hexmend.smoothers.mend.surface.starts import raise_from_better, while_promising
 from tests.core.grids import grid
 from tests.core.smoothers.mend.walks import walked
 

@@ -16,7 +16,8 @@ from hexmend.parameters import AUTO
 from hexmend.quality import measure
 from hexmend.smoothers.mend.maxmin import MAXMIN, NO_CORNERS
 from hexmend.smoothers.mend.mend_settings import MendSettings
-from hexmend.smoothers.mend.off_surface import (
+from hexmend.smoothers.mend.shape_optimum import ShapeOptimum
+from hexmend.smoothers.mend.surface.detours import (
     MaxMinResult,
     improve_off_surface,
     raise_in_wider_band,
@@ -24,8 +25,7 @@ from hexmend.smoothers.mend.off_surface import (
     raise_to_the_end,
     raise_within_tolerance,
 )
-from hexmend.smoothers.mend.release import RELEASE, Untangle, infeasible, untangle_released
-from hexmend.smoothers.mend.shape_optimum import ShapeOptimum
+from hexmend.smoothers.mend.surface.release import RELEASE, Untangle, infeasible, untangle_released
 from hexmend.smoothers.sliding_smoother import AUTO_TOLERANCE, UNLIMITED
 
 #: Function that goes to the optimum of shape from some points (n, 3) on, with a boundary that slides.

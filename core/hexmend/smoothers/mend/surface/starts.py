@@ -15,7 +15,7 @@ from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.corner_set import MovableCorners
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
-from hexmend.smoothers.mend.off_surface import MaxMinResult
+from hexmend.smoothers.mend.surface.detours import MaxMinResult
 
 T = TypeVar("T")
 

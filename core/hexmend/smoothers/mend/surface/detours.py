@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.iteration import Step
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.smoothers.mend.maxmin import MAXMIN, MaxMinConfig, maximise_minimum
-from hexmend.smoothers.mend.release import infeasible
+from hexmend.smoothers.mend.surface.release import infeasible
 
 _POSITIVE = float(np.finfo(float).tiny)
 

@@ -1,0 +1,89 @@
+"""Stages of mend that untangle, and that go to the optimum of shape."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+
+import numpy as np
+
+from hexmend.boundary import SlidingBoundary
+from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm, energy_of
+from hexmend.iteration import Step
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import measure
+from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
+from hexmend.smoothers.mend.maxmin import MAXMIN
+from hexmend.smoothers.mend.mend_settings import MendSettings
+from hexmend.smoothers.mend.messages import omission_message
+from hexmend.smoothers.mend.newton_steps import NewtonConfig
+from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
+from hexmend.smoothers.mend.surface.starts import while_promising
+from hexmend.smoothers.mend.untangling import Untangled, UntanglingConfig, untangle
+
+
+class ShapeStages:
+    """Stages that untangle a mesh, its boundary fixed or sliding, and go to the optimum of shape.
+
+    Parameters
+    ----------
+    settings : MendSettings
+        The method with its parameters.
+    """
+
+    def __init__(self, settings: MendSettings):
+        self.settings, self.goal = settings, settings.goal
+
+    def _energy(self, mesh: Mesh, norm: ObjectiveNorm, sliding: SlidingBoundary | None = None) -> MeshEnergy:
+        """The energy of a mesh, whose boundary is fixed or slides."""
+        return energy_of(mesh, norm, sliding)
+
+    def _shape(self, mesh: Mesh, energy: MeshEnergy, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
+        """Untangle a mesh, then go to the optimum of shape."""
+        locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
+        energy = energy.with_objective(energy.norm, locked)
+        untangled = yield from self._untangle(mesh, energy, locked)
+        left = untangled.left(locked, energy)
+        if left and energy.norm.p < SQUARES.p and not energy.faceted:
+            # Squares weigh the worst hexes more, and untangle some meshes that sums do not.
+            again = yield from self._untangle(mesh, energy.with_objective(SQUARES, locked), locked)
+            untangled = again if again.left(locked, energy) < left else untangled
+        points, omitted = untangled.points, untangled.omitted
+        if energy.ranks.any(omitted) and not self.settings.slides_on(mesh):
+            decision = omission_message(energy.count(locked), energy.count(omitted & ~locked))
+            yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
+        energy = energy.with_objective(energy.norm, omitted)
+        config = ShapeOptimumConfig(newton=NewtonConfig(self.settings.solver_iterations, deflated=True))
+        steps = optimise_shape(energy, points, self.settings.p_limit, intermediate, config)
+        del untangled, points  # large meshes have no memory for what is no longer needed
+        return (yield from steps)
+
+    def _untangle(self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray) -> Generator[Step, None, Untangled]:
+        config = UntanglingConfig(self.settings.initial_epsilon, newton=NewtonConfig(self.settings.solver_iterations))
+        return (yield from untangle(mesh, energy.without_size(), locked, config))
+
+    def _untangled(self, sliding: SlidingBoundary, points: np.ndarray) -> Generator[Step, None, np.ndarray]:
+        """Untangle a mesh whose boundary slides, from points (n, 3) on."""
+        mesh = sliding.mesh.with_points(points)
+        locked = locked_corners(mesh, measure(points, mesh.hexes))
+        energy = self._energy(mesh, self.settings.first_norm_on(mesh), sliding)
+        energy = energy.with_objective(self.settings.norm, locked)
+        return (yield from self._untangle(mesh, energy, locked)).points
+
+    def _sound_energy(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None) -> MeshEnergy:
+        """The energy that floors are added to, without the corners that are inverted at these points."""
+        inverted = inverted_corners(points, mesh.hexes, measure(points, mesh.hexes))
+        mean = ObjectiveNorm(1.0, self.settings.offset)
+        energy = self._energy(mesh, self.settings.first_norm_on(mesh) if self.settings.balances else mean, sliding)
+        return energy.with_objective(energy.norm, inverted)
+
+    def _sliding_shape(self, sliding: SlidingBoundary, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
+        """Untangle a mesh whose boundary slides, from points (n, 3) on, then go to the optimum of shape."""
+        energy = self._energy(sliding.mesh, self.settings.first_norm_on(sliding.mesh), sliding)
+        return (yield from self._shape(sliding.mesh.with_points(points), energy, True))
+
+    def _start_at_shape(
+        self, sliding: SlidingBoundary, points: np.ndarray, others: Sequence[np.ndarray]
+    ) -> Generator[Step, None, ShapeOptimum | None]:
+        """Go to the optimum of shape from points (n, 3) on; None where its least is lower than at another start."""
+        steps = self._sliding_shape(sliding, points)
+        return (yield from while_promising(steps, sliding.mesh, others, MAXMIN.shape_patience))

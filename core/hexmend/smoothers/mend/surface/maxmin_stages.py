@@ -1,0 +1,196 @@
+"""Stages of mend that raise the minimum scaled Jacobian, within one tolerance of the surface after another."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+
+import numpy as np
+
+from hexmend.boundary import SlidingBoundary
+from hexmend.iteration import Step
+from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.parameters import AUTO
+from hexmend.smoothers.mend.balance import raise_jacobian
+from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
+from hexmend.smoothers.mend.shape_stages import ShapeStages
+from hexmend.smoothers.mend.surface.detours import MaxMinResult, raise_to_the_end
+from hexmend.smoothers.mend.surface.leaving_surface import LeavingSurface
+from hexmend.smoothers.mend.surface.release import infeasible
+from hexmend.smoothers.mend.surface.starts import raise_from_better
+
+
+class MaxMinStages(ShapeStages):
+    """Stages that raise the minimum scaled Jacobian: boundary fixed, sliding in wider and wider bands, or left.
+
+    Parameters
+    ----------
+    settings : MendSettings
+        The method with its parameters.
+    """
+
+    def sliding_boundary(self, mesh: Mesh) -> SlidingBoundary:
+        """The boundary in the narrowest band; a tolerance in numbers says how far its sets too may move."""
+        settings = self.settings
+        sets_hold = settings.surface_tolerance == AUTO
+        return SlidingBoundary(
+            mesh,
+            settings.feature_angle,
+            self._bands(mesh, settings.absolute_tolerance(mesh))[0],
+            settings.slides,
+            sets_hold,
+        )
+
+    def _raise_within_tolerances(
+        self,
+        leaving: LeavingSurface,
+        optimum: np.ndarray,
+        candidates: Sequence[np.ndarray],
+        fixed: MaxMinResult | None,
+    ) -> Generator[Step, None, tuple[LeavingSurface, MaxMinResult | None]]:
+        """Raise the least within the tolerance, then within less where it may come higher; see `_raise_sliding`.
+
+        Returns the better result, and the boundary that it was reached with.
+        """
+        result, near = (yield from self._raise_sliding(leaving, optimum, candidates, fixed)), leaving
+        while self.settings.maximises_jacobian and (near := near.within_less(result)):
+            nearer = yield from self._raise_sliding(near, optimum, candidates, fixed)
+            if nearer is not None and (result is None or nearer.least > result.least):
+                leaving, result = near, nearer
+        return leaving, result
+
+    def _raise_sliding(
+        self,
+        leaving: LeavingSurface,
+        optimum: np.ndarray,
+        candidates: Sequence[np.ndarray],
+        fixed: MaxMinResult | None,
+    ) -> Generator[Step, None, MaxMinResult | None]:
+        """Raise the least on the surface from the best of some points (n, 3), then with nodes that leave it.
+
+        Nodes leave it from points `optimum` (n, 3) on. The result is no lower than `fixed`, that with the boundary
+        fixed; None where nothing is to be raised.
+        """
+        result = yield from leaving.untangle(optimum, candidates)
+        if result is None:
+            result = yield from self._maxmin_stage(leaving.mesh, candidates, leaving.sliding, fixed)
+            if result is None:
+                return None
+        on_surface = not result.optimiser.envelope.released.any() and not leaving.nearly_untangled
+        direct, tried, released = result, leaving.sliding.max_deviation, None
+        for tolerance in leaving.tolerances:
+            bands = [band for band in self._bands(leaving.mesh, tolerance) if band > tried]
+            if bands and on_surface:
+                begun = released is not None
+                direct, higher = yield from self._raise_in_wider_bands(leaving.sliding, optimum, direct, bands, begun)
+                result = result if begun and not higher.gains(result.least) else higher
+                tried = bands[-1]
+            result = yield from leaving.raise_least(optimum, result, tolerance)
+            on_surface = on_surface and not result.optimiser.envelope.released.any()
+            if self.settings.maximises_jacobian and result is not released:
+                result = released = yield from self._raise_released(leaving, result)
+        return result
+
+    def _maxmin_stage(
+        self,
+        mesh: Mesh,
+        candidates: Sequence[np.ndarray],
+        sliding: SlidingBoundary | None,
+        fixed: MaxMinResult | None = None,
+    ) -> Generator[Step, None, MaxMinResult | None]:
+        """Raise the minimum scaled Jacobian from the best of some points (n, 3), where it is the goal or not sound.
+
+        None where shape is the goal and the least is sound. The result is no lower than `fixed`, that with the boundary
+        fixed.
+        """
+        optimisers = (MaxMinOptimiser(mesh, points, sliding) for points in candidates)
+        best = max(optimisers, key=lambda optimiser: optimiser.corners.active_minimum)
+        if not self.settings.maximises_jacobian and not best.corners.active_minimum < MAXMIN.barrier_safe:
+            return None
+        target = np.inf if self.settings.maximises_jacobian else MAXMIN.barrier_safe
+        reached = None if fixed is None else MaxMinOptimiser(mesh, fixed.optimiser.points, sliding)
+
+        def raise_least(optimiser: MaxMinOptimiser) -> Generator[Step, None, ActiveCorners]:
+            groups = MAXMIN.max_groups
+            if self.settings.maximises_jacobian and optimiser.corners.active_minimum > 0:
+                energy = self._sound_energy(mesh, optimiser.points, sliding)
+                optimiser.improve_to((yield from raise_jacobian(energy, optimiser.points)))
+                groups = 1
+            return (yield from maximise_minimum(optimiser, target, groups=groups))
+
+        return (yield from raise_from_better(best, reached, raise_least, MAXMIN.trial_iterations))
+
+    def _bands(self, mesh: Mesh, tolerance: float) -> list[float]:
+        """Distances from the surface that quads of the boundary may have while nodes slide, ascending."""
+        narrower, widest = np.array(MAXMIN.bands) * mesh.mean_edge_length, MAXMIN.surface_share * tolerance
+        if not self.settings.maximises_jacobian:
+            return [widest]
+        widest = max(widest, min(narrower[0], MAXMIN.first_share * tolerance))
+        return [*narrower[narrower < (1 - MAXMIN.worth_widening) * widest], widest]
+
+    def _raise_in_wider_bands(
+        self,
+        sliding: SlidingBoundary,
+        points: np.ndarray,
+        direct: MaxMinResult,
+        bands: Sequence[float],
+        anyway: bool,
+    ) -> Generator[Step, None, tuple[MaxMinResult, MaxMinResult]]:
+        """Let quads of the boundary be further from its surface, where that raises the least by much.
+
+        Each band, ascending, begins at the result of the narrower one, which does not depend on those that follow. A
+        band raises nothing where the least is at a maximum that the narrower one does not limit. For points (n, 3) see
+        `_raise_once_more`, which comes last; with `anyway` where no band raises the least, too.
+
+        Returns the result without that, where still wider bands begin, and the result with it.
+        """
+        narrow = direct
+        for band in bands:
+            if direct.optimiser.at_maximum and not direct.optimiser.band_limits:
+                break
+            wide = sliding.with_band(band)
+            higher = yield from infeasible(self._maxmin_stage(sliding.mesh, [direct.optimiser.points], wide))
+            if not higher.gains(direct.least):
+                break
+            direct = higher
+            yield direct.step()
+        if direct.least < MAXMIN.acceptable or (direct is narrow and not anyway):  # nodes leave where it is too low
+            return direct, direct
+        return direct, (yield from self._raise_once_more(sliding.with_band(bands[-1]), points, direct))
+
+    def _raise_once_more(
+        self, wide: SlidingBoundary, points: np.ndarray, result: MaxMinResult
+    ) -> Generator[Step, None, MaxMinResult]:
+        """Raise once more in a wider band.
+
+        This begins at the optimum of shape in that band, where that is higher; it is reached from points (n, 3) on.
+        Otherwise it begins at the result, unless linear programs have shown that no step from there raises the least.
+        Where the band matters, the goal `shape`, whose band is that one, may end higher otherwise.
+        """
+        candidates = [result.optimiser.points]
+        shape = yield from infeasible(self._start_at_shape(wide, points, candidates))
+        if shape is not None:
+            candidates.append(shape.points)
+        elif result.optimiser.at_maximum:
+            return result
+        higher = yield from infeasible(self._maxmin_stage(wide.mesh, candidates, wide))
+        if not higher.least > result.least:
+            return result
+        yield higher.step()
+        return higher
+
+    def _raise_released(self, leaving: LeavingSurface, result: MaxMinResult) -> Generator[Step, None, MaxMinResult]:
+        """Raise along the central path where nodes have left the surface, then to the end."""
+        if not result.optimiser.envelope.released.any() or not result.least > 0:
+            return result
+        around = leaving.boundary(result)
+        energy = self._sound_energy(around.mesh, result.optimiser.points, around)
+        points = yield from infeasible(raise_jacobian(energy, result.optimiser.points))
+        optimiser = yield from infeasible(leaving.returned(result, points))
+        if not optimiser.corners.movable_minimum > MAXMIN.returned_share * result.least:
+            return result
+        higher = yield from infeasible(raise_to_the_end(MaxMinResult(optimiser, None)))
+        if not higher.least > result.least:
+            return result
+        yield higher.step()
+        return higher
