@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from hexmend.boundary import NodeClass, SlidingBoundary
+from hexmend.boundary import NodeClass, SkinSurface, SlidingBoundary
 from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.mesh.cells import Cells
@@ -13,8 +13,9 @@ from hexmend.mesh.fixing import with_pinned
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.maxmin import MAXMIN
+from hexmend.smoothers.mend.stages import Stages
 from hexmend.smoothers.sliding_smoother import absolute_tolerance
-from tests.core.boundary.solids import ball, cylinder, slid
+from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid
 
 Mend = METHODS["mend"]
@@ -200,6 +201,26 @@ def test_a_larger_tolerance_of_a_real_boundary_ends_no_lower(real_mesh, name):
 def test_a_tolerance_above_that_by_default_begins_at_its_result(real_mesh):
     """The cap is raised with nodes off the surface: a run within 1 alone ends lower, at 0.538 for 0.559."""
     check_tolerances(read(real_mesh("cap_in.mesh")), (0.3, 1.0))
+
+
+@pytest.mark.parametrize("goal", ["shape", "balanced", "time-step", "scaled-jacobian"])
+def test_a_band_that_is_wider_by_rounding_is_no_other_band(monkeypatch, goal):
+    """The mean edge length of a mesh on a target may differ by rounding once its nodes are projected again."""
+    fine = ball(8)
+    given = SkinSurface(fine.points, fine.topology.boundary_faces)
+    low, mild = wavy(ball(2), 0.4, 159).sliding_on(given, check=False), slid(ball(4), 0.2, 1)
+    mesh = mild if goal == "scaled-jacobian" else low
+    method = Mend(goal=goal, boundary="slide")
+    expected, first = smooth(mesh, method).after, Stages.sliding_boundary
+
+    def narrower(stages, mesh):
+        sliding = first(stages, mesh)
+        return sliding.with_band(sliding.max_deviation * (1 - 1e-15))
+
+    monkeypatch.setattr(Stages, "sliding_boundary", narrower)
+    after = smooth(mesh, method).after
+    assert after.inverted == expected.inverted == 0
+    np.testing.assert_allclose(after.scaled_jacobian_min, expected.scaled_jacobian_min, rtol=1e-3)
 
 
 def test_the_boundary_is_no_further_away_than_pays():

@@ -10,6 +10,7 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_config import SLP
 from hexmend.parameters import AUTO
 from hexmend.smoothers.mend.balance import raise_jacobian
 from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
@@ -76,10 +77,11 @@ class MaxMinStages(ShapeStages):
             result = yield from self._maxmin_stage(leaving.mesh, candidates, leaving.sliding, fixed)
             if result is None:
                 return None
-        on_surface = not result.optimiser.envelope.released.any() and not leaving.nearly_untangled
+        on_surface = self.settings.maximises_jacobian and not leaving.nearly_untangled
+        on_surface = on_surface and not result.optimiser.envelope.released.any()
         direct, tried, released = result, leaving.sliding.max_deviation, None
         for tolerance in leaving.tolerances:
-            bands = [band for band in self._bands(leaving.mesh, tolerance) if band > tried]
+            bands = [band for band in self._bands(leaving.mesh, tolerance) if band > tried * (1 + SLP.band_excess)]
             if bands and on_surface:
                 begun = released is not None
                 direct, higher = yield from self._raise_in_wider_bands(leaving.sliding, optimum, direct, bands, begun)
