@@ -163,6 +163,18 @@ BAD = {
         b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nvertex 1 0 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
         "cannot be read as STL",
     ),
+    "bare.stl": (
+        b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex\nendloop\nendfacet\n",
+        "cannot be read as STL",
+    ),
+    "word-behind.stl": (
+        b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0vertex\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
+        "cannot be read as STL",
+    ),
+    "run-on.stl": (
+        b"solid a\nfacetnormal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
+        "cannot be read as STL",
+    ),
     "run-together.stl": (
         b"solid a\nfacet normal 0 0 1\nouter loop\nvertex0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
         "cannot be read as STL",

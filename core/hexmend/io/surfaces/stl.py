@@ -35,13 +35,13 @@ def read(path: Path) -> Polygons:
 def _corners(data: bytes) -> np.ndarray:
     """Parse the corners of all facets, (3 k, 3) float64; raises ValueError where a facet has not three of them."""
     lines = [line.strip() for line in data.replace(b"\r", b"\n").split(b"\n")]
-    lines = [line for line in lines if line.startswith((b"vertex ", b"vertex\t", b"facet"))]
+    lines = [line for line in lines if line.startswith((b"vertex", b"facet"))]
     in_order = len(lines) % 4 == 0 and all(
-        line.startswith(b"vertex" if row else b"facet") for row in range(4) for line in lines[row::4]
+        line.startswith(b"vertex" if row else (b"facet ", b"facet\t")) for row in range(4) for line in lines[row::4]
     )
     del lines[::4]
     if in_order and {*map(len, map(bytes.split, lines))} <= {4}:
-        numbers = parse_numbers(b" ".join(lines).replace(b"vertex", b" "), np.float64)
+        numbers = parse_numbers(b" ".join([line[6:] for line in lines]), np.float64)
         if numbers is not None and numbers.size == 3 * len(lines):
             return numbers.reshape(-1, 3)
     return _corners_by_words(data)
