@@ -223,6 +223,17 @@ def test_a_band_that_is_wider_by_rounding_is_no_other_band(monkeypatch, goal):
     np.testing.assert_allclose(after.scaled_jacobian_min, expected.scaled_jacobian_min, rtol=1e-3)
 
 
+def test_without_a_limit_quads_may_be_further_from_the_surface_than_within_any():
+    mesh = wavy(ball(3), 0.05, 10)
+    within, unlimited = (
+        smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance=tolerance))
+        for tolerance in (1.0, "unlimited")
+    )
+    assert within.surface.max < 0.334
+    assert unlimited.surface.max > 0.35
+    assert unlimited.after.scaled_jacobian_min > within.after.scaled_jacobian_min + 0.01
+
+
 def test_the_boundary_is_no_further_away_than_pays():
     """A wider band is used only where the least gains a twentieth by it."""
     mesh = SMALL["five-side"]()

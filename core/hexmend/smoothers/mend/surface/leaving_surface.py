@@ -178,6 +178,11 @@ class LeavingSurface:
         smaller, tolerance = AUTO_TOLERANCE * self.mesh.mean_edge_length, self._tolerance
         return [smaller, tolerance] if tolerance > smaller * (1 + SLP.band_excess) else [tolerance]
 
+    def sliding_tolerance(self, tolerance: float) -> float:
+        """Tolerance for quads while nodes slide, for one of `tolerances`: without a limit, the last has none."""
+        unlimited = self.settings.surface_tolerance == UNLIMITED and tolerance == self.tolerances[-1]
+        return np.inf if unlimited else tolerance
+
     @property
     def nearly_untangled(self) -> bool:
         """Few hexes or none are inverted where nodes have left the surface at the least distance."""

@@ -81,7 +81,8 @@ class MaxMinStages(ShapeStages):
         on_surface = on_surface and not result.optimiser.envelope.released.any()
         direct, tried, released = result, leaving.sliding.max_deviation, None
         for tolerance in leaving.tolerances:
-            bands = [band for band in self._bands(leaving.mesh, tolerance) if band > tried * (1 + SLP.band_excess)]
+            bands = self._bands(leaving.mesh, leaving.sliding_tolerance(tolerance))
+            bands = [band for band in bands if band > tried * (1 + SLP.band_excess)]
             if bands and on_surface:
                 begun = released is not None
                 direct, higher = yield from self._raise_in_wider_bands(leaving.sliding, optimum, direct, bands, begun)
