@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,12 @@ _LARGEST_FILE = 3_000_000
 
 
 def _measure() -> dict[str, Any]:
-    return {"runs": [_row(path) for path in mesh_files() if path.stat().st_size < _LARGEST_FILE]}
+    rows = []
+    for path in mesh_files():
+        if path.stat().st_size < _LARGEST_FILE:
+            with suppress(FileNotFoundError):  # no report: the file holds no mesh of hexes
+                rows.append(_row(path))
+    return {"runs": rows}
 
 
 def _row(path: Path) -> dict[str, Any]:
