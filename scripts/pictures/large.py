@@ -23,7 +23,7 @@ def take_pictures(folder: Path) -> None:
     with tempfile.TemporaryDirectory() as directory:
         path = Path(directory) / "five-side.vtkhdf"
         write(path, make("five-side", size=_HEXES, scramble=0.3))
-        window = open_window(path, (1160, 680))
+        window = open_window(path, (1080, 640))
         window.session.view.set_handles(False)
         cut_mesh(window)
         wait_until_drawn(window)

@@ -48,8 +48,8 @@ inline std::int64_t workspace_size(const BlockPattern &pattern, std::int64_t gho
 // damping adds that multiple of D to the diagonal. The tolerance is relative to the right-hand side, both in the norm
 // of M^-1; max_iterations limits the iterations. At a direction of negative curvature (Steihaug 1983) x is the iterate
 // so far or, if it is the first, that direction. Vectors are (k, 4), see block_matrix.hpp; x may be `right`, which is
-// then replaced. work: `workspace_size`, and with a coarse space `coarse_workspace_size` besides. Coupled processes have
-// none.
+// then replaced. work: `workspace_size`, and with a coarse space `coarse_workspace_size` besides. Coupled processes
+// have none.
 template <class Block, class Real = NumberOf<Block>>
 std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Block> off_diagonal,
                                   DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
