@@ -233,11 +233,11 @@ class MeshEnergy(TargetScales):
         p, offset = self.norm
         eta, barriers = self._terms_of_hexes(x, delta, offset)
         with np.errstate(over="ignore"):  # near the barrier, or with a node far away, it is infinite
-            own = None if self.limits_moves else eta  # what is not kept can be overwritten
+            out = None if self.limits_moves else eta  # what is not kept can be overwritten
             if p == 2:
-                eta = np.square(eta, out=own)
+                eta = np.square(eta, out=out)
             elif p != 1:
-                eta = np.power(eta, p, out=own)
+                eta = np.power(eta, p, out=out)
             values = eta[self.counted]
             own = float(values.sum() + (0.0 if np.isscalar(barriers) else barriers[self.counted].sum()))
         if self.surface is not None:
@@ -253,10 +253,11 @@ class MeshEnergy(TargetScales):
         if not self.limits_moves:
             return self.hex_energies(x, delta, offset), self.barriers(x)
         known = self._evaluated  # one read, as another thread may replace it
-        same = known is not None and all(a is b for a, b in zip(known[0], (x, self.omitted, self.barrier), strict=True))
+        key = x, self.omitted, self.barrier, self.target
+        same = known is not None and all(one is other for one, other in zip(known[0], key, strict=True))
         if not same or known[1] != (delta, offset):
             terms = self.hex_energies(x, delta, offset), self.barriers(x)
-            known = self._evaluated = (x, self.omitted, self.barrier), (delta, offset), terms
+            known = self._evaluated = key, (delta, offset), terms
         return known[2]
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:

@@ -157,7 +157,8 @@ class SlidingEnergy(MeshEnergy):
 
         It is known by the array x, as `projectors` are: points are not changed in place between calls.
         """
-        key, known = (x, delta, self.norm, self.omitted, self.barrier, self.surface), self._differentiated
+        key = x, delta, self.norm, self.omitted, self.barrier, self.surface, self.target
+        known = self._differentiated
         if known is None or not all(one is other for one, other in zip(known[0], key, strict=True)):
             known = self._differentiated = key, super().gradient(x, delta)
         return known[1]

@@ -84,8 +84,8 @@ def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.int16], d
     packed, for vectors in single precision, see `assembly.assemble_packed`. diagonal (k, 6). damping:
     this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand
     side, both in the norm of M^-1. work: see `workspace_size`. Writes x, which may be rhs; returns the
-    iterations and the status. With `coarse` the iteration is deflated by the translations of aggregates, unless the matrix is not
-    positive definite for these already; where processes share a matrix, it is not.
+    iterations and the status. With `coarse` the iteration is deflated by the translations of aggregates,
+    unless the matrix is not positive definite for these already; where processes share a matrix, it is not.
 
     Where several processes share a matrix, its columns from k on belong to ghosts, slots of other
     processes. `sum` adds a number over all processes; `exchange` is called with an array (k + ghosts, 4)

@@ -50,9 +50,8 @@ template <class Block> void bind_matrix(nb::module_ m) {
         "packed, for vectors in single precision, see `assembly.assemble_packed`. diagonal (k, 6). damping:\n"
         "this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand\n"
         "side, both in the norm of M^-1. work: see `workspace_size`. Writes x, which may be rhs; returns the\n"
-        "iterations and the status. With `coarse` the iteration is deflated by the translations of aggregates, unless "
-        "the matrix is not\n"
-        "positive definite for these already; where processes share a matrix, it is not.\n\n"
+        "iterations and the status. With `coarse` the iteration is deflated by the translations of aggregates,\n"
+        "unless the matrix is not positive definite for these already; where processes share a matrix, it is not.\n\n"
         "Where several processes share a matrix, its columns from k on belong to ghosts, slots of other\n"
         "processes. `sum` adds a number over all processes; `exchange` is called with an array (k + ghosts, 4)\n"
         "of which it sends rows, and receives those of the ghosts. All processes call it together.");

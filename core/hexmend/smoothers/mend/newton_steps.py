@@ -49,8 +49,8 @@ class NewtonConfig:
     def for_large_mesh(self) -> NewtonConfig:
         """Return the settings for large meshes, of which regions move by many edges without a change of their hexes.
 
-        Such a move is a long wave, which a damped matrix shortens, and a limit in edges too. To assemble a matrix takes
-        as long as ten iterations, so that fewer but more accurate steps cost less.
+        Such a move is a long wave, which a damped matrix shortens, and a limit in edges too. Every step assembles a
+        matrix, so that fewer but more accurate steps cost less.
         """
         return replace(self, max_step=8.0, loosest_definite=0.03, damping_decay=16.0)
 

@@ -26,13 +26,7 @@ from hexmend.smoothers.mend.time_step import maximise_time_step
 
 
 class Stages(MaxMinStages):
-    """Stages of a run of mend.
-
-    Parameters
-    ----------
-    settings : MendSettings
-        The method with its parameters.
-    """
+    """Stages of a run of mend."""
 
     def steps(self, mesh: Mesh) -> Steps:
         if mesh.linear_motion is not None:

@@ -22,13 +22,7 @@ from hexmend.smoothers.mend.surface.starts import raise_from_better
 
 
 class MaxMinStages(ShapeStages):
-    """Stages that raise the minimum scaled Jacobian: boundary fixed, sliding in wider and wider bands, or left.
-
-    Parameters
-    ----------
-    settings : MendSettings
-        The method with its parameters.
-    """
+    """Stages that raise the minimum scaled Jacobian: boundary fixed, sliding in wider and wider bands, or left."""
 
     def sliding_boundary(self, mesh: Mesh) -> SlidingBoundary:
         """The boundary in the narrowest band; a tolerance in numbers says how far its sets too may move."""
