@@ -9,6 +9,7 @@ import numpy as np
 
 from hexmend.arrays import index_of
 from hexmend.optimise.maxmin.directions import StepDirections
+from hexmend.optimise.maxmin.vertex import Vertex, names_of_models, names_of_unknowns
 
 #: Cost, in scaled Jacobian, of moving all nodes by their shortest edge: nodes without effect stay.
 MOVE_COST = 0.05
@@ -83,6 +84,7 @@ def solve(
     radius: float,
     may_decrease: bool = False,
     margin: float = INITIAL_MARGIN,
+    vertex: Vertex | None = None,
 ) -> LPSolution | None:
     """Find the lengths of the steps that raise the least most; None where the program has no solution.
 
@@ -102,6 +104,8 @@ def solve(
         The least may fall, so that the constant bounds can be kept.
     margin : float
         Distance of a model from its bound, in radii, up to which the program begins with it.
+    vertex : Vertex, optional
+        Where an earlier program ended, and this one begins; changed to where this one ends.
 
     Returns
     -------
@@ -113,10 +117,15 @@ def solve(
     if not np.abs(program.matrix.values).max(initial=0.0) < MAX_COEFFICIENT:
         return None  # a node is so far away that no step can be found with the others
     limits, matrix, solver = program.limits, program.matrix, GrowingProgram(program.cost, program.lower, program.upper)
-    taken, order = limits < margin * radius, []
+    vertex = vertex or Vertex()
+    names, row_names = names_of_unknowns(nodes, directions), names_of_models(constraints.nodes, constraints.has_gain)
+    at_limit = vertex.rows(row_names)
+    taken, order = at_limit | (limits < margin * radius), []
     added = np.flatnonzero(taken)
     while True:
         solver.add_rows(*matrix.rows(added), limits[added])
+        if vertex.is_known and not order:
+            solver.begin_at(vertex.unknowns(names), at_limit[added])
         order.append(added)
         solved = solver.solve()
         if solved is None:
@@ -126,6 +135,8 @@ def solve(
         if not below.any():
             of_all = np.zeros(limits.size)
             of_all[np.concatenate(order)] = multipliers
+            at = np.where(x <= program.lower, 0, np.where(x >= program.upper, 2, 1))
+            vertex.remember(names, at, row_names, of_all > 0)
             return LPSolution(x[:-1], float(x[-1]), of_all)
         taken |= below
         added = np.flatnonzero(below)

@@ -1,4 +1,7 @@
-"""Linear programs that grow: rows are added to a program that is solved already, and few steps lead on from there."""
+"""Linear programs that grow: rows are added to a program that is solved already, and few steps lead on from there.
+
+A program can also begin where an earlier one, about other unknowns and rows with the same names, has ended.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +16,10 @@ _OPTIONS = {
     "simplex_dual_edge_weight_strategy": 1,  # Devex
     "threads": 1,
 }
+
+
+_LOWER, _BASIC, _UPPER = (getattr(highspy.HighsBasisStatus, name) for name in ("kLower", "kBasic", "kUpper"))
+_OF_UNKNOWN, _OF_ROW = np.array([_LOWER, _BASIC, _UPPER], dtype=object), np.array([_BASIC, _UPPER], dtype=object)
 
 
 class _Quiet(highspy.Highs):
@@ -42,6 +49,16 @@ class GrowingProgram:
         status = self._solver.addRows(limits.size, below, limits, columns.size, start, columns, values)
         if status == highspy.HighsStatus.kError:
             raise ValueError("HiGHS refuses the rows: expected columns that exist, each once in a row")
+
+    def begin_at(self, unknowns: np.ndarray, rows: np.ndarray) -> None:
+        """Begin at a vertex: unknowns (u,) int that are at their lower bound (0), at none (1) or at the upper one (2).
+
+        Of the rows, (r,) bool, some are at their limits. Where this is not the vertex of a basis, the nearest one is.
+        """
+        basis = highspy.HighsBasis()
+        basis.col_status, basis.row_status = _OF_UNKNOWN[unknowns].tolist(), _OF_ROW[rows.astype(int)].tolist()
+        basis.valid = basis.alien = True
+        self._solver.setBasis(basis)
 
     def solve(self) -> tuple[np.ndarray, np.ndarray] | None:
         """Return x (u,) and the multipliers of the rows in the order in which they were added, not negative.

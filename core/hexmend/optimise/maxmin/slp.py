@@ -24,6 +24,7 @@ from hexmend.optimise.maxmin.directions import step_directions
 from hexmend.optimise.maxmin.envelope import Envelope
 from hexmend.optimise.maxmin.linear_program import INITIAL_MARGIN, SMALL_MARGIN, LinearConstraints, solve
 from hexmend.optimise.maxmin.slp_config import SLP, SLPConfig
+from hexmend.optimise.maxmin.vertex import Vertex
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +111,7 @@ class MaxMinOptimiser:
     ):
         self.config = config
         self.points, self.corners = points, MovableCorners(mesh, points, measure)
-        self.envelope, self.programs = Envelope(mesh.n_nodes, sliding), 0
+        self.envelope, self.programs, self._vertex = Envelope(mesh.n_nodes, sliding), 0, Vertex()
         self.at_maximum = self.band_limits = False
         self._begin()
 
@@ -236,16 +237,19 @@ class MaxMinOptimiser:
         """Fix the nodes of corners that hold each other, so that the corners above them can be raised further."""
         self.corners.freeze(8 * active.hexes + active.corners)
 
-    def release(self, active: ActiveCorners) -> bool:
+    def release(self, active: ActiveCorners, around: bool = False) -> bool:
         """Let nodes of corners that hold each other leave their curve or the surface; return True if any was released.
 
         Nodes of curves go onto the patches first, and leave the surface where that is not enough. Where a hex is
-        inverted they leave it at once, and corners of the surface too if no other node is left.
+        inverted they leave it at once, and corners of the surface too if no other node is left. With `around`, nodes of
+        the hexes around these corners follow.
         """
         envelope, sliding, mesh = self.envelope, self.envelope.sliding, self.mesh
         if sliding is None or not envelope.max_deviation > 0:
             return False
         holding = np.unique(self.corners.nodes_of(8 * active.hexes + active.corners))
+        if around:
+            holding = np.unique(mesh.hexes[self.corners.hexes_at(holding)])
         nodes = holding[envelope.slides(holding) & ~sliding.confined[holding]]
         if active.least > 0:
             of_curves = nodes[sliding.node_class[nodes] == NodeClass.CURVE]
@@ -301,7 +305,8 @@ class MaxMinOptimiser:
             directions = constrained_directions(directions, nodes, size[nodes], motion)
         on_surface = envelope.sliding is not None and not envelope.released.any()
         margin = SMALL_MARGIN if on_surface else INITIAL_MARGIN
-        solved = solve(nodes, directions, constraints.concatenate(bounds), radius, outside is not None, margin)
+        models_and_bounds = constraints.concatenate(bounds)
+        solved = solve(nodes, directions, models_and_bounds, radius, outside is not None, margin, self._vertex)
         if solved is None:
             return 0.0, self.points, nodes
         self.at_maximum = solved.gain <= self.config.no_gain * radius

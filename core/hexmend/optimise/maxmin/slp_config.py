@@ -70,8 +70,8 @@ class SLPConfig:
     return_step: float = 0.2
     min_return_step: float = 0.005
     return_loss: float = 0.01
-    return_window: int = 40
-    return_pace: float = 0.95
+    return_window: int = 20
+    return_pace: float = 0.9
     return_tolerance: float = 1e-6
     band_excess: float = 1e-5
 
