@@ -28,6 +28,9 @@ class MaxMinConfig:
         Minimum scaled Jacobian below which nodes leave their curves and the surface, and groups are frozen.
     programs_per_iteration : int
         Number of linear programs per iteration of the run.
+    fruitless_groups : int
+        Groups on end that may bring nothing before no further one is frozen; after half of them nodes around those that
+        leave the surface leave it, too.
     max_groups, max_groups_off_surface : int
         Groups of corners that are raised one after another, at most; the second while nodes leave the surface.
     surface_share : float
@@ -55,6 +58,8 @@ class MaxMinConfig:
         More times that nodes leave the band, at most, while the least is below `acceptable`.
     detour_factors : tuple of float
         Width of the band in such a detour, as a multiple: the next one where a detour has brought nothing.
+    at_band : float
+        Share of the width from which on the band has limited a detour.
     target_growth : float
         Factor of the least at which a detour ends, with the next width.
     detour_programs, programs_between : int
@@ -70,6 +75,7 @@ class MaxMinConfig:
     barrier_safe: float = 0.02
     acceptable: float = SLP.acceptable
     programs_per_iteration: int = 3
+    fruitless_groups: int = 6
     max_groups: int = 10
     max_groups_off_surface: int = 30
     surface_share: float = 1 / 3
@@ -83,6 +89,7 @@ class MaxMinConfig:
     returned_share: float = 0.5
     detours: int = 8
     detour_factors: tuple[float, ...] = (2.0, 3.0, 4.0)
+    at_band: float = 0.95
     target_growth: float = 1.3
     detour_programs: int = 90
     programs_between: int = 60
@@ -136,7 +143,7 @@ def maximise_minimum(
         The first group that was stuck: it limits the least of all. None if none was after `max_programs`.
     """
     yield Step(optimiser.points, {"least": optimiser.least}, intermediate=True, infeasible=infeasible)
-    begin = optimiser.programs
+    begin, reached, fruitless = optimiser.programs, -np.inf, 0
     first, end = None, begin + max_programs
     while True:
         active = yield from _raise_group(optimiser, target, infeasible, end, config)
@@ -145,14 +152,16 @@ def maximise_minimum(
         releasable = active.least < release_below
         if optimiser.programs > end:
             return first or (None if releasable else active)
-        if releasable and optimiser.release(active):
+        fruitless = fruitless + 1 if active.least < reached + SLP.min_gain else 0
+        reached = active.least
+        if releasable and optimiser.release(active, fruitless >= config.fruitless_groups // 2):
             continue
         if active.least < give_up_below:
             break
         if first is None:
             first, end = active, min(end, 2 * optimiser.programs - begin)
         groups -= 1
-        if active.least >= config.acceptable or not groups:
+        if active.least >= config.acceptable or not groups or fruitless > config.fruitless_groups:
             break
         optimiser.freeze(active)
     return first or active

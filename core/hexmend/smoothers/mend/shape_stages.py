@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm, energy_of
-from hexmend.iteration import Step
+from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
@@ -51,6 +51,8 @@ class ShapeStages:
         if energy.ranks.any(omitted) and not self.settings.slides_on(mesh):
             decision = omission_message(energy.count(locked), energy.count(omitted & ~locked))
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
+        if energy.faceted and self.settings.maximises_jacobian and untangled.left(locked, energy):
+            return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)  # the stages that follow free nodes, or raise corners
         energy = energy.with_objective(energy.norm, omitted)
         config = ShapeOptimumConfig(newton=NewtonConfig(self.settings.solver_iterations, deflated=True))
         steps = optimise_shape(energy, points, self.settings.p_limit, intermediate, config)

@@ -11,7 +11,7 @@ from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.quality.regressions import REGRESSION_KEYS
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.maxmin import MAXMIN
-from hexmend.smoothers.mend.surface.detours import MaxMinResult, improve_off_surface, raise_in_wider_band
+from hexmend.smoothers.mend.surface.detours import MaxMinResult, improve_off_surface
 from tests.core.boundary.solids import ball, slid
 from tests.core.smoothers.mend.walks import walked
 
@@ -104,22 +104,3 @@ def test_what_is_better_off_the_surface_and_back_in_its_band_is_taken():
     assert off.corners.movable_minimum > other.corners.movable_minimum
     assert 0.5 * room < off.envelope.largest_deviation(off.points) <= room * (1 + 1e-5)
     assert not off.envelope.flips_allowed
-
-
-@pytest.mark.parametrize(("factor", "goes_on"), [(1.0, False), (1 + 1e-6, False), (5.0, True)])
-def test_in_a_wider_band_the_least_is_raised_further_where_that_pays(factor, goes_on):
-    mesh = slid(ball(3), 0.3, 1)
-    room = 0.05 * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, max_deviation=room)
-    optimiser = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    *_, limit = optimiser.steps()
-    before = MaxMinResult(optimiser, limit)
-    steps, after = walked(raise_in_wider_band(before, factor * room))
-    assert (after is not before) == goes_on
-    assert bool(steps) == goes_on
-    if goes_on:
-        assert after.least >= 1.25 * before.least
-        assert after.optimiser.envelope.largest_deviation(after.optimiser.points) <= factor * room * (1 + 1e-5)
-        assert all(step.infeasible for step in steps[:-1])
-        assert steps[-1].points is after.optimiser.points
-        assert not steps[-1].infeasible

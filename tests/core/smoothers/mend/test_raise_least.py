@@ -20,7 +20,7 @@ class StandIn:
     def __init__(self, limits, steps=0, releases=0):
         self.points, self.least = np.zeros((8, 3)), -1.0
         self._limits, self._steps, self._releases = iter(limits), steps, releases
-        self.asked, self.frozen, self.released = [], [], []
+        self.asked, self.frozen, self.released, self.released_around = [], [], [], []
         self.programs = 0
 
     def steps(self, aim):
@@ -33,8 +33,9 @@ class StandIn:
     def freeze(self, limit):
         self.frozen.append(limit.least)
 
-    def release(self, limit):
+    def release(self, limit, around=False):
         self.released.append(limit.least)
+        self.released_around.append(around)
         return len(self.released) <= self._releases
 
 
@@ -85,6 +86,21 @@ def test_nodes_are_released_below_a_value_as_often_as_there_are_any_before_a_gro
     raised(raising, 0.5, 0.1, groups=3)
     assert raising.released == [0.0, 0.05, 0.09]
     assert raising.frozen == [0.09, 0.1]
+
+
+def test_where_releases_bring_nothing_nodes_around_follow():
+    raising = StandIn([limit_at(least) for least in (0.01, 0.05, 0.05, 0.0501, 0.0502, 0.06, 0.2)], releases=6)
+    raised(raising, 0.15, 0.1, groups=1)
+    assert raising.released_around == [False, False, False, False, True, False]
+
+
+def test_no_more_groups_are_frozen_after_so_many_that_bring_nothing():
+    raising = StandIn([limit_at(0.05)] * 30)
+    raised(raising, 0.5, groups=30)
+    assert len(raising.frozen) == MAXMIN.fruitless_groups + 1
+    rising = StandIn([limit_at(0.01 * (k // 6)) for k in range(30)])
+    raised(rising, 0.5, groups=29)
+    assert len(rising.frozen) == 28
 
 
 @pytest.mark.parametrize("infeasible", [False, True])

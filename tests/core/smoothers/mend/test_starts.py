@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend.iteration import Step
-from hexmend.smoothers.mend.surface.starts import raise_from_better, while_promising
+from hexmend.smoothers.mend.surface.starts import improve_within_reach, raise_from_better, while_promising
 from tests.core.grids import grid
 from tests.core.smoothers.mend.walks import walked
 
@@ -87,3 +87,26 @@ def test_steps_towards_a_start_end_where_their_least_stays_lower_than_at_another
 
     steps, found = walked(while_promising(towards_a_start(), mesh, [points_at(0.3), points_at(0.7)], 3))
     assert (len(steps), found) == (taken, result)
+
+
+@pytest.mark.parametrize(
+    ("rising", "taken"),
+    [
+        ([0.05, 0.06, 0.07, 0.08, 0.09], 4),  # 0.01 a step do not lead to 0.2 in ten steps
+        ([0.05, 0.07, 0.09, 0.11, 0.13, 0.15], None),
+        ([0.05, 0.21, 0.21, 0.21, 0.21, 0.21], None),  # reached: no prospect is asked for any more
+    ],
+)
+def test_points_are_improved_to_the_end_or_until_the_least_is_out_of_reach(rising, taken):
+    improved = []
+    points = [np.full((8, 3), value) for value in rising]
+
+    def steps():
+        for of, value in zip(points, rising, strict=True):
+            yield Step(of, {"least": value})
+        return np.full((8, 3), 9.0)
+
+    shown, ended = walked(improve_within_reach(SimpleNamespace(improve_to=improved.append), steps(), 0.2, 10))
+    assert ended == (taken is None)
+    assert len(shown) == (taken or len(rising))
+    assert [of[0, 0] for of in improved] == [9.0 if ended else rising[taken - 1]]

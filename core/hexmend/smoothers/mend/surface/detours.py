@@ -118,7 +118,7 @@ def improve_off_surface(
     far, factors = config.off_surface_limit * starts[0].mesh.mean_edge_length, iter(config.detour_factors)
     target, factor, result = config.off_surface_factor * config.acceptable, next(factors), reached
     for optimiser in starts:
-        result = yield from _detour(optimiser, limits, far, target, result, config)
+        result, _ = yield from _detour(optimiser, limits, far, target, result, config)
         if result.least > 0:
             break
     for _ in range(config.detours):
@@ -129,10 +129,12 @@ def improve_off_surface(
         limit = fork.envelope.max_deviation
         if result is reached:
             limit = limits[-1] if least > 0 else limits[0]
-        result = yield from _detour(fork, [limit], factor * limit, target, result, config, config.detour_programs)
+        result, was_limited = yield from _detour(
+            fork, [limit], factor * limit, target, result, config, config.detour_programs
+        )
         if not result.gains(least, config.worth_widening):
             factor, target = next(factors, None), config.target_growth * target
-            if factor is None:
+            if factor is None or not was_limited:
                 break
     if result is reached:
         yield result.step()
@@ -173,19 +175,6 @@ def raise_nearer(
     return nearer if nearer.least >= config.returned_share * result.least else result
 
 
-def raise_in_wider_band(
-    result: MaxMinResult, max_deviation: float, config: MaxMinConfig = MAXMIN
-) -> Generator[Step, None, MaxMinResult]:
-    """Raise the least in a wider band, where that gains enough; else return `result`."""
-    if not result.optimiser.envelope.max_deviation * (1 + result.optimiser.config.band_excess) < max_deviation:
-        return result
-    higher = yield from infeasible(raise_within_tolerance(result.optimiser.fork(), max_deviation, config=config))
-    if not higher.gains(result.least, config.worth_leaving):
-        return result
-    yield higher.step()
-    return higher
-
-
 def _detour(
     optimiser: MaxMinOptimiser,
     limits: Sequence[float],
@@ -194,8 +183,11 @@ def _detour(
     reached: MaxMinResult,
     config: MaxMinConfig,
     max_programs: float = np.inf,
-) -> Generator[Step, None, MaxMinResult]:
-    """Raise the least to a target in a band as wide as `far`, and return to a limit; `reached` if that is no gain."""
+) -> Generator[Step, None, tuple[MaxMinResult, bool]]:
+    """Raise the least to a target in a band as wide as `far`, and return to a limit; `reached` if that is no gain.
+
+    Returns that, and whether the target or the band has ended the rise: if not, a wider detour goes the same way.
+    """
     envelope, least_before = optimiser.envelope, reached.least
     envelope.limit_to(limits[-1])
     enough, share = 0.0 if least_before <= 0 else config.acceptable, config.returned_share
@@ -210,18 +202,20 @@ def _detour(
             max_programs=max_programs,
             config=config,
         )
+        widest = envelope.largest_deviation(optimiser.points)
+        was_limited = optimiser.corners.active_minimum >= target or widest >= config.at_band * far
         first_lowest = least_before - (1 - share) * abs(least_before)
         band = yield from _return_to_bands(optimiser, limits, first_lowest, max(least_before, enough), config)
     if band is None:
-        return reached
+        return reached, was_limited
     rising = raise_within_tolerance(optimiser, band, config.programs_between, config)
     if not optimiser.corners.movable_minimum < least_before:
-        return (yield from rising)
+        return (yield from rising), was_limited
     result = yield from infeasible(rising, every=1)  # lower at first than what is reached
     if not result.least > least_before:
-        return reached
+        return reached, was_limited
     yield result.step()
-    return result
+    return result, was_limited
 
 
 def _return_to_bands(

@@ -20,7 +20,6 @@ from hexmend.smoothers.mend.shape_optimum import ShapeOptimum
 from hexmend.smoothers.mend.surface.detours import (
     MaxMinResult,
     improve_off_surface,
-    raise_in_wider_band,
     raise_nearer,
     raise_to_the_end,
     raise_within_tolerance,
@@ -101,9 +100,7 @@ class LeavingSurface:
         wanted = MAXMIN.acceptable
         wanted = wanted if self.settings.maximises_jacobian else min(wanted, MAXMIN.barrier_safe)
         if not tolerance > 0 or result.least >= wanted:
-            result = yield from raise_to_the_end(result)
-            wider = self.settings.maximises_jacobian and result.optimiser.envelope.released.any()
-            return (yield from raise_in_wider_band(result, tolerance)) if wider else result
+            return (yield from raise_to_the_end(result))
         optimiser = MaxMinOptimiser(self.mesh, start, self.sliding)
         if measure(result.optimiser.points, self.mesh.hexes).n_inverted:
             self.widened = len(self._limits) > 1
@@ -112,8 +109,7 @@ class LeavingSurface:
         nearer = [share * self.mesh.mean_edge_length for share in MAXMIN.off_surface_tolerances]
         reached = result.optimiser.envelope.max_deviation / (1 + SLP.band_excess)
         limits = [limit for limit in nearer if reached <= limit < (1 - MAXMIN.worth_widening) * tolerance]
-        result = yield from improve_off_surface([optimiser], [*limits, tolerance], result, wanted)
-        return (yield from raise_in_wider_band(result, tolerance)) if self.settings.maximises_jacobian else result
+        return (yield from improve_off_surface([optimiser], [*limits, tolerance], result, wanted))
 
     def boundary(self, result: MaxMinResult | None) -> SlidingBoundary:
         """The boundary with the nodes free that left the surface, in the band of a result; as it was without one."""
@@ -182,6 +178,11 @@ class LeavingSurface:
         """Tolerance for quads while nodes slide, for one of `tolerances`: without a limit, the last has none."""
         unlimited = self.settings.surface_tolerance == UNLIMITED and tolerance == self.tolerances[-1]
         return np.inf if unlimited else tolerance
+
+    @property
+    def may_leave(self) -> bool:
+        """Nodes leave the surface where it holds the minimum scaled Jacobian down: that is the goal, and some can."""
+        return self.settings.maximises_jacobian and self._tolerance > 0 and bool(self.sliding.leavable.any())
 
     @property
     def nearly_untangled(self) -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.floors.central_path import PATH
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.optimise.maxmin.slp_config import SLP
 from hexmend.parameters import AUTO
@@ -18,7 +19,7 @@ from hexmend.smoothers.mend.shape_stages import ShapeStages
 from hexmend.smoothers.mend.surface.detours import MaxMinResult, raise_to_the_end
 from hexmend.smoothers.mend.surface.leaving_surface import LeavingSurface
 from hexmend.smoothers.mend.surface.release import infeasible
-from hexmend.smoothers.mend.surface.starts import raise_from_better
+from hexmend.smoothers.mend.surface.starts import improve_within_reach, raise_from_better
 
 
 class MaxMinStages(ShapeStages):
@@ -68,11 +69,23 @@ class MaxMinStages(ShapeStages):
         """
         result = yield from leaving.untangle(optimum, candidates)
         if result is None:
-            result = yield from self._maxmin_stage(leaving.mesh, candidates, leaving.sliding, fixed)
+            wanted = MAXMIN.acceptable if leaving.may_leave else -np.inf
+            result = yield from self._maxmin_stage(leaving.mesh, candidates, leaving.sliding, fixed, wanted)
             if result is None:
                 return None
+        was_left = result.active is None  # the surface, before the least was as high there as it can be
+        result = yield from self._raise_on_and_off(leaving, optimum, result)
+        if was_left and not result.optimiser.envelope.released.any():
+            result = yield from self._maxmin_stage(leaving.mesh, [result.optimiser.points], leaving.sliding)
+            result = yield from self._raise_on_and_off(leaving, optimum, result)
+        return result
+
+    def _raise_on_and_off(
+        self, leaving: LeavingSurface, optimum: np.ndarray, result: MaxMinResult
+    ) -> Generator[Step, None, MaxMinResult]:
+        """Raise the least further from a result, in wider bands on the surface, then with nodes that leave it."""
         on_surface = self.settings.maximises_jacobian and not leaving.nearly_untangled
-        on_surface = on_surface and not result.optimiser.envelope.released.any()
+        on_surface = on_surface and not result.optimiser.envelope.released.any() and result.active is not None
         direct, tried, released = result, leaving.sliding.max_deviation, None
         for tolerance in leaving.tolerances:
             bands = self._bands(leaving.mesh, leaving.sliding_tolerance(tolerance))
@@ -84,8 +97,8 @@ class MaxMinStages(ShapeStages):
                 tried = bands[-1]
             result = yield from leaving.raise_least(optimum, result, tolerance)
             on_surface = on_surface and not result.optimiser.envelope.released.any()
-            if self.settings.maximises_jacobian and result is not released:
-                result = released = yield from self._raise_released(leaving, result)
+            if self.settings.maximises_jacobian:
+                result = released = yield from self._raise_released(leaving, result, tolerance, result is released)
         return result
 
     def _maxmin_stage(
@@ -94,11 +107,12 @@ class MaxMinStages(ShapeStages):
         candidates: Sequence[np.ndarray],
         sliding: SlidingBoundary | None,
         fixed: MaxMinResult | None = None,
+        wanted: float = -np.inf,
     ) -> Generator[Step, None, MaxMinResult | None]:
         """Raise the minimum scaled Jacobian from the best of some points (n, 3), where it is the goal or not sound.
 
         None where shape is the goal and the least is sound. The result is no lower than `fixed`, that with the boundary
-        fixed.
+        fixed. It names no active corners where it becomes clear that the central path does not reach `wanted`.
         """
         optimisers = (MaxMinOptimiser(mesh, points, sliding) for points in candidates)
         best = max(optimisers, key=lambda optimiser: optimiser.corners.active_minimum)
@@ -107,11 +121,13 @@ class MaxMinStages(ShapeStages):
         target = np.inf if self.settings.maximises_jacobian else MAXMIN.barrier_safe
         reached = None if fixed is None else MaxMinOptimiser(mesh, fixed.optimiser.points, sliding)
 
-        def raise_least(optimiser: MaxMinOptimiser) -> Generator[Step, None, ActiveCorners]:
+        def raise_least(optimiser: MaxMinOptimiser) -> Generator[Step, None, ActiveCorners | None]:
             groups = MAXMIN.max_groups
             if self.settings.maximises_jacobian and optimiser.corners.active_minimum > 0:
                 energy = self._sound_energy(mesh, optimiser.points, sliding)
-                optimiser.improve_to((yield from raise_jacobian(energy, optimiser.points)))
+                steps = raise_jacobian(energy, optimiser.points)
+                if not (yield from improve_within_reach(optimiser, steps, wanted, PATH.max_floors)):
+                    return None
                 groups = 1
             return (yield from maximise_minimum(optimiser, target, groups=groups))
 
@@ -176,18 +192,36 @@ class MaxMinStages(ShapeStages):
         yield higher.step()
         return higher
 
-    def _raise_released(self, leaving: LeavingSurface, result: MaxMinResult) -> Generator[Step, None, MaxMinResult]:
-        """Raise along the central path where nodes have left the surface, then to the end."""
+    def _raise_released(
+        self, leaving: LeavingSurface, result: MaxMinResult, tolerance: float, was_raised: bool
+    ) -> Generator[Step, None, MaxMinResult]:
+        """Raise the least where nodes have left the surface: within the tolerance, if that gains enough.
+
+        Otherwise it is raised in the band of the result, unless it was already.
+        """
         if not result.optimiser.envelope.released.any() or not result.least > 0:
             return result
-        around = leaving.boundary(result)
-        energy = self._sound_energy(around.mesh, result.optimiser.points, around)
-        points = yield from infeasible(raise_jacobian(energy, result.optimiser.points))
-        optimiser = yield from infeasible(leaving.returned(result, points))
-        if not optimiser.corners.movable_minimum > MAXMIN.returned_share * result.least:
-            return result
-        higher = yield from infeasible(raise_to_the_end(MaxMinResult(optimiser, None)))
-        if not higher.least > result.least:
+        if result.optimiser.envelope.max_deviation * (1 + SLP.band_excess) < tolerance:
+            wide = result.optimiser.fork()
+            wide.envelope.limit_to(tolerance)
+            higher = yield from self._raise_along_path(leaving, MaxMinResult(wide, None))
+            if higher is not None and higher.gains(result.least, MAXMIN.worth_leaving):
+                yield higher.step()
+                return higher
+        higher = None if was_raised else (yield from self._raise_along_path(leaving, result))
+        if higher is None or not higher.least > result.least:
             return result
         yield higher.step()
         return higher
+
+    def _raise_along_path(
+        self, leaving: LeavingSurface, start: MaxMinResult
+    ) -> Generator[Step, None, MaxMinResult | None]:
+        """Raise along the central path from a start in its band, then to the end; None where the path ends too low."""
+        around = leaving.boundary(start)
+        energy = self._sound_energy(around.mesh, start.optimiser.points, around)
+        points = yield from infeasible(raise_jacobian(energy, start.optimiser.points))
+        optimiser = yield from infeasible(leaving.returned(start, points))
+        if not optimiser.corners.movable_minimum > MAXMIN.returned_share * start.least:
+            return None
+        return (yield from infeasible(raise_to_the_end(MaxMinResult(optimiser, None))))

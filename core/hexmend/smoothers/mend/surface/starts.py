@@ -50,11 +50,36 @@ def raise_from_better(
     MaxMinResult
         No lower than either start.
     """
-    steps, least = raise_least(promising), -np.inf if reached is None else reached.corners.movable_minimum
-    active = yield from _while_it_can_reach(least, steps, trial_iterations)
+    least = -np.inf if reached is None else reached.corners.movable_minimum
+    active, _ = yield from _until(_Prospect(least, trial_iterations).is_poor, raise_least(promising))
     if reached is not None and promising.corners.movable_minimum < least:
         return MaxMinResult(reached, (yield from raise_least(reached)))
     return MaxMinResult(promising, active)
+
+
+def improve_within_reach(
+    optimiser: MaxMinOptimiser, steps: Generator[Step, None, np.ndarray], least: float, iterations: int
+) -> Generator[Step, None, bool]:
+    """Yield steps to points (n, 3) with a higher least, or until it is clear that the least does not reach a value.
+
+    Parameters
+    ----------
+    optimiser : MaxMinOptimiser
+        Goes on from the last points, if their least is higher.
+    steps : generator of Step
+    least : float
+        The value.
+    iterations : int
+        Number of steps in which it is to be reached.
+
+    Returns
+    -------
+    bool
+        The steps came to their end.
+    """
+    points, last = yield from _until(_Prospect(least, iterations).is_poor, steps)
+    optimiser.improve_to(points if last is None else last.points)
+    return last is None
 
 
 def while_promising(
@@ -81,32 +106,43 @@ def while_promising(
         return (yield from steps)
     best = max(MovableCorners(mesh, points).active_minimum for points in others)
     lower = 0
-    while lower < patience:
-        try:
-            step = next(steps)
-        except StopIteration as end:
-            return end.value
-        yield step
+
+    def is_lower(step: Step) -> bool:
+        nonlocal lower
         lower = lower + 1 if MovableCorners(mesh, step.points).active_minimum < best else 0
-    return None
+        return lower == patience
+
+    result, _ = yield from _until(is_lower, steps)
+    return result
 
 
-def _while_it_can_reach(
-    least: float, steps: Generator[Step, None, ActiveCorners | None], iterations: int
-) -> Generator[Step, None, ActiveCorners | None]:
-    """Yield steps that raise the least to their end, or until it is clear that so many do not reach `least`."""
-    history = list[float]()
+def _until(
+    ends: Callable[[Step], bool], steps: Generator[Step, None, T]
+) -> Generator[Step, None, tuple[T | None, Step | None]]:
+    """Yield steps to their end, or until after one of them they are to end; returns their result, or this step."""
     while True:
         try:
             step = next(steps)
         except StopIteration as end:
-            return end.value
+            return end.value, None
         yield step
+        if ends(step):
+            return None, step
+
+
+class _Prospect:
+    """Prospect that steps, so many at most, raise the least to a value."""
+
+    def __init__(self, least: float, iterations: int):
+        self._least, self._iterations, self._history = least, iterations, list[float]()
+
+    def is_poor(self, step: Step) -> bool:
+        """Return True if it is clear after one more step that the value is not reached."""
+        history, least = self._history, self._least
         history.append(float(step.diagnostics["least"]))
         if max(history) >= least:
-            return (yield from steps)
-        left, last = iterations - len(history), history[-1] - history[-2] if len(history) > 1 else np.inf
+            return False
+        left, last = self._iterations - len(history), history[-1] - history[-2] if len(history) > 1 else np.inf
         gain = history[-1] - history[-1 - _WINDOW] if len(history) > _WINDOW else np.inf
         gain = min(max(gain, 0.0) / _WINDOW, _SLOWING * max(last, 0.0))
-        if left <= 0 or history[-1] + gain * left < least:
-            return None
+        return left <= 0 or history[-1] + gain * left < least
