@@ -193,11 +193,11 @@ class MaxMinStages(ShapeStages):
         return higher
 
     def _raise_released(
-        self, leaving: LeavingSurface, result: MaxMinResult, tolerance: float, was_raised: bool
+        self, leaving: LeavingSurface, result: MaxMinResult, tolerance: float, only_wider: bool
     ) -> Generator[Step, None, MaxMinResult]:
         """Raise the least where nodes have left the surface: within the tolerance, if that gains enough.
 
-        Otherwise it is raised in the band of the result, unless it was already.
+        Otherwise it is raised in the band of the result, unless `only_wider` says that it was already.
         """
         if not result.optimiser.envelope.released.any() or not result.least > 0:
             return result
@@ -208,7 +208,7 @@ class MaxMinStages(ShapeStages):
             if higher is not None and higher.gains(result.least, MAXMIN.worth_leaving):
                 yield higher.step()
                 return higher
-        higher = None if was_raised else (yield from self._raise_along_path(leaving, result))
+        higher = None if only_wider else (yield from self._raise_along_path(leaving, result))
         if higher is None or not higher.least > result.least:
             return result
         yield higher.step()
