@@ -111,21 +111,38 @@ def solve(
     -------
     LPSolution or None
     """
-    from hexmend.optimise.maxmin.simplex import GrowingProgram  # 10 ms that a command without such steps saves
-
     program = build_program(nodes, directions, constraints, radius, may_decrease)
     if not np.abs(program.matrix.values).max(initial=0.0) < MAX_COEFFICIENT:
         return None  # a node is so far away that no step can be found with the others
-    limits, matrix, solver = program.limits, program.matrix, GrowingProgram(program.cost, program.lower, program.upper)
     vertex = vertex or Vertex()
     names, row_names = names_of_unknowns(nodes, directions), names_of_models(constraints.nodes, constraints.has_gain)
-    at_limit = vertex.rows(row_names)
-    taken, order = at_limit | (limits < margin * radius), []
-    added = np.flatnonzero(taken)
+    begin = (vertex.unknowns(names), vertex.rows(row_names)) if vertex.is_known else None
+    solved = _solve_with_needed_rows(program, program.limits < margin * radius, begin)
+    if solved is None:
+        return None
+    x, multipliers = solved
+    at = np.where(x <= program.lower, 0, np.where(x >= program.upper, 2, 1))
+    vertex.remember(names, at, row_names, multipliers > 0)
+    return LPSolution(x[:-1], float(x[-1]), multipliers)
+
+
+def _solve_with_needed_rows(
+    program: LinearProgram, taken: np.ndarray, begin: tuple[np.ndarray, np.ndarray] | None
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return x (u,) and the multipliers (r,) of a program that begins with some rows (r,), bool; None if there is none.
+
+    It begins at a vertex: the unknowns (u,) and rows (r,) that are at their bounds, as `Vertex` has them.
+    """
+    from hexmend.optimise.maxmin.simplex import GrowingProgram  # 10 ms that a command without such steps saves
+
+    limits, matrix, solver = program.limits, program.matrix, GrowingProgram(program.cost, program.lower, program.upper)
+    if begin is not None:
+        taken = taken | begin[1]
+    order, added = list[np.ndarray](), np.flatnonzero(taken)
     while True:
         solver.add_rows(*matrix.rows(added), limits[added])
-        if vertex.is_known and not order:
-            solver.begin_at(vertex.unknowns(names), at_limit[added])
+        if begin is not None and not order:
+            solver.begin_at(begin[0], begin[1][added])
         order.append(added)
         solved = solver.solve()
         if solved is None:
@@ -135,11 +152,8 @@ def solve(
         if not below.any():
             of_all = np.zeros(limits.size)
             of_all[np.concatenate(order)] = multipliers
-            at = np.where(x <= program.lower, 0, np.where(x >= program.upper, 2, 1))
-            vertex.remember(names, at, row_names, of_all > 0)
-            return LPSolution(x[:-1], float(x[-1]), of_all)
-        taken |= below
-        added = np.flatnonzero(below)
+            return x, of_all
+        taken, added = taken | below, np.flatnonzero(below)
 
 
 @dataclass(frozen=True, eq=False)

@@ -143,8 +143,8 @@ def maximise_minimum(
         The first group that was stuck: it limits the least of all. None if none was after `max_programs`.
     """
     yield Step(optimiser.points, {"least": optimiser.least}, intermediate=True, infeasible=infeasible)
-    begin, reached, fruitless = optimiser.programs, -np.inf, 0
-    first, end = None, begin + max_programs
+    begin, reached, fruitless, first = optimiser.programs, -np.inf, 0, None
+    end = begin + max_programs
     while True:
         active = yield from _raise_group(optimiser, target, infeasible, end, config)
         if active is None or not active.hexes.size or active.least >= target:
@@ -152,8 +152,7 @@ def maximise_minimum(
         releasable = active.least < release_below
         if optimiser.programs > end:
             return first or (None if releasable else active)
-        fruitless = fruitless + 1 if active.least < reached + SLP.min_gain else 0
-        reached = active.least
+        fruitless, reached = fruitless + 1 if active.least < reached + SLP.min_gain else 0, active.least
         if releasable and optimiser.release(active, fruitless >= config.fruitless_groups // 2):
             continue
         if active.least < give_up_below:
