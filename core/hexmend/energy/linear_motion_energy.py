@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend.arrays import as_immutable_owned, dot, mask
+from hexmend.arrays import as_immutable_owned, dot, index_of, mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.floor_barrier import FloorBarrier
@@ -58,8 +58,6 @@ class LinearMotionEnergy(MeshEnergy):
         The boundary slides.
     """
 
-    has_parts = False
-
     def __init__(self, energy: MeshEnergy):
         super().__init__(energy.mesh, energy.norm, energy.omitted)
         self.unit, self._lengths, self.target = energy.unit, energy._lengths, energy.target
@@ -69,6 +67,15 @@ class LinearMotionEnergy(MeshEnergy):
         self.nodes, self.faceted = self.reduction.nodes, energy.faceted
         self.limits_moves = energy.limits_moves
         self.slides = isinstance(energy, SlidingEnergy)
+        self.has_parts = self.slides and not self.reduction.has_ties
+
+    def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray, x: np.ndarray | None = None) -> MeshEnergy:
+        if not self.has_parts:
+            return super().on_part(part, hexes, nodes, x)
+        motion = self.mesh.linear_motion.renumbered(index_of(nodes, self.mesh.n_nodes))
+        part = part.with_linear_motion(motion).with_fixed(part.fixed)
+        energy = LinearMotionEnergy(self.energy.on_part(part, hexes, nodes, x))
+        return energy.with_barrier(energy.energy.barrier)
 
     def with_objective(self, norm: ObjectiveNorm, omitted: np.ndarray) -> LinearMotionEnergy:
         other = super().with_objective(norm, omitted)

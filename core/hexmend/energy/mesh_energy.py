@@ -129,7 +129,7 @@ class MeshEnergy(TargetScales):
         """Return the mean of a value (m,) of the hexes of all ranks."""
         return self.ranks.sum(float(values[self.counted].sum())) / self.n_hexes
 
-    def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray) -> MeshEnergy:
+    def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray, x: np.ndarray | None = None) -> MeshEnergy:
         """Return the energy of a part of the mesh, as a function of the free nodes of the part.
 
         Parameters
@@ -140,6 +140,8 @@ class MeshEnergy(TargetScales):
             Their numbers in this mesh.
         nodes : (j,) int
             Numbers of its nodes in this mesh.
+        x : (n, 3) float64, optional
+            Positions of all nodes, in mean edge lengths; where nodes slide, those outside the part stay there.
 
         Returns
         -------

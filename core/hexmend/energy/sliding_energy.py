@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from hexmend.arrays import differing_rows, mask, row_norms
+from hexmend.arrays import differing_rows, index_of, mask, row_norms
 from hexmend.boundary import SlidingBoundary
 from hexmend.boundary.sliding.flat_parts import SLIDING_TOLERANCE
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
@@ -16,6 +16,7 @@ from hexmend.energy.mesh_energy import MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import conjugate_gradients
+from hexmend.mesh.mesh import Mesh
 
 #: Length of the probing step for directional derivatives, in mean edge lengths.
 _PROBE_LENGTH = 1e-5
@@ -34,6 +35,44 @@ class Slides(Protocol):
 
     def rejected_nodes(self, before: np.ndarray, after: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
         """Find nodes whose moves harm the boundary, (k,) int."""
+
+
+class PartSliding:
+    """Sliding nodes of a part of a mesh, whose other nodes stay.
+
+    Parameters
+    ----------
+    whole : Slides
+        Those of the mesh.
+    nodes : (j,) int
+        Numbers of the part's nodes in the mesh.
+    points : (n, 3) float64
+        Positions of all nodes of the mesh, in its unit of length.
+    """
+
+    def __init__(self, whole: Slides, nodes: np.ndarray, points: np.ndarray):
+        self._whole, self._nodes, self._points = whole, nodes, points
+        self._number = index_of(nodes, len(points))
+
+    def project(self, x: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+        """See `Slides`."""
+        return self._whole.project(x, self._nodes[nodes])
+
+    def tangent_bases(self, x: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+        """See `Slides`."""
+        return self._whole.tangent_bases(x, self._nodes[nodes])
+
+    def rejected_nodes(self, before: np.ndarray, after: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
+        """See `Slides`."""
+        marks = None if changed is None else mask(self._nodes[changed], len(self._points))
+        rejected = self._number[self._whole.rejected_nodes(self._of_all(before), self._of_all(after), marks)]
+        return rejected[rejected >= 0].astype(np.int64)
+
+    def _of_all(self, points: np.ndarray) -> np.ndarray:
+        """Return the positions of all nodes, (n, 3), of those of the part's nodes, (j, 3)."""
+        merged = self._points.copy()
+        merged[self._nodes] = points
+        return merged
 
 
 class SlidingEnergy(MeshEnergy):
@@ -57,7 +96,6 @@ class SlidingEnergy(MeshEnergy):
         Nodes that are projected.
     """
 
-    has_parts = False
     limits_moves = True
 
     def __init__(
@@ -85,6 +123,17 @@ class SlidingEnergy(MeshEnergy):
         there = super().moved(x, step, alpha)
         there[self.sliding_nodes] = self._on_surface(there[self.sliding_nodes])
         return there
+
+    def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray, x: np.ndarray | None = None) -> SlidingEnergy:
+        energy = SlidingEnergy.__new__(SlidingEnergy)  # of a part of this boundary, not of one of its own
+        MeshEnergy.__init__(energy, part, self.norm, self.omitted[hexes])
+        self._give_to_part(energy, hexes)
+        number = index_of(nodes, self.mesh.n_nodes)
+        sliding, linear = (number[of].astype(np.int64) for of in (self.sliding_nodes, self._linear_nodes))
+        sliding, linear = (of[(of >= 0) & part.free[of]] for of in (sliding, linear))
+        energy._slide(PartSliding(self.sliding, nodes, x * self.unit), sliding)
+        energy._linear_nodes = linear
+        return energy
 
     def _on_surface(self, aims: np.ndarray) -> np.ndarray:
         """Project positions of all sliding nodes, (k, 3) in mean edge lengths; those that are as last time are known.

@@ -58,7 +58,7 @@ class RankEnergy(MeshEnergy):
             low, high = (low, middle) if self.count(values <= middle) > number else (middle, high)
         return high
 
-    def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray) -> RankEnergy:
+    def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray, x: np.ndarray | None = None) -> RankEnergy:
         whole, moving = self.part, np.zeros(self.mesh.n_nodes, dtype=bool)
         moving[nodes] = part.free
         number = np.where(moving, index_of(nodes, self.mesh.n_nodes), -1)

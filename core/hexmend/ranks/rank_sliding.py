@@ -123,6 +123,7 @@ class RankSlidingEnergy(SlidingEnergy, RankEnergy):
         See `MeshEnergy`.
     """
 
+    has_parts = False
     sliding: RankSliding
 
     def __init__(self, sliding: RankSliding, norm: ObjectiveNorm = SQUARES, omitted: np.ndarray | None = None):

@@ -51,6 +51,8 @@ class CentralPathConfig:
         Layers of hexes around those in the bands whose nodes move with them.
     whole : float
         Share of the mesh from which on all its nodes move.
+    whole_sliding : float
+        The same where its boundary slides: nodes around such a part slide with it, which raises the least further.
     max_step : float
         Longest move of a node in a step, in mean lengths of its edges.
     solver_iterations : int
@@ -74,6 +76,7 @@ class CentralPathConfig:
     max_floors: int = 25
     rings: int = 2
     whole: float = 0.5
+    whole_sliding: float = 0.25
     max_step: float = 1.5
     solver_iterations: int = 200
 
@@ -199,7 +202,7 @@ class CentralPath:
             _band(self.energy, self._jacobians - floors.jacobian, scale * config.jacobian_band, config),
             _band(self.energy, self._qualities - floors.quality, scale * config.quality_band, config),
         )
-        energy, hexes, x = self._around(floors, bands)
+        energy, hexes, x = self._around(floors, bands, config)
         energy = energy.with_barrier(hexes.barrier(floors.jacobian, floors.quality, *bands, weight))
         direction = TruncatedNewton(TruncatedNewtonConfig(config.solver_iterations, loosest=0.1))
         for _ in range(config.newton_steps):
@@ -213,16 +216,19 @@ class CentralPath:
                 break
         self._take(hexes, x)
 
-    def _around(self, floors: Least, bands: tuple[float, float]) -> tuple[MeshEnergy, MovableHexes, np.ndarray]:
+    def _around(
+        self, floors: Least, bands: tuple[float, float], config: CentralPathConfig
+    ) -> tuple[MeshEnergy, MovableHexes, np.ndarray]:
         """Energy, hexes and positions of the part of the mesh around the hexes in the bands, or of the whole."""
         near = (self._jacobians < floors.jacobian + bands[0]) | (self._qualities < floors.quality + bands[1])
         mesh, core = self.energy.mesh, near
-        for _ in range(self.config.rings):
+        for _ in range(config.rings):
             core = self.energy.ranks.complete(mask(mesh.hexes[core], mesh.n_nodes))[mesh.hexes].any(axis=1)
-        if not self.energy.has_parts or self.energy.count(core) > self.config.whole * self.energy.n_hexes:
+        whole = config.whole_sliding if self.energy.limits_moves else config.whole
+        if not self.energy.has_parts or self.energy.count(core) > whole * self.energy.n_hexes:
             self._region = None
             return self.energy, self._hexes, self.x
-        self._region = Region(self.energy, np.flatnonzero(core))
+        self._region = Region(self.energy, np.flatnonzero(core), self.x)
         return self._region.energy, MovableHexes(self._region.energy), self._region.inside(self.x)
 
     def _take(self, hexes: MovableHexes, x: np.ndarray) -> None:

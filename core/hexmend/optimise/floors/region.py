@@ -15,9 +15,11 @@ class Region:
     Parameters
     ----------
     energy : MeshEnergy
-        Of the whole mesh; no constraints on its nodes.
+        Of the whole mesh; it has parts.
     hexes : (k,) int
         Hexes whose free nodes move.
+    x : (n, 3) float64
+        Positions of all nodes, in mean edge lengths.
 
     Attributes
     ----------
@@ -27,7 +29,7 @@ class Region:
         Hexes of the part, ascending.
     """
 
-    def __init__(self, energy: MeshEnergy, hexes: np.ndarray):
+    def __init__(self, energy: MeshEnergy, hexes: np.ndarray, x: np.ndarray):
         mesh = energy.mesh
         moves = energy.ranks.complete(mask(mesh.hexes[hexes], mesh.n_nodes) & mesh.free)
         attached = np.flatnonzero(moves[mesh.hexes].any(axis=1))
@@ -35,7 +37,7 @@ class Region:
         self._nodes = np.flatnonzero(mask(mesh.hexes[attached], mesh.n_nodes))
         number = index_of(self._nodes, mesh.n_nodes)
         part = Mesh(mesh.points[self._nodes], number[mesh.hexes[attached]]).with_fixed(~moves[self._nodes])
-        self.energy = energy.on_part(part, attached, self._nodes)
+        self.energy = energy.on_part(part, attached, self._nodes, x)
 
     def inside(self, x: np.ndarray) -> np.ndarray:
         """Return the positions of the part's nodes, of those of the whole mesh, (n, 3)."""

@@ -96,7 +96,7 @@ def test_the_derivatives_of_a_region_are_those_of_the_mesh():
     mesh, node = with_bad_spot()
     energy = MeshEnergy(scrambled(mesh, 0.1, 1), ObjectiveNorm(1.0))
     x = energy.to_edge_units(energy.mesh.points)
-    region = Region(energy, np.flatnonzero((mesh.hexes == node).any(axis=1)))
+    region = Region(energy, np.flatnonzero((mesh.hexes == node).any(axis=1)), x)
     part = region.energy
     nodes = np.flatnonzero((region.merged(np.zeros_like(x), np.ones_like(region.inside(x))) == 1).all(axis=1))
     moved = nodes[part.nodes]
