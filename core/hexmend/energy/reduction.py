@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import index_of
+from hexmend.arrays import index_of, mask
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import conjugate_gradients
@@ -37,23 +37,20 @@ class Reduction:
     def __init__(self, mesh: Mesh):
         motion, n = mesh.linear_motion, mesh.n_nodes
         free = np.flatnonzero(mesh.free)
-        root, turn = motion.roots(n), np.tile(np.eye(3), (n, 1, 1))
-        turn[motion.nodes] = motion.projectors
-        turn[motion.tied] = motion.rotations @ turn[motion.master]
-        self.mesh, self.root = mesh, root
-        self.nodes = free[root[free] == free].astype(np.int32)
-        self.row = index_of(self.nodes, n)[root[free]]
-        self._own, self._tied = np.flatnonzero(root[free] == free), np.flatnonzero(root[free] != free)
-        self._turn = turn[free]
-        self._bent = np.flatnonzero((self._turn != np.eye(3)).any(axis=(1, 2)))
-        self._scales = np.einsum("kii->ki", self._turn).copy()  # all of T in planes and lines of the axes
-        self._skew = self._bent[(self._turn != self._scales[:, :, None] * np.eye(3)).any(axis=(1, 2))[self._bent]]
+        self.mesh, self.root = mesh, motion.roots(n)
+        own = self.root[free] == free
+        self.nodes = free[own].astype(np.int32)
+        self.row = index_of(self.nodes, n)[self.root[free]]
+        self._own, self._tied = np.flatnonzero(own), np.flatnonzero(~own)
+        self._bent, self._turn = _turned_nodes(mesh, free)
+        self._scales = np.einsum("bii->bi", self._turn).copy()  # all of T in planes and lines of the axes
+        self._skew = np.flatnonzero((self._turn != self._scales[:, :, None] * np.eye(3)).any(axis=(1, 2)))
         self._turned: dict[tuple[BlockSparsity, np.dtype], tuple] = {}
         self._others: dict[np.dtype, tuple[np.ndarray, np.ndarray]] = {}
         self._maps: dict[BlockSparsity, tuple[np.ndarray, ...]] = {}
-        own_turn = turn[self.nodes]
-        self._restricted = np.flatnonzero((own_turn != np.eye(3)).any(axis=(1, 2)))
-        self._projectors = own_turn[self._restricted]
+        restricted = np.flatnonzero(own[self._bent])
+        self._restricted = self.row[self._bent[restricted]]  # in `nodes`
+        self._projectors = self._turn[restricted]
 
     @property
     def has_ties(self) -> bool:
@@ -63,16 +60,18 @@ class Reduction:
     def expand(self, steps: np.ndarray) -> np.ndarray:
         """T times steps of the independent nodes, (j, 3): those of all free nodes, (k, 3)."""
         steps = steps.take(self.row, axis=0)
-        turned = np.einsum("kij,kj->ki", self._turn[self._skew], steps[self._skew])
-        steps *= self._scales
-        steps[self._skew] = turned
+        turned = np.einsum("kij,kj->ki", self._turn[self._skew], steps[self._bent[self._skew]])
+        steps[self._bent] *= self._scales
+        steps[self._bent[self._skew]] = turned
         return steps
 
     def contract(self, forces: np.ndarray) -> np.ndarray:
-        """T^T times vectors of all free nodes, (k, 3): those of the independent nodes, (j, 3)."""
-        turned = np.einsum("kji,kj->ki", self._turn[self._skew], forces[self._skew])
-        forces = forces * self._scales
-        forces[self._skew] = turned
+        """T^T times vectors of all free nodes, (k, 3), overwritten: those of the independent nodes, (j, 3)."""
+        turned = np.einsum("kji,kj->ki", self._turn[self._skew], forces[self._bent[self._skew]])
+        forces[self._bent] *= self._scales
+        forces[self._bent[self._skew]] = turned
+        if not self.has_ties:
+            return forces
         sums = forces[self._own]
         np.add.at(sums, self.row[self._tied], forces[self._tied])
         return sums
@@ -107,10 +106,12 @@ class Reduction:
         AssembledHessian
         """
         dtype = full.dtype
-        turn, (scaled, scale), (turned, row, column), slots = self._turned_blocks(full)
+        (scaled, scale), (turn, turned, row, column), slots = self._turned_blocks(full)
         full.off_diagonal[scaled] = full.off_diagonal.take(scaled, axis=0, mode="clip") * scale  # faster than *=
-        conjugate_gradients.turn_blocks(turn.reshape(-1, 9), turned, row, column, full.off_diagonal)
-        own = turn[slots].transpose(0, 2, 1) @ unpack_symmetric(full.diagonal[slots]) @ turn[slots]
+        if turned.size:
+            conjugate_gradients.turn_blocks(turn.reshape(-1, 9), turned, row, column, full.off_diagonal)
+        own = self._turn.astype(dtype)
+        own = own.transpose(0, 2, 1) @ unpack_symmetric(full.diagonal[slots]) @ own
         full.diagonal[slots] = own.reshape(-1, 9)[:, _UPPER]
         matrix = self._merged(full) if self.has_ties else full
         slots, (dimensions, others) = matrix.order[self._restricted], self._inadmissible_blocks(dtype)
@@ -129,25 +130,28 @@ class Reduction:
         return self._others[dtype]
 
     def _turned_blocks(self, full: AssembledHessian) -> tuple:
-        """T of each slot, and the blocks above the diagonal and the slots that it changes; it depends on the pattern.
+        """The blocks above the diagonal that T changes, and the slots of `_bent`; they depend on the pattern.
 
         Blocks of nodes in planes and lines of the axes are only scaled: their numbers and factors, (b,) and (b, 9),
-        first. Then there are the numbers of the others with the slots of their rows and columns.
+        first. Then there is T of each slot, with the numbers of the others and the slots of their rows and columns.
         """
         dtype, sparsity = full.dtype, full.sparsity
         if (sparsity, dtype) not in self._turned:
-            turn = np.empty(self._turn.shape, dtype)
-            turn[full.order] = self._turn
-            row = np.repeat(np.arange(sparsity.nodes.size), np.diff(sparsity.row_start))
-            column, diagonal = sparsity.columns, np.einsum("kii->ki", turn)
-            bent = (turn != np.eye(3)).any(axis=(1, 2))
-            skew = bent & (turn != diagonal[:, :, None] * np.eye(3)).any(axis=(1, 2))
+            count, slots = sparsity.nodes.size, full.order[self._bent]
+            diagonal, bent, skew = np.ones((count, 3), dtype), mask(slots, count), mask(slots[self._skew], count)
+            diagonal[slots] = self._scales
+            row = np.repeat(np.arange(count, dtype=np.int32), np.diff(sparsity.row_start))
+            column = sparsity.columns
             turned = skew[row] | skew[column]
             scaled = np.flatnonzero((bent[row] | bent[column]) & ~turned)
             turned = np.flatnonzero(turned)
             scale = (diagonal[row[scaled], :, None] * diagonal[column[scaled], None]).reshape(-1, 9)
-            others = turned.astype(np.int32), row[turned].astype(np.int32), column[turned]
-            self._turned[sparsity, dtype] = turn, (scaled, scale), others, np.flatnonzero(bent)
+            turn = np.empty((0, 3, 3), dtype)
+            if turned.size:
+                turn = np.tile(np.eye(3, dtype=dtype), (count, 1, 1))
+                turn[slots] = self._turn
+            others = turn, turned.astype(np.int32), row[turned], column[turned]
+            self._turned[sparsity, dtype] = (scaled, scale), others, slots
         return self._turned[sparsity, dtype]
 
     @cached_property
@@ -188,3 +192,17 @@ class Reduction:
             start = np.flatnonzero(np.diff(key[order], prepend=-1))  # the blocks of `part` are in this order
             self._maps[whole] = order, start, np.flatnonzero(row > column), inside, row[inside], slot_of
         return self._maps[whole]
+
+
+def _turned_nodes(mesh: Mesh, free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rows (b,) of the free nodes (k,) where T is not the identity, ascending, and its blocks there, (b, 3, 3)."""
+    motion = mesh.linear_motion
+    number = index_of(free, mesh.n_nodes)
+    place = index_of(motion.nodes, mesh.n_nodes)[motion.master]
+    of_master = np.tile(np.eye(3), (place.size, 1, 1))
+    of_master[place >= 0] = motion.projectors[place[place >= 0]]
+    rows = number[np.concatenate([motion.nodes, motion.tied])]
+    turn = np.concatenate([motion.projectors, motion.rotations @ of_master])
+    used = np.flatnonzero((rows >= 0) & (turn != np.eye(3)).any(axis=(1, 2)))
+    used = used[np.argsort(rows[used])]
+    return rows[used].astype(np.int64), turn[used]

@@ -196,6 +196,8 @@ class SlidingEnergy(MeshEnergy):
         return row_norms(self.sliding.project(points[nodes], nodes) - points[nodes])
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
+        if not self.sliding_nodes.size:
+            return super().gradient(x, delta)
         gradient = self._gradient_in_space(x, delta).copy()
         along = self.projectors(x)[: self._rows.size]
         gradient[self._rows] = np.einsum("kij,kj->ki", along, gradient[self._rows])

@@ -125,7 +125,12 @@ def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
 
 def fixed_tetrahedra(hexes: np.ndarray, fixed: np.ndarray) -> np.ndarray:
     """Find the corner tetrahedra of hexes (m, 8) whose four nodes are all fixed, (m, 8) bool; fixed (n,) bool."""
-    return fixed[hexes[:, CORNER_TETRAHEDRA]].all(axis=2)
+    stays, all_stay = fixed[hexes], np.empty((len(hexes), 8), dtype=bool)
+    for corner, (apex, *ends) in enumerate(CORNER_TETRAHEDRA):
+        np.copyto(all_stay[:, corner], stays[:, apex])
+        for end in ends:
+            all_stay[:, corner] &= stays[:, end]
+    return all_stay
 
 
 def locked_tetrahedra(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: np.ndarray) -> np.ndarray:

@@ -4,13 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.arrays import mask
+from hexmend.arrays import BLOCK, mask
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.linear_motion.constrained_points import with_ties_fixed
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.components import components
 from hexmend.optimise.maxmin.corner_measure import SCALED_JACOBIAN, CornerMeasure
 from hexmend.quality.measure import fixed_tetrahedra
+
+
+def least_movable(mesh: Mesh, points: np.ndarray) -> float:
+    """Return the least scaled Jacobian of the corners of a mesh that can be moved, at points (n, 3); +inf without any.
+
+    It is `MovableCorners.active_minimum` without the memory for the values of large meshes.
+    """
+    least = np.inf
+    for first in range(0, mesh.n_hexes, BLOCK):
+        hexes = mesh.hexes[first : first + BLOCK]
+        values = SCALED_JACOBIAN.values(points, hexes)
+        least = min(least, float(values[~fixed_tetrahedra(hexes, ~mesh.free)].min(initial=np.inf)))
+    return least
 
 
 class MovableCorners:

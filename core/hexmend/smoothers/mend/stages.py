@@ -40,7 +40,9 @@ class Stages(MaxMinStages):
             given = mesh.points
             yield Step(given, intermediate=True, quality=measure(given, mesh.hexes), begins=True)
         energy = self._energy(mesh, self.settings.first_norm_on(mesh))
-        shape = yield from self._shape(mesh, energy, intermediate or mesh.linear_motion is not None)
+        steps = self._shape(mesh, energy, intermediate or mesh.linear_motion is not None)
+        del energy  # large meshes have no memory for what is no longer needed
+        shape = yield from steps
         if not intermediate:
             return shape.outcome
         fixed_optimum, sliding, fixed = shape.points, None, None  # the optimum with the boundary fixed
@@ -54,8 +56,9 @@ class Stages(MaxMinStages):
             steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
             yield from keeping(kept, mesh.hexes, islice(steps, MAXMIN.untangling_iterations))
             candidates.append(optimiser.points)
+            del steps, optimiser
             others = candidates if fixed is not None and self.settings.maximises_jacobian else []
-            start = self._start_at_shape(sliding, optimiser.points, others)
+            start = self._start_at_shape(sliding, candidates[-1], others)
             shape = (yield from keeping(kept, mesh.hexes, start)) or shape
             candidates.append(shape.points)
         if sliding is None:

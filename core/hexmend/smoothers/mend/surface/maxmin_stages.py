@@ -10,6 +10,7 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.floors.central_path import PATH
+from hexmend.optimise.maxmin.corner_set import least_movable
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.optimise.maxmin.slp_config import SLP
 from hexmend.parameters import AUTO
@@ -114,10 +115,11 @@ class MaxMinStages(ShapeStages):
         None where shape is the goal and the least is sound. The result is no lower than `fixed`, that with the boundary
         fixed. It names no active corners where it becomes clear that the central path does not reach `wanted`.
         """
-        optimisers = (MaxMinOptimiser(mesh, points, sliding) for points in candidates)
-        best = max(optimisers, key=lambda optimiser: optimiser.corners.active_minimum)
-        if not self.settings.maximises_jacobian and not best.corners.active_minimum < MAXMIN.barrier_safe:
+        minima = [least_movable(mesh, points) for points in candidates]
+        start = int(np.argmax(minima))
+        if not self.settings.maximises_jacobian and not minima[start] < MAXMIN.barrier_safe:
             return None
+        best = MaxMinOptimiser(mesh, candidates[start], sliding)
         target = np.inf if self.settings.maximises_jacobian else MAXMIN.barrier_safe
         reached = None if fixed is None else MaxMinOptimiser(mesh, fixed.optimiser.points, sliding)
 
