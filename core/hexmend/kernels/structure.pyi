@@ -35,3 +35,21 @@ def fill_along_sheets(groups: Annotated[NDArray[numpy.int32], dict(shape=(None, 
     Each front is reached by groups (g, 4) int32 with a known edge: its values are the means of the means of
     their known edges. Edges that no front reaches stay as they are.
     """
+
+def coarse_blocks(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 27))]:
+    """
+    Nodes of each hex of the mesh of which this is a uniform refinement, 2 x 2 x 2 hexes for each, (k, 27)
+    int32; no row where it is not. start, corners: `incidence.node_corners`.
+
+    Node (x, y, z) of the 3 x 3 x 3 nodes of a coarse hex is in column 9 z + 3 y + x. Its axes are those of
+    the first of its hexes, and coarse hexes are in the order of these.
+    """
+
+def interpolate_blocks(blocks: Annotated[NDArray[numpy.int32], dict(shape=(None, 27), order='C', device='cpu', writable=False)], kept: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
+    """
+    Interpolate values (n, 3) float64 within the blocks (k, 27) int32 of `coarse_blocks`, from those of the
+    corners and of nodes that are kept (n,) bool to all others, which it writes.
+
+    The interpolation is transfinite: linear on edges, from edges and corners on faces, and from faces, edges
+    and corners inside. Runs on one thread.
+    """

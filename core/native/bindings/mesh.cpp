@@ -3,6 +3,7 @@
 #include "mesh/hex_mesh.hpp"
 #include "mesh/incidence.hpp"
 #include "mesh/metrics.hpp"
+#include "mesh/refinement.hpp"
 #include "mesh/sheets.hpp"
 
 namespace hexmend {
@@ -138,6 +139,16 @@ void bind_structure(nb::module_ m) {
           "both.\n\n"
           "Each front is reached by groups (g, 4) int32 with a known edge: its values are the means of the means of\n"
           "their known edges. Edges that no front reaches stay as they are.");
+    m.def("coarse_blocks", &coarse_blocks, "hexes"_a, "start"_a, "corners"_a, ReleaseGil(),
+          "Nodes of each hex of the mesh of which this is a uniform refinement, 2 x 2 x 2 hexes for each, (k, 27)\n"
+          "int32; no row where it is not. start, corners: `incidence.node_corners`.\n\n"
+          "Node (x, y, z) of the 3 x 3 x 3 nodes of a coarse hex is in column 9 z + 3 y + x. Its axes are those of\n"
+          "the first of its hexes, and coarse hexes are in the order of these.");
+    m.def("interpolate_blocks", &interpolate_blocks, "blocks"_a, "kept"_a, "values"_a, ReleaseGil(),
+          "Interpolate values (n, 3) float64 within the blocks (k, 27) int32 of `coarse_blocks`, from those of the\n"
+          "corners and of nodes that are kept (n,) bool to all others, which it writes.\n\n"
+          "The interpolation is transfinite: linear on edges, from edges and corners on faces, and from faces, edges\n"
+          "and corners inside. Runs on one thread.");
 }
 
 }  // namespace hexmend
