@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.maxmin import MAXMIN
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import omission_message
+from hexmend.smoothers.mend.nested.nested_start import NESTED, NestedConfig, nested_start
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
 from hexmend.smoothers.mend.surface.starts import while_promising
@@ -28,19 +30,23 @@ class ShapeStages:
     ----------
     settings : MendSettings
         The method with its parameters.
+    nested : NestedConfig
+        Of starts from coarser meshes.
     """
 
-    def __init__(self, settings: MendSettings):
+    def __init__(self, settings: MendSettings, nested: NestedConfig = NESTED):
         self.settings, self.goal = settings, settings.goal
+        self._nested = nested
 
     def _energy(self, mesh: Mesh, norm: ObjectiveNorm, sliding: SlidingBoundary | None = None) -> MeshEnergy:
         """The energy of a mesh, whose boundary is fixed or slides."""
         return energy_of(mesh, norm, sliding)
 
     def _shape(self, mesh: Mesh, energy: MeshEnergy, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
-        """Untangle a mesh, then go to the optimum of shape."""
+        """Untangle a mesh, then go to the optimum of shape; where it is a refinement, from that of the coarse mesh."""
         locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
         energy = energy.with_objective(energy.norm, locked)
+        mesh = mesh.with_points((yield from nested_start(mesh, energy, self.coarse_shape, self._nested)))
         untangled = yield from self._untangle(mesh, energy, locked)
         left = untangled.left(locked, energy)
         if left and energy.norm.p < SQUARES.p and not energy.faceted:
@@ -56,8 +62,13 @@ class ShapeStages:
         energy = energy.with_objective(energy.norm, omitted)
         config = ShapeOptimumConfig(newton=NewtonConfig(self.settings.solver_iterations, deflated=True))
         steps = optimise_shape(energy, points, self.settings.p_limit, intermediate, config)
-        del untangled, points  # large meshes have no memory for what is no longer needed
+        del mesh, untangled, points  # large meshes have no memory for what is no longer needed
         return (yield from steps)
+
+    def coarse_shape(self, mesh: Mesh, energy: MeshEnergy) -> Generator[Step, None, np.ndarray]:
+        """Go to the optimum of shape, with the first p, of the mesh of which another one is a refinement."""
+        stages = ShapeStages(replace(self.settings, max_p=1.0), self._nested.of_coarse_mesh())
+        return (yield from stages._shape(mesh, energy, True)).points
 
     def _untangle(self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray) -> Generator[Step, None, Untangled]:
         config = UntanglingConfig(self.settings.initial_epsilon, newton=NewtonConfig(self.settings.solver_iterations))

@@ -1,0 +1,1 @@
+"""Start of the optimum of shape from that of a coarser mesh."""

@@ -1,0 +1,133 @@
+"""The optimum of shape on a coarser mesh, and its interpolation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.arrays import as_immutable_owned
+from hexmend.energy import LinearMotionEnergy, MeshEnergy, SlidingEnergy, energy_of
+from hexmend.energy.ranks import ONE_RANK
+from hexmend.mesh.linear_motion import LinearMotion
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology.refinement import Refinement, find_refinement
+from hexmend.smoothers.mend.nested.coarse_sliding import CoarseSliding
+
+
+@dataclass(frozen=True, eq=False)
+class CoarseProblem:
+    """The mesh of which a mesh is a refinement, with the constraints of those of its nodes that it has.
+
+    Parameters
+    ----------
+    fine : MeshEnergy
+    given : (n, 3) float64
+        Points of the fine mesh.
+    refinement : Refinement
+        Of the fine mesh.
+    mesh : Mesh
+        The coarse mesh.
+    energy : MeshEnergy
+        Of the coarse mesh.
+    """
+
+    fine: MeshEnergy
+    given: np.ndarray
+    refinement: Refinement
+    mesh: Mesh
+    energy: MeshEnergy
+
+    def by_positions(self, coarse: np.ndarray) -> np.ndarray:
+        """Interpolate the positions of coarse nodes (c, 3) at the fine ones, (n, 3) immutable.
+
+        Nodes that do not move stay, and nodes around them follow.
+        """
+        return self._interpolated(np.array(self.given), coarse, 0.0)
+
+    def by_displacements(self, coarse: np.ndarray) -> np.ndarray:
+        """Interpolate the displacements of coarse nodes to (c, 3) at the fine ones, added to the given points.
+
+        Returns
+        -------
+        (n, 3) float64
+            Immutable.
+        """
+        return self._interpolated(np.zeros_like(self.given), coarse - self.mesh.points, self.given)
+
+    def _interpolated(self, values: np.ndarray, coarse: np.ndarray, base: np.ndarray | float) -> np.ndarray:
+        """Interpolate from coarse nodes (c, 3) and nodes that stay (n, 3), add a base, and keep constraints."""
+        fine, kept = self.fine, self.fine.mesh.fixed.copy()
+        values[self.refinement.vertices] = coarse
+        kept[self.refinement.vertices] = True
+        self.refinement.interpolate(values, kept)
+        points = self._constrained(values + base)
+        sliding = _sliding_energy(fine)
+        if sliding is not None and sliding.sliding_nodes.size:  # nodes inside follow those on curved surfaces
+            nodes = sliding.sliding_nodes
+            points = np.array(points)
+            points[nodes] = sliding.sliding.project(points[nodes], nodes)
+            kept[nodes] = True
+            values[nodes] = points[nodes] - (base if np.isscalar(base) else base[nodes])
+            self.refinement.interpolate(values, kept)
+            values += base
+            values[nodes] = points[nodes]
+            points = self._constrained(values)
+        return as_immutable_owned(points)
+
+    def _constrained(self, points: np.ndarray) -> np.ndarray:
+        """Return points (n, 3) of which those that stay are where they were, and linear constraints are kept."""
+        fixed = self.fine.mesh.fixed
+        points[fixed] = self.fine.mesh.points[fixed]
+        return self.fine.mesh.constrained(points)
+
+
+def coarse_problem(mesh: Mesh, energy: MeshEnergy, least_hexes: int) -> CoarseProblem | None:
+    """Recognise the coarse mesh of a uniform refinement, with its energy.
+
+    None for other meshes, and for what a coarse mesh cannot have: a target of hexes, nodes that are tied to others, and
+    a part of a mesh that is divided among processes.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    energy : MeshEnergy
+        Of the mesh, fixed or sliding.
+    least_hexes : int
+        Of a coarse mesh that is worth while.
+    """
+    motion = energy.mesh.linear_motion
+    tied = motion is not None and motion.tied.size > 0
+    if energy.ranks is not ONE_RANK or mesh.element_target is not None or tied or mesh.n_hexes < 8 * least_hexes:
+        return None
+    refinement = find_refinement(mesh.topology)
+    if refinement is None:
+        return None
+    coarse = _coarse_mesh(mesh.points, energy.mesh, refinement)
+    sliding = _sliding_energy(energy)
+    if sliding is None:
+        problem = energy_of(coarse, energy.norm)
+    else:
+        problem = SlidingEnergy(CoarseSliding(sliding.sliding, refinement, coarse), energy.norm, flat_is_linear=True)
+        problem = problem if coarse.linear_motion is None else LinearMotionEnergy(problem)
+    if not problem.nodes.size:
+        return None
+    return CoarseProblem(energy, mesh.points, refinement, coarse, problem)
+
+
+def _coarse_mesh(points: np.ndarray, fine: Mesh, refinement: Refinement) -> Mesh:
+    """The coarse mesh, of points (n, 3) of the fine one, with its fixed nodes and linear motion."""
+    vertices, motion = refinement.vertices, fine.linear_motion
+    coarse = Mesh(points[vertices], refinement.hexes)
+    if motion is not None:
+        own = np.flatnonzero(refinement.number[motion.nodes] >= 0)
+        motion = LinearMotion(refinement.number[motion.nodes[own]].astype(np.int64), motion.projectors[own])
+        start = coarse.with_points(fine.motion_start[vertices])
+        coarse = start.with_linear_motion(motion).with_points(coarse.points)
+    return coarse.with_fixed(fine.fixed[vertices])
+
+
+def _sliding_energy(energy: MeshEnergy) -> SlidingEnergy | None:
+    """The part of an energy that knows the boundary if that slides."""
+    inner = energy.energy if isinstance(energy, LinearMotionEnergy) else energy
+    return inner if isinstance(inner, SlidingEnergy) else None

@@ -1,0 +1,137 @@
+"""Nested iteration: the optimum of shape begins at that of a coarser mesh, where the mesh is a refinement.
+
+A step moves a node by a few edges, so that the number of steps doubles with each refinement where nodes have to move
+far. On the coarse mesh the same way is half as many edges, and a step costs an eighth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterator
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+import numpy as np
+
+from hexmend.energy import MeshEnergy
+from hexmend.iteration import Step
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import measure
+from hexmend.smoothers.mend.nested.coarse_problem import CoarseProblem, coarse_problem
+
+#: Shares of the way from the given points to the start at which it is shown.
+SHARES = 0.25, 0.5, 0.75
+#: Function that goes to the optimum of shape of a mesh with an energy; returns the points (n, 3).
+Optimise: TypeAlias = Callable[[Mesh, MeshEnergy], Generator[Step, None, np.ndarray]]
+
+
+@dataclass(frozen=True)
+class NestedConfig:
+    """Settings of the start.
+
+    Parameters
+    ----------
+    free_nodes : int
+        Free nodes from which on a start is looked for.
+    coarsest : int
+        Hexes of the coarsest mesh, at least.
+    shown : bool
+        Yield the steps of the coarse mesh, interpolated.
+    """
+
+    free_nodes: int = 100_000
+    coarsest: int = 500
+    shown: bool = True
+
+    def of_coarse_mesh(self) -> NestedConfig:
+        """Settings of the start of the coarse mesh itself, whose steps are too short to be shown."""
+        return replace(self, free_nodes=0, shown=False)
+
+
+NESTED = NestedConfig()
+
+
+def nested_start(
+    mesh: Mesh, energy: MeshEnergy, optimise: Optimise, config: NestedConfig = NESTED
+) -> Generator[Step, None, np.ndarray]:
+    """Find where the optimum of shape begins: at the given points, or at those of the coarse optimum.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    energy : MeshEnergy
+        Of the mesh, without the corners that are locked.
+    optimise : callable
+        For the coarse mesh.
+    config : NestedConfig
+
+    Yields
+    ------
+    Step
+        Of the coarse mesh, interpolated.
+
+    Returns
+    -------
+    (n, 3) float64
+        Points with no more inverted hexes and no higher energy than the given ones.
+    """
+    if energy.nodes.size < config.free_nodes:
+        return mesh.points
+    problem = coarse_problem(mesh, energy, config.coarsest)
+    if problem is None:
+        return mesh.points
+    coarse = yield from _coarse_optimum(problem, energy, optimise, config)
+    points = _best(problem, mesh, energy, coarse)
+    if config.shown:
+        yield from _path(mesh.points, points, energy)
+    return points
+
+
+def _coarse_optimum(
+    problem: CoarseProblem, energy: MeshEnergy, optimise: Optimise, config: NestedConfig
+) -> Generator[Step, None, np.ndarray]:
+    """Go to the optimum of the coarse mesh, and return its points (c, 3); the steps are those of the fine mesh."""
+    steps = optimise(problem.mesh, problem.energy)
+    while True:
+        try:
+            step = next(steps)
+        except StopIteration as end:
+            return end.value
+        if config.shown:
+            yield Step(
+                problem.by_positions(step.points),
+                {**step.diagnostics, "coarse_hexes": problem.mesh.n_hexes},
+                intermediate=True,
+                infeasible=energy.limits_moves,
+                norm=energy.norm,
+            )
+
+
+def _path(given: np.ndarray, points: np.ndarray, energy: MeshEnergy) -> Iterator[Step]:
+    """Yield steps from given points (n, 3) to others: one on the way may be the last that lowers no guarded figure."""
+    if points is not given and not energy.limits_moves:
+        for share in SHARES:
+            yield Step(
+                energy.to_mesh_units((given + share * (points - given)) / energy.unit),
+                norm=energy.norm,
+                intermediate=True,
+            )
+    yield Step(points, intermediate=True, norm=energy.norm)
+
+
+def _best(problem: CoarseProblem, mesh: Mesh, energy: MeshEnergy, coarse: np.ndarray) -> np.ndarray:
+    """Return the best points (n, 3) of the given ones and those that coarse nodes (c, 3) give.
+
+    Fewer inverted hexes come first, then a lower energy.
+    """
+    start = energy.to_edge_units(mesh.points)
+    best, least = mesh.points, _rank(mesh, energy, mesh.points)
+    for interpolated in (problem.by_positions, problem.by_displacements):
+        points = interpolated(coarse)
+        rank = _rank(mesh, energy, points)
+        if rank < least and energy.infeasible_nodes(start, energy.to_edge_units(points)) is None:
+            best, least = points, rank
+    return best
+
+
+def _rank(mesh: Mesh, energy: MeshEnergy, points: np.ndarray) -> tuple[int, float]:
+    return measure(points, mesh.hexes).n_inverted, energy.value(energy.to_edge_units(points))
