@@ -9,7 +9,7 @@ from hexmend.boundary import SkinSurface
 from hexmend.cli.commands.bench import command
 from hexmend.gallery import make
 from hexmend.ranks.launching import launcher
-from hexmend.study.bench import scale, surface_quality, surfaces
+from hexmend.study.bench import surface_quality, surfaces
 from hexmend.study.bench.freedom import FREEDOM, lower
 from hexmend.study.bench.scale import SCALE, measure_process
 from hexmend.study.bench.sections import sections
@@ -37,7 +37,7 @@ def test_a_process_is_measured_from_file_to_file(tmp_path):
 
 def test_the_table_has_a_row_a_mesh_and_says_how_far_nodes_are_from_the_lattice(monkeypatch):
     monkeypatch.setenv("HEXMEND_SCALE", "100")
-    monkeypatch.setattr(scale, "_KERSHAW", (216,))
+    monkeypatch.setenv("HEXMEND_KERSHAW", "6")
     head, _, *rows, last = SCALE.lines(SCALE.measure())
     assert {head.count("|")} == {row.count("|") for row in rows}
     assert [row.split()[5] for row in rows] == [*(["1", "2", "4"] if launcher() else ["1"]), "1"]

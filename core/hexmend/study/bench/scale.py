@@ -25,8 +25,10 @@ _SIZES = "100000,1000000,4000000"
 #: Variable that names other numbers of MPI ranks; more than one where mpiexec is installed.
 _VARIABLE_OF_RANKS = "HEXMEND_RANKS"
 _RANKS = "1,2,4"
-#: Numbers of hexes of the Kershaw meshes, whose optimum with a sliding boundary is the perfect lattice.
-_KERSHAW = 24**3, 48**3
+#: Variable that names other numbers of hexes along an edge of the Kershaw meshes, whose optimum with a sliding boundary
+#: is the perfect lattice.
+_VARIABLE_OF_KERSHAW = "HEXMEND_KERSHAW"
+_KERSHAW = "24,48,96"
 
 _OF_KERSHAW = ("--boundary", "slide", "--layers", "free", "--set", "goal=shape", "--set", "p=1")
 
@@ -89,8 +91,8 @@ def _scale() -> dict[str, Any]:
             write(path, make("five-side", size=int(size), scramble=0.3))
             for ranks in counts:
                 rows.append({"mesh": "five-side", **measure_process(path, folder, ranks=ranks)})
-        for size in _KERSHAW:
-            write(path, make("kershaw", size=size))
+        for edge in os.environ.get(_VARIABLE_OF_KERSHAW, _KERSHAW).split(","):
+            write(path, make("kershaw", size=int(edge) ** 3))
             row = {"mesh": "kershaw", **measure_process(path, folder, _OF_KERSHAW)}
             rows.append(row | {"deviation": _deviation(folder / "out.vtu")})
     return {"rows": rows}
@@ -122,7 +124,7 @@ def _lines(figures: dict[str, Any]) -> list[str]:
 
 
 _TITLE = (
-    f"Whole processes against size: five-side scrambled by 0.3, and kershaw sliding ({_VARIABLE} names other sizes, "
-    f"{_VARIABLE_OF_RANKS} other numbers of MPI ranks)"
+    f"Whole processes against size: five-side scrambled by 0.3, and kershaw sliding ({_VARIABLE} and "
+    f"{_VARIABLE_OF_KERSHAW} name other sizes, {_VARIABLE_OF_RANKS} other numbers of MPI ranks)"
 )
 SCALE = BenchSection("scale", _TITLE, _scale, _lines)
