@@ -46,7 +46,8 @@ class ShapeStages:
         """Untangle a mesh, then go to the optimum of shape; where it is a refinement, from that of the coarse mesh."""
         locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
         energy = energy.with_objective(energy.norm, locked)
-        mesh = mesh.with_points((yield from nested_start(mesh, energy, self.coarse_shape, self._nested)))
+        start = yield from nested_start(mesh, energy, self.coarse_shape, self._nested)
+        mesh = mesh if start is mesh.points else mesh.with_points(start)
         untangled = yield from self._untangle(mesh, energy, locked)
         left = untangled.left(locked, energy)
         if left and energy.norm.p < SQUARES.p and not energy.faceted:
@@ -62,7 +63,7 @@ class ShapeStages:
         energy = energy.with_objective(energy.norm, omitted)
         config = ShapeOptimumConfig(newton=NewtonConfig(self.settings.solver_iterations, deflated=True))
         steps = optimise_shape(energy, points, self.settings.p_limit, intermediate, config)
-        del mesh, untangled, points  # large meshes have no memory for what is no longer needed
+        del mesh, start, untangled, points  # large meshes have no memory for what is no longer needed
         return (yield from steps)
 
     def coarse_shape(self, mesh: Mesh, energy: MeshEnergy) -> Generator[Step, None, np.ndarray]:
