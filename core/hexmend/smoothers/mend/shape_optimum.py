@@ -42,6 +42,10 @@ class ShapeOptimumConfig:
         figure shows what it gains.
     small_move : float
         Longest move of a node with which a large mesh may end so, in the lengths above.
+    short : float
+        Share of its direction below which a step is short: the barrier of a few hexes stops all nodes.
+    short_steps : int
+        Successive short steps after which the stage ends; 0 for any number.
     rounding : float
         Slope, as a share of the energy, up to which it counts as zero.
     newton : NewtonConfig
@@ -58,6 +62,8 @@ class ShapeOptimumConfig:
     negligible_fall: float = 1e-3
     large: int = 400_000
     small_move: float = 1e-2
+    short: float = 0.01
+    short_steps: int = 0
     rounding: float = 1e-10
     newton: NewtonConfig = DEFLATED_NEWTON
 
@@ -113,6 +119,7 @@ def _minimise(
     min_fall = config.min_fall_omitting if energy.ranks.any(omitted) else config.min_fall
     x, full_step = energy.to_edge_units(points), False
     values: list[float] = []
+    short = 0
     while True:
         if not full_step:  # after a full step no hex has limited the line search
             poor = energy.hex_energies(x) > config.poor
@@ -127,6 +134,7 @@ def _minimise(
             return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)
         diagnostics, full_step = descent.diagnostics(0.0) | {"p": energy.norm.p}, descent.backtracks == 0
         x, slope = descent.x, -descent.slope
+        short = short + 1 if descent.alpha < config.short else 0
         is_last = may_end and full_step and slope**2 <= config.rounding * descent.value * before
         before = slope if full_step else 0.0
         del descent  # large meshes have no memory for its direction
@@ -140,6 +148,8 @@ def _minimise(
             return ShapeOptimum(points, Outcome.CONVERGED)
         if is_last and relative_move < config.small_move:
             return ShapeOptimum(points, Outcome.CONVERGED)
+        if 0 < config.short_steps == short:
+            return ShapeOptimum(points, None if p_will_rise else Outcome.NO_IMPROVEMENT)
     if p_will_rise:
         return ShapeOptimum(points, None)
     # At the optimum a step would gain less than rounding; slope and value are 0 where all hexes are cubes.

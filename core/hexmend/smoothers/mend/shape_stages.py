@@ -11,7 +11,7 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
+from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.maxmin import MAXMIN
 from hexmend.smoothers.mend.mend_settings import MendSettings
@@ -46,7 +46,8 @@ class ShapeStages:
         """Untangle a mesh, then go to the optimum of shape; where it is a refinement, from that of the coarse mesh."""
         locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
         energy = energy.with_objective(energy.norm, locked)
-        start = yield from nested_start(mesh, energy, self.coarse_shape, self._nested)
+        start = yield from nested_start(mesh, energy, self.coarse_shape, self._harms, self._nested)
+        is_nested = start is not mesh.points or self._nested.is_of_coarse
         mesh = mesh if start is mesh.points else mesh.with_points(start)
         untangled = yield from self._untangle(mesh, energy, locked)
         left = untangled.left(locked, energy)
@@ -61,7 +62,8 @@ class ShapeStages:
         if energy.faceted and self.settings.maximises_jacobian and untangled.left(locked, energy):
             return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)  # the stages that follow free nodes, or raise corners
         energy = energy.with_objective(energy.norm, omitted)
-        config = ShapeOptimumConfig(newton=NewtonConfig(self.settings.solver_iterations, deflated=True))
+        newton = NewtonConfig(self.settings.solver_iterations, deflated=True)
+        config = ShapeOptimumConfig(newton=newton, short_steps=self._nested.short_steps if is_nested else 0)
         steps = optimise_shape(energy, points, self.settings.p_limit, intermediate, config)
         del mesh, start, untangled, points  # large meshes have no memory for what is no longer needed
         return (yield from steps)
@@ -70,6 +72,11 @@ class ShapeStages:
         """Go to the optimum of shape, with the first p, of the mesh of which another one is a refinement."""
         stages = ShapeStages(replace(self.settings, max_p=1.0), self._nested.of_coarse_mesh())
         return (yield from stages._shape(mesh, energy, True)).points
+
+    def _harms(self, given: ElementQuality, start: ElementQuality) -> bool:
+        """Return True if a start lowers figures that the run guards, as in `Mend.rank_on`; floors raise them again."""
+        fallen = start.q.min() < given.q.min(), start.scaled_jacobian.min() < given.scaled_jacobian.min()
+        return not self.settings.balances and (any if self.settings.guard else all)(fallen)
 
     def _untangle(self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray) -> Generator[Step, None, Untangled]:
         config = UntanglingConfig(self.settings.initial_epsilon, newton=NewtonConfig(self.settings.solver_iterations))

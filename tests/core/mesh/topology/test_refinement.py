@@ -14,7 +14,6 @@ COARSE = {
     "odd counts": lambda: grid(3, 1, 5),
     "five-side": lambda: make("five-side", size=40),
     "bridge-sharp": lambda: make("bridge-sharp", size=200),
-    "plane": lambda: make("plane"),
     "two components": lambda: two(grid(2), grid(1)),
     "ring": lambda: ring(3),
 }

@@ -7,6 +7,7 @@ from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
 from hexmend.iteration import Outcome
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimumConfig, optimise_shape
+from tests.core.smoothers.mend.walks import walked
 
 MEAN = ObjectiveNorm(1.0)
 
@@ -44,3 +45,15 @@ def test_p_rises_and_the_last_stage_ends_as_it_does_for_small_meshes():
     assert outcome is Outcome.CONVERGED
     x = energy.to_edge_units(points)
     assert np.abs(energy.gradient(x)).max() < 1e-4
+
+
+def test_successive_short_steps_end_the_stage():
+    energy = MeshEnergy(make("bridge-sharp", size=4_000), MEAN)
+    every = ShapeOptimumConfig(short=2.0, short_steps=3)  # all steps are short
+    steps, end = walked(optimise_shape(energy, energy.mesh.points, 1.0, False, every))
+    assert len(steps) == 3
+    assert end.outcome is Outcome.NO_IMPROVEMENT
+    assert end.points is steps[-1].points
+    steps, end = walked(optimise_shape(energy, energy.mesh.points, 2.0, False, every))
+    assert len(steps) == 6
+    assert [step.diagnostics["p"] for step in steps] == [1.0] * 3 + [2.0] * 3

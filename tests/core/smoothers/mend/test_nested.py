@@ -47,7 +47,7 @@ def coarse_optimum(settings=SHAPE):
 
 
 def start(mesh, energy, config=FORCED):
-    return walked(nested_start(mesh, energy, coarse_optimum(), config))
+    return walked(nested_start(mesh, energy, coarse_optimum(), lambda given, begun: True, config))
 
 
 def value(energy, points):
@@ -193,3 +193,16 @@ def test_other_meshes_begin_where_they_are(mesh):
 def test_small_meshes_begin_where_they_are():
     mesh = grid(8)
     assert start(mesh, energy_of(mesh, SHAPE.norm), NestedConfig())[1] is mesh.points
+
+
+def test_where_the_start_lowers_guarded_figures_steps_come_between():
+    """The optimum of the mean has a lower worst hex: what a run keeps then is on the way."""
+    mesh = refined(make("five-side", size=40))
+    energy = energy_of(mesh, SHAPE.norm)
+    for harmed in (False, True):
+        steps, points = walked(nested_start(mesh, energy, coarse_optimum(), lambda *of, harmed=harmed: harmed, FORCED))
+        own = [step.points for step in steps if "coarse_hexes" not in step.diagnostics]
+        assert len(own) == (4 if harmed else 1)
+        assert own[-1] is points
+    for share, between in zip((0.25, 0.5, 0.75), own[:3], strict=True):
+        np.testing.assert_allclose(between, mesh.points + share * (points - mesh.points), atol=1e-12)

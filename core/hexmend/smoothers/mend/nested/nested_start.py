@@ -15,13 +15,15 @@ import numpy as np
 from hexmend.energy import MeshEnergy
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
+from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.nested.coarse_problem import CoarseProblem, coarse_problem
 
-#: Shares of the way from the given points to the start at which it is shown.
+#: Shares of the way from the given points to a start that lowers guarded figures, at which these may be no lower.
 SHARES = 0.25, 0.5, 0.75
 #: Function that goes to the optimum of shape of a mesh with an energy; returns the points (n, 3).
 Optimise: TypeAlias = Callable[[Mesh, MeshEnergy], Generator[Step, None, np.ndarray]]
+#: Function of the quality of the given mesh and of a start: True if the latter lowers figures that a run guards.
+Harms: TypeAlias = Callable[[ElementQuality, ElementQuality], bool]
 
 
 @dataclass(frozen=True)
@@ -34,24 +36,27 @@ class NestedConfig:
         Free nodes from which on a start is looked for.
     coarsest : int
         Hexes of the coarsest mesh, at least.
-    shown : bool
-        Yield the steps of the coarse mesh, interpolated.
+    short_steps : int
+        Of `ShapeOptimumConfig`, for coarse meshes and for what begins at them: most has been gained before.
+    is_of_coarse : bool
+        The mesh is a coarse one itself: the steps of coarser ones are not yielded.
     """
 
     free_nodes: int = 100_000
     coarsest: int = 500
-    shown: bool = True
+    short_steps: int = 6
+    is_of_coarse: bool = False
 
     def of_coarse_mesh(self) -> NestedConfig:
-        """Settings of the start of the coarse mesh itself, whose steps are too short to be shown."""
-        return replace(self, free_nodes=0, shown=False)
+        """Settings of the start of the coarse mesh itself; its steps take too little time to be of interest."""
+        return replace(self, free_nodes=0, is_of_coarse=True)
 
 
 NESTED = NestedConfig()
 
 
 def nested_start(
-    mesh: Mesh, energy: MeshEnergy, optimise: Optimise, config: NestedConfig = NESTED
+    mesh: Mesh, energy: MeshEnergy, optimise: Optimise, harms: Harms, config: NestedConfig = NESTED
 ) -> Generator[Step, None, np.ndarray]:
     """Find where the optimum of shape begins: at the given points, or at those of the coarse optimum.
 
@@ -62,6 +67,8 @@ def nested_start(
         Of the mesh, without the corners that are locked.
     optimise : callable
         For the coarse mesh.
+    harms : callable
+        Tells whether steps between the given mesh and the start are yielded too: one may be what a run keeps.
     config : NestedConfig
 
     Yields
@@ -81,8 +88,8 @@ def nested_start(
         return mesh.points
     coarse = yield from _coarse_optimum(problem, energy, optimise, config)
     points = _best(problem, mesh, energy, coarse)
-    if config.shown:
-        yield from _path(mesh.points, points, energy)
+    if not config.is_of_coarse:
+        yield from _path(mesh, points, energy, harms)
     return points
 
 
@@ -96,7 +103,7 @@ def _coarse_optimum(
             step = next(steps)
         except StopIteration as end:
             return end.value
-        if config.shown:
+        if not config.is_of_coarse:
             yield Step(
                 problem.by_positions(step.points),
                 {**step.diagnostics, "coarse_hexes": problem.mesh.n_hexes},
@@ -106,16 +113,14 @@ def _coarse_optimum(
             )
 
 
-def _path(given: np.ndarray, points: np.ndarray, energy: MeshEnergy) -> Iterator[Step]:
-    """Yield steps from given points (n, 3) to others: one on the way may be the last that lowers no guarded figure."""
-    if points is not given and not energy.limits_moves:
+def _path(mesh: Mesh, points: np.ndarray, energy: MeshEnergy, harms: Harms) -> Iterator[Step]:
+    """Yield a step to a start, points (n, 3); before it steps on the way there, if it lowers guarded figures."""
+    given, quality = mesh.points, measure(points, mesh.hexes)
+    if not energy.limits_moves and harms(measure(given, mesh.hexes), quality):
         for share in SHARES:
-            yield Step(
-                energy.to_mesh_units((given + share * (points - given)) / energy.unit),
-                norm=energy.norm,
-                intermediate=True,
-            )
-    yield Step(points, intermediate=True, norm=energy.norm)
+            between = energy.to_mesh_units((given + share * (points - given)) / energy.unit)
+            yield Step(between, intermediate=True, norm=energy.norm)
+    yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
 
 
 def _best(problem: CoarseProblem, mesh: Mesh, energy: MeshEnergy, coarse: np.ndarray) -> np.ndarray:
