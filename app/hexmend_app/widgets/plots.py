@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import pyqtgraph as pg
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QFrame
 
 from hexmend_app.theme.palette import LINE, MUTED, Role
 from hexmend_app.theme.style import on_theme_change, smaller, tabular
+
+#: Least distance of two tick texts of different colours, in pixels.
+_TEXT_GAP = 4.0
 
 
 class CalmAxis(pg.AxisItem):
@@ -27,12 +33,20 @@ class CalmAxis(pg.AxisItem):
         self.setTextPen(str(MUTED))
 
     def drawPicture(self, p: QPainter, axisSpec: tuple, tickSpecs: list, textSpecs: list) -> None:
-        """Draw the axis, then the tick texts that have a colour of their own."""
+        """Draw the axis, then the tick texts that have a colour of their own, left of the next one."""
         coloured = [spec for spec in textSpecs if spec[2] in self.colours]
-        super().drawPicture(p, axisSpec, tickSpecs, [spec for spec in textSpecs if spec[2] not in self.colours])
+        others = [spec for spec in textSpecs if spec[2] not in self.colours]
+        super().drawPicture(p, axisSpec, tickSpecs, others)
         for rect, flags, text in coloured:
             p.setPen(pg.mkPen(str(self.colours[text])))
-            p.drawText(rect, int(flags), text)
+            p.drawText(left_of_next(rect, [other for other, *_ in others]), int(flags), text)
+
+
+def left_of_next(rect: QRectF, others: Sequence[QRectF]) -> QRectF:
+    """Move the rectangle of a text to the left until it is clear of those that lie to the right of it."""
+    following = [other.left() for other in others if other.center().x() > rect.center().x()]
+    excess = rect.right() + _TEXT_GAP - min(following, default=math.inf)
+    return rect.translated(-max(excess, 0.0), 0.0)
 
 
 def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:
