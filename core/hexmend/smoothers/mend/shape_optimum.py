@@ -150,6 +150,8 @@ def _minimise(
             return ShapeOptimum(points, Outcome.CONVERGED)
         if 0 < config.short_steps == short:
             return ShapeOptimum(points, None if p_will_rise else Outcome.NO_IMPROVEMENT)
+    if config.short_steps and not values:  # the start is the optimum: it was the last iteration that moved nodes
+        yield Step(points, intermediate=p_will_rise or intermediate, norm=energy.norm)
     if p_will_rise:
         return ShapeOptimum(points, None)
     # At the optimum a step would gain less than rounding; slope and value are 0 where all hexes are cubes.
