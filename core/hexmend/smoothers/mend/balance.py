@@ -40,8 +40,8 @@ class BalanceConfig:
         Share by which the least q(H) is raised above its floor at first.
     margin : float
         Least distance of a floor from the value above it, as a share.
-    weights : tuple of float
-        Of the barrier while the energy falls above the floors.
+    weights, last_weights : tuple of float
+        Of the barrier while the energy falls above the floors; the second above the least values of a result.
     returns : tuple of float
         Shares of the way from the given mesh to the result that are tried where the mean of q(H) is lower all the same.
     much : float
@@ -65,6 +65,7 @@ class BalanceConfig:
     quality_margin: float = 2e-3
     margin: float = 1e-4
     weights: tuple[float, ...] = (1.0, 0.1, 0.01)
+    last_weights: tuple[float, ...] = (0.1, 0.01)
     returns: tuple[float, ...] = (0.5, 0.25, 0.125, 0.0625)
     much: float = 2.0
     worth_rising: float = 0.01
@@ -263,6 +264,20 @@ def raise_jacobian(
     yield from _steps(path, path.rise(target))
     if not energy.faceted:
         yield from _steps(path, path.rise(target, config.patient))
+    return path.points
+
+
+def improve_above_least(
+    energy: MeshEnergy, points: np.ndarray, config: BalanceConfig = BALANCE
+) -> Generator[Step, None, np.ndarray]:
+    """Minimise the energy from points (n, 3) on, above floors just below their least values; returns the points.
+
+    For points whose minimum scaled Jacobian is as high as it goes: the nodes that do not limit it are free to move.
+    """
+    path = CentralPath(energy, points, config.path)
+    least = path.least
+    floors = Least(_below(least.jacobian, config.margin), _below(least.quality, config.margin))
+    yield from _steps(path, path.minimise_above(floors, config.last_weights))
     return path.points
 
 

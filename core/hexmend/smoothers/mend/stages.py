@@ -66,6 +66,8 @@ class Stages(MaxMinStages):
         else:
             leaving = LeavingSurface(self.settings, sliding, self._untangled, self._sliding_shape)
             leaving, result = yield from self._raise_within_tolerances(leaving, fixed_optimum, candidates, fixed)
+        if self.settings.maximises_jacobian and result.least > 0:
+            result = yield from self._improve_shape(mesh, leaving, result)
         if self.goal == "time-step":
             result = yield from maximise_time_step(mesh, candidates, sliding, result)
         points = shape.points if result is None else result.optimiser.points

@@ -255,6 +255,21 @@ def test_no_wider_band_is_tried_where_the_band_does_not_limit_the_least(monkeypa
     assert wider
 
 
+@pytest.mark.parametrize("name", ["ball", "cylinder", "five-side"])
+def test_nodes_that_do_not_limit_the_least_go_where_the_shape_is_best(name, monkeypatch):
+    def without(stages, mesh, leaving, result):
+        return result
+        yield
+
+    method = Mend(goal="scaled-jacobian", boundary="slide")
+    improved = smooth(SMALL[name](), method).after
+    monkeypatch.setattr(Stages, "_improve_shape", without)
+    risen = smooth(SMALL[name](), method).after
+    assert improved.scaled_jacobian_min >= risen.scaled_jacobian_min
+    assert improved.q_mean > risen.q_mean + 0.01
+    assert improved.q_min > risen.q_min
+
+
 def test_nodes_may_leave_a_surface_without_a_limit_of_the_distance():
     mesh = SMALL["ball"]()
     result = smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance="unlimited"))

@@ -113,10 +113,12 @@ class LeavingSurface:
 
     def boundary(self, result: MaxMinResult | None) -> SlidingBoundary:
         """The boundary with the nodes free that left the surface, in the band of a result; as it was without one."""
-        if result is None or not result.optimiser.envelope.released.any():
+        if result is None:
             return self.sliding
-        envelope = result.optimiser.envelope
-        return envelope.sliding.without_nodes(np.flatnonzero(envelope.off_surface), self._width(result))
+        envelope, width = result.optimiser.envelope, self._width(result)
+        if envelope.released.any():
+            return envelope.sliding.without_nodes(np.flatnonzero(envelope.off_surface), width)
+        return self.sliding.with_band(width) if width > self.sliding.max_deviation else self.sliding
 
     def returned(self, result: MaxMinResult, points: np.ndarray) -> Generator[Step, None, MaxMinOptimiser]:
         """Go on from a result to points (n, 3), whose boundary returns to the band of the result if it is outside.

@@ -14,7 +14,7 @@ from hexmend.optimise.maxmin.corner_set import least_movable
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.optimise.maxmin.slp_config import SLP
 from hexmend.parameters import AUTO
-from hexmend.smoothers.mend.balance import raise_jacobian
+from hexmend.smoothers.mend.balance import improve_above_least, raise_jacobian
 from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
 from hexmend.smoothers.mend.shape_stages import ShapeStages
 from hexmend.smoothers.mend.surface.detours import MaxMinResult, raise_to_the_end
@@ -134,6 +134,29 @@ class MaxMinStages(ShapeStages):
             return (yield from maximise_minimum(optimiser, target, groups=groups))
 
         return (yield from raise_from_better(best, reached, raise_least, MAXMIN.trial_iterations))
+
+    def _improve_shape(
+        self, mesh: Mesh, leaving: LeavingSurface | None, result: MaxMinResult
+    ) -> Generator[Step, None, MaxMinResult]:
+        """Improve the shape above the least values of a result; programs regain what that costs of the least.
+
+        Nodes that do not limit the least are where its rise has left them. Returns `result` where the least is lower.
+        """
+        around = None if leaving is None else leaving.boundary(result)
+        energy = self._sound_energy(mesh if around is None else around.mesh, result.optimiser.points, around)
+        points = yield from infeasible(improve_above_least(energy, result.optimiser.points), every=1)
+        if leaving is None:
+            optimiser = result.optimiser.fork()
+            optimiser.move_to(points)
+        else:
+            optimiser = yield from infeasible(leaving.returned(result, points))
+        with optimiser.envelope.relaxed(optimiser.envelope.max_deviation):
+            active = yield from infeasible(maximise_minimum(optimiser))
+        improved = MaxMinResult(optimiser, active)
+        if improved.least < result.least:
+            return result
+        yield improved.step()
+        return improved
 
     def _bands(self, mesh: Mesh, tolerance: float) -> list[float]:
         """Distances from the surface that quads of the boundary may have while nodes slide, ascending."""
