@@ -1,12 +1,28 @@
 #include "energy/floor_barrier.hpp"
 
 #include <memory>
+#include <vector>
 
 #include "energy/block_scatter.hpp"
 #include "energy/hex_hessian.hpp"
 
 namespace hexmend {
 namespace {
+
+bool any(const Bits &marks) {
+#if defined(__AVX512F__)
+    return _mm512_test_epi64_mask(bit_cast<__m512i>(marks), bit_cast<__m512i>(marks)) != 0;
+#else
+    for (int i = 0; i < LANES; ++i)
+        if (marks[i]) return true;
+    return false;
+#endif
+}
+
+// Lanes that count whose y is below `limit`, or no number.
+inline Bits below(const Lanes &value, const Lanes &floor, double band, const Bits &counted, double limit) {
+    return counted & ~((value - floor) / band >= limit);
+}
 
 // b(y) with its derivatives by the quantity that y is of, at weight 1.
 struct Barriers {
@@ -18,6 +34,7 @@ struct Barriers {
 template <bool derivatives>
 Barriers barrier_of(const Lanes &value, const Lanes &floor, double band, const Bits &counted) {
     Barriers b;
+    if (!any(below(value, floor, band, counted, 1))) return b;
     Lanes y = (value - floor) / band;
     double slope = 1 / band;
     for (int i = 0; i < LANES; ++i) {
@@ -185,6 +202,38 @@ void gradient_of(Points points, Hexes hexes, const Floors &floors, OmittedCorner
     });
 }
 
+// Values of y from which on nothing takes part, whatever the rounding of y.
+constexpr double SURELY_ABOVE = 1 + 1e-9;
+
+// The hexes of a share that may take part, in its order: most are far above their floors.
+template <class Target>
+std::vector<std::int32_t> hexes_near_floors(Points points, const Floors &floors, OmittedCorners omitted,
+                                            const HexShares &shared, std::int64_t share, const Target &target) {
+    std::vector<std::int32_t> near;
+    for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
+        int count = std::min(LANES, shared.start[share + 1] - first);
+        const std::int32_t *numbers = &shared.numbers[first];
+        LaneFloors block(floors, count, [&](int i) { return numbers[i]; });
+        if (!block.any()) continue;
+        Hex hexes[LANES];
+        for (int i = 0; i < count; ++i) hexes[i] = shared.hexes[numbers[i]];
+        auto x = gather_corners<Lanes>(points, hexes, 0, count);
+        Bits found{};
+        unroll<8>([&](auto t) {
+            auto s = scaled_jacobian(x.edges<t>());
+            found |= below(s, block.jacobian, floors.jacobian_band, block.counted(t), SURELY_ABOVE);
+        });
+        auto scales = scales_of<Lanes>(target, [&](int i) { return shared.number(first, i, count); });
+        std::uint8_t bits[LANES] = {};
+        for (int i = 0; i < count; ++i) bits[i] = omitted[numbers[i]];
+        auto quality = quality_of(x, scales, CornerMask<Lanes>(bits, 0, count));
+        found |= below(quality, block.quality, floors.quality_band, ALL, SURELY_ABOVE);
+        for (int i = 0; i < count; ++i)
+            if (found[i]) near.push_back(numbers[i]);
+    }
+    return near;
+}
+
 template <class Real, class Target>
 void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, const HexShares &shared,
                  std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
@@ -193,16 +242,17 @@ void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, co
         auto low = shared.bounds[share], high = shared.bounds[share + 1];
         auto sums = std::make_unique<HessianSums>();
         auto values = std::make_unique<Real[][HEX_STRIDE]>(LANES);
-        for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
-            int count = std::min(LANES, shared.start[share + 1] - first);
-            LaneFloors block(floors, count, [&](int i) { return shared.numbers[first + i]; });
-            if (!block.any()) continue;
+        const auto near = hexes_near_floors(points, floors, omitted, shared, share, target);
+        for (std::size_t first = 0; first < near.size(); first += LANES) {
+            int count = static_cast<int>(std::min<std::size_t>(LANES, near.size() - first));
+            const std::int32_t *numbers = &near[first];
+            LaneFloors block(floors, count, [&](int i) { return numbers[i]; });
             Hex hexes[LANES];
-            for (int i = 0; i < count; ++i) hexes[i] = shared.hexes[shared.numbers[first + i]];
+            for (int i = 0; i < count; ++i) hexes[i] = shared.hexes[numbers[i]];
             auto x = gather_corners<Lanes>(points, hexes, 0, count);
-            auto scales = scales_of<Lanes>(target, [&](int i) { return shared.number(first, i, count); });
+            auto scales = scales_of<Lanes>(target, [&](int i) { return numbers[std::min(i, count - 1)]; });
             std::uint8_t bits[LANES] = {};
-            for (int i = 0; i < count; ++i) bits[i] = omitted[shared.numbers[first + i]];
+            for (int i = 0; i < count; ++i) bits[i] = omitted[numbers[i]];
             CornerMask<Lanes> counted(bits, 0, count);
             *sums = HessianSums{};
             auto by = barrier_of<true>(quality_of(x, scales, counted), block.quality, floors.quality_band, ALL);
@@ -223,7 +273,7 @@ void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, co
             auto weight = broadcast<Lanes>(floors.weight);
             weigh_hessian<Real>(*sums, weight, floors.weight * by.second, values.get());
             for (int i = 0; i < count; ++i) {
-                Hex slots = shared.slots_of(shared.numbers[first + i]);
+                Hex slots = shared.slots_of(numbers[i]);
                 scatter<Real>(values[i], slots, blocks_of(slots, shared.row_start, shared.columns), low, high,
                               off_diagonal, diagonal);
             }

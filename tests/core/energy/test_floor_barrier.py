@@ -110,6 +110,23 @@ def test_its_derivatives_are_those_of_differences(seed, weight, kind):
     np.testing.assert_allclose(single, product, rtol=1e-4, atol=1e-4 * np.abs(product).max())
 
 
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("weight", [None, 0.7])
+def test_hexes_above_their_bands_take_no_part_in_the_hessian(seed, weight):
+    energy, x, _ = case_of(seed, weight)
+    barrier, share = energy.barrier, 0.7
+    bands = barrier.jacobian_band * share, barrier.quality_band * share
+    low = FloorBarrier(barrier.jacobians, barrier.qualities, barrier.ignored, *bands, 3.0)
+    near = energy.with_barrier(low).barriers(x) > 0
+    assert 0 < near.sum() < 0.8 * near.size
+    floors = [np.where(near, one, -np.inf) for one in (barrier.jacobians, barrier.qualities)]
+    energies = [energy.with_barrier(one) for one in (low, FloorBarrier(*floors, barrier.ignored, *bands, 3.0))]
+    for dtype in (np.float32, np.float64):
+        found, expected = (one.hessian(x).assembled(dtype) for one in energies)
+        np.testing.assert_array_equal(found.off_diagonal, expected.off_diagonal)
+        np.testing.assert_array_equal(found.diagonal, expected.diagonal)
+
+
 def test_at_a_floor_and_below_it_is_infinite_and_above_the_band_nothing():
     mesh = scrambled(grid(3), 0.15, 1)
     energy = MeshEnergy(mesh, ObjectiveNorm(1.0))
