@@ -12,6 +12,9 @@ def shorten(step: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order=
     node's edges; changes step. hexes (m, 8); start, corners: `Topology.node_corners`.
     """
 
+def shorten_by_rings(step: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ring: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], reach: float) -> None:
+    """As `shorten`, faster; start, ring: `Topology.rings`."""
+
 def displaced(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], step: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], alpha: float, moved: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
     """
     Points (n, 3) with `nodes` (k,) displaced by alpha times their steps (k, 3); writes moved (n, 3).

@@ -210,6 +210,8 @@ void bind_step_limits(nb::module_ m) {
           ReleaseGil(),
           "Shorten the steps (k, 3) of `nodes` (k,) that are longer than `reach` times the mean length of the\n"
           "node's edges; changes step. hexes (m, 8); start, corners: `Topology.node_corners`.");
+    m.def("shorten_by_rings", &shorten_by_rings, "step"_a, "points"_a, "start"_a, "ring"_a, "nodes"_a, "reach"_a,
+          ReleaseGil(), "As `shorten`, faster; start, ring: `Topology.rings`.");
     m.def("displaced", &displaced, "points"_a, "nodes"_a, "step"_a, "alpha"_a, "moved"_a, ReleaseGil(),
           "Points (n, 3) with `nodes` (k,) displaced by alpha times their steps (k, 3); writes moved (n, 3).");
 }

@@ -7,6 +7,20 @@
 
 namespace hexmend {
 
+namespace {
+
+// Shorten a step from a point that is longer than `reach` times the mean distance of its neighbours.
+void shorten_step(Point &step, Points points, Node node, Indices neighbours, double reach) {
+    double total = 0;
+    for (Node other : neighbours) total += length(vector(points[other]) - vector(points[node]));
+    double furthest = reach * total / static_cast<int>(neighbours.size());
+    double far = length(vector(step));
+    if (far > furthest)
+        for (double &x : step) x *= furthest / far;
+}
+
+}  // namespace
+
 void shorten(std::span<Point> step, Points points, Hexes hexes, Indices start, Indices corners, Indices nodes,
              double reach) {
     const auto most = 3 * widest(start);
@@ -21,13 +35,15 @@ void shorten(std::span<Point> step, Points points, Hexes hexes, Indices start, I
                 for (int j = 1; j < 4; ++j)
                     if (auto other = hex[tetrahedron[j]]; other != i) placed(ring.data(), size, other);
             }
-            double total = 0;
-            for (int s = 0; s < size; ++s) total += length(vector(points[ring[s]]) - vector(points[i]));
-            double furthest = reach * total / size;
-            double far = length(vector(step[k]));
-            if (far > furthest)
-                for (double &x : step[k]) x *= furthest / far;
+            shorten_step(step[k], points, i, {ring.data(), static_cast<std::size_t>(size)}, reach);
         }
+    });
+}
+
+void shorten_by_rings(std::span<Point> step, Points points, Indices start, Indices ring, Indices nodes, double reach) {
+    parallel_for(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t k) {
+        const Node i = nodes[k];
+        shorten_step(step[k], points, i, ring.subspan(start[i], start[i + 1] - start[i]), reach);
     });
 }
 

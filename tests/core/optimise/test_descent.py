@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
+from hexmend.kernels import step_limits
 from hexmend.kernels.line_search import LineSearch
 from hexmend.optimise.descent import DESCENT, descend, is_perfect, shorten_to_range
 from hexmend.optimise.search_direction import SearchDirection, steepest_descent
@@ -44,6 +45,20 @@ def test_no_node_goes_further_than_it_may_and_others_go_on(seed, reach):
     assert (moved <= reach * own_edges(mesh, x) * (1 + 1e-9)).all()
     assert np.abs(taken[reach].direction.vector).max() <= reach * own_edges(mesh, x).max() * (1 + 1e-9)
     assert taken[reach].backtracks <= taken[np.inf].backtracks
+
+
+@settings(max_examples=5)
+@given(seeds, st.sampled_from([0.02, 0.3]))
+def test_steps_are_shortened_alike_whether_neighbours_are_known_or_not(seed, reach):
+    mesh, energy, x = problem(seed)
+    steps = np.random.default_rng(seed).normal(scale=0.1, size=(energy.nodes.size, 3))
+    found, expected = steps.copy(), steps.copy()
+    corners, rings = mesh.topology.node_corners, mesh.topology.rings
+    step_limits.shorten(expected, x, mesh.hexes, corners.start, corners.items, energy.nodes, reach)
+    step_limits.shorten_by_rings(found, x, rings.start, rings.items, energy.nodes, reach)
+    np.testing.assert_array_equal(found, expected)
+    most = reach * own_edges(mesh, x)[energy.nodes]
+    np.testing.assert_allclose(np.linalg.norm(found, axis=1), np.minimum(np.linalg.norm(steps, axis=1), most))
 
 
 @pytest.mark.parametrize("factor", [0.0, -1.0])

@@ -169,6 +169,11 @@ class Topology:
         with overflow_as_mesh_error("neighbours of nodes"):
             return CSR(*incidence.node_rings(self.hexes, rows.start, rows.items, MAX_ITEMS))
 
+    @property
+    def has_rings(self) -> bool:
+        """True if `rings` are computed and in memory."""
+        return "rings" in self.__dict__
+
     @cached_property
     def _edges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         rows = self.node_corners
