@@ -16,6 +16,7 @@ from hexmend.kernels import hex_mesh as hex_mesh
 from hexmend.kernels import incidence as incidence
 from hexmend.kernels import laplacian as laplacian
 from hexmend.kernels import line_search as line_search
+from hexmend.kernels import linear_program as linear_program
 from hexmend.kernels import local as local
 from hexmend.kernels import metrics as metrics
 from hexmend.kernels import objective as objective

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.arrays import index_of
+from hexmend.kernels import linear_program as kernels
 from hexmend.optimise.maxmin.directions import StepDirections
 from hexmend.optimise.maxmin.vertex import Vertex, names_of_models, names_of_unknowns
 
@@ -223,44 +224,23 @@ def build_program(
     price on each direction keeps nodes that need not move.
     """
     greatest = max(nodes.max(initial=0), constraints.nodes.max(initial=0))  # a node may be without a constraint
-    node_index = index_of(nodes, int(greatest) + 1)[constraints.nodes]
-    slopes, first_of_node = _summed_slopes(constraints)
-    model, place = np.nonzero((node_index >= 0) & first_of_node)
-    node_index = node_index[model, place]
     first = np.searchsorted(directions.node_index, np.arange(nodes.size + 1))
-    count = first[node_index + 1] - first[node_index]  # directions of the node
-    pair = np.repeat(np.arange(node_index.size), count)
-    direction = np.arange(pair.size) + np.repeat(first[node_index] - np.cumsum(count) + count, count)
-    along = directions.projected.take(direction, axis=0)
-    values = -np.einsum("ki,ki->k", np.repeat(slopes[model, place], count, axis=0), along)
     unknowns = directions.n_unknowns + 1
-    matrix = _with_gains(model[pair], directions.columns[direction], values, constraints.has_gain, unknowns)
+    matrix = SparseRows(
+        *kernels.rows(
+            np.ascontiguousarray(constraints.nodes, dtype=np.int32),
+            np.ascontiguousarray(constraints.slopes).reshape(-1, 12),
+            constraints.has_gain,
+            index_of(nodes, int(greatest) + 1),
+            first,
+            np.ascontiguousarray(directions.projected),
+            directions.columns,
+            unknowns - 1,
+        )
+    )
     if directions.unknown is not None:  # tied nodes share a column
         matrix = matrix.summed(unknowns)
     cost = np.full(unknowns, MOVE_COST / max(nodes.size, 1))
     lower, upper = np.zeros(unknowns), np.full(unknowns, radius)
     cost[-1], lower[-1], upper[-1] = -1.0, -2.0 if may_decrease else 0.0, 2.0
     return LinearProgram(cost, lower, upper, matrix, constraints.slack)
-
-
-def _summed_slopes(constraints: LinearConstraints) -> tuple[np.ndarray, np.ndarray]:
-    """Return slopes (r, 4, 3) of which the first of equal nodes has all, and (r, 4) bool: nodes that are the first."""
-    nodes, slopes = constraints.nodes, constraints.slopes.copy()
-    first = np.ones(nodes.shape, dtype=bool)
-    for later in range(1, 4):
-        for earlier in range(later):
-            same = np.flatnonzero((nodes[:, earlier] == nodes[:, later]) & first[:, later])
-            slopes[same, earlier] += slopes[same, later]
-            first[same, later] = False
-    return slopes, first
-
-
-def _with_gains(
-    row: np.ndarray, column: np.ndarray, values: np.ndarray, gains: np.ndarray, unknowns: int
-) -> SparseRows:
-    """Make rows of some values (k,), whose rows ascend, that end with gains (r,) in the last column."""
-    start = np.searchsorted(row, np.arange(gains.size + 1)) + np.arange(gains.size + 1)
-    at, last = np.arange(row.size) + row, start[1:] - 1
-    columns, all_values = np.full(row.size + gains.size, unknowns - 1), np.empty(row.size + gains.size)
-    columns[at], all_values[at], all_values[last] = column, values, gains
-    return SparseRows(start, columns, all_values)
