@@ -12,7 +12,11 @@ from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate
 from hexmend.boundary.normals import PieceDirections
 from hexmend.errors import MeshError
+from hexmend.kernels import sliding_surface
 
+#: A point is inside a triangle or segment if all its weights there exceed this; its tangent is then that of the
+#: triangle or segment, else one interpolated between vertices.
+_INTERIOR_WEIGHT = 1e-3
 #: Interpolated normals shorter than this have no direction: the vertex normals are opposed.
 _MIN_MEAN_NORMAL = 1e-6
 
@@ -145,6 +149,27 @@ class PartitionedSurface:
         mean = np.einsum("ki,kij->kj", found.weights, self._directions.smooth[given])
         size = np.linalg.norm(mean, axis=1, keepdims=True)
         return np.where(size > _MIN_MEAN_NORMAL, mean / np.maximum(size, _MIN_MEAN_NORMAL), flat)
+
+    def tangent_bases(self, found: ClosestPoints, of_curve: np.ndarray) -> np.ndarray:
+        """Compute orthonormal directions at closest points in which nodes may move.
+
+        Parameters
+        ----------
+        found : ClosestPoints
+            Points found by `trees`.
+        of_curve : (k,) bool
+            True for a point on a curve, which has one direction; one on a patch has two.
+
+        Returns
+        -------
+        (k, 3, 3) float64
+            Directions in columns; the others are 0.
+        """
+        bases, directions = np.empty((len(of_curve), 9)), self._directions
+        corners = directions.smooth.reshape(-1, 9)
+        where = found.pieces, found.weights, of_curve, _INTERIOR_WEIGHT
+        sliding_surface.tangent_bases(self._given, directions.flat, corners, *where, bases)
+        return bases.reshape(-1, 3, 3)
 
     def attached(self, points: np.ndarray, boundary: Boundary, reach: float = np.inf) -> PartitionedSurface:
         """Return this surface for the nodes of another boundary, which slide on its nearest curves and patches.

@@ -45,6 +45,17 @@ class SurfaceTerm:
         relative to a hex; delta as of hexes. Arrays are not copied.
         """
 
+def tangent_bases(number: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], flat: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], smooth: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], of_curve: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], interior: float, bases: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu')]) -> None:
+    """
+    Write orthonormal directions in which nodes may move, in columns, bases (k, 9): a node of a curve has one,
+    one of a patch two, the other columns are 0.
+
+    pieces (k,) int32 and weights (k, 3) describe the closest points of the nodes; of_curve (k,) bool. The
+    normal or tangent is that of the piece where all weights exceed `interior`, or else interpolated between
+    its corners. number (p,) int64 of each piece of the trees in flat (t, 3) and smooth (t, 9), unit vectors
+    of triangles and segments, and of their three corners; numbers must exist.
+    """
+
 def flipped_quads(before: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], after: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], quads: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], outward: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], flipped: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
     Write flipped (f,) bool: True for a quad that is flipped at the points after and was not before.

@@ -5,6 +5,7 @@
 #include "boundary/closest_point_cache.hpp"
 #include "boundary/near_points.hpp"
 #include "boundary/surface_points.hpp"
+#include "boundary/tangents.hpp"
 #include "boundary/vertex_normals.hpp"
 #include "smoothers/sliding.hpp"
 
@@ -149,6 +150,21 @@ void bind_sliding_surface(nb::module_ m) {
             "outward unit normals of the surface at the quads; inverse_lengths (f, 8) float64 those that the\n"
             "edges from each corner to the next and the previous are to have, with a target. weight is that of a quad\n"
             "relative to a hex; delta as of hexes. Arrays are not copied.");
+    m.def(
+        "tangent_bases",
+        [](std::span<const std::int64_t> number, Points flat, std::span<const std::array<double, 9>> smooth,
+           Indices pieces, std::span<const Barycentric> weights, std::span<const bool> of_curve, double interior,
+           ArrayView<double, 9> bases) {
+            expect(smooth.size() == flat.size(), "smooth: a row for each of flat is expected");
+            tangent_bases({number, flat, smooth}, pieces, weights, of_curve, interior, bases);
+        },
+        "number"_a, "flat"_a, "smooth"_a, "pieces"_a, "weights"_a, "of_curve"_a, "interior"_a, "bases"_a, ReleaseGil(),
+        "Write orthonormal directions in which nodes may move, in columns, bases (k, 9): a node of a curve has one,\n"
+        "one of a patch two, the other columns are 0.\n\n"
+        "pieces (k,) int32 and weights (k, 3) describe the closest points of the nodes; of_curve (k,) bool. The\n"
+        "normal or tangent is that of the piece where all weights exceed `interior`, or else interpolated between\n"
+        "its corners. number (p,) int64 of each piece of the trees in flat (t, 3) and smooth (t, 9), unit vectors\n"
+        "of triangles and segments, and of their three corners; numbers must exist.");
     m.def("flipped_quads", &flipped_quads, "before"_a, "after"_a, "quads"_a, "outward"_a, "flipped"_a, ReleaseGil(),
           "Write flipped (f,) bool: True for a quad that is flipped at the points after and was not before.");
 }

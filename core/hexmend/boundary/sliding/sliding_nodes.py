@@ -9,7 +9,7 @@ from typing import Self
 
 import numpy as np
 
-from hexmend.arrays import cross_products, differing_rows, index_of, mask
+from hexmend.arrays import differing_rows, index_of, mask
 from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPointCache, ClosestPoints, triangulate
@@ -19,10 +19,6 @@ from hexmend.boundary.surface import PartitionedSurface
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding_surface as kernels
 from hexmend.mesh.validation import as_points, points_like
-
-#: A point is inside a triangle or segment if all its weights there exceed this; its tangent is then that of the
-#: triangle or segment, else one interpolated between vertices.
-_INTERIOR_WEIGHT = 1e-3
 
 
 class SlidingNodes(Band):
@@ -129,15 +125,7 @@ class SlidingNodes(Band):
             Directions in columns: one for a node of a curve, two for one of a patch; the other columns are 0.
         """
         of, found = self.nodes if nodes is None else nodes, self._closest(x, nodes)
-        curve = self.node_class[of] == NodeClass.CURVE
-        inside = found.weights > _INTERIOR_WEIGHT
-        at_side = np.flatnonzero(~(inside[:, 0] & inside[:, 1] & (inside[:, 2] | curve)))  # a segment has two weights
-        along = self.surface.directions(found, smooth=False)
-        along[at_side] = self.surface.directions(found.rows(at_side))
-        bases = np.zeros((len(of), 3, 3))
-        bases[curve, :, 0] = along[curve]
-        bases[~curve, :, :2] = _tangent_basis(along[~curve])
-        return bases
+        return self.surface.tangent_bases(found, self.node_class[of] == NodeClass.CURVE)
 
     def tangents(self, points: np.ndarray) -> np.ndarray:
         """Return the first two directions of `tangent_bases` of all sliding nodes, each as a row (k, 6).
@@ -268,13 +256,3 @@ def _undone(before: np.ndarray, after: np.ndarray, rejected: Callable[[np.ndarra
             return after
         after = after.copy()
         after[nodes] = before[nodes]
-
-
-def _tangent_basis(normals: np.ndarray) -> np.ndarray:
-    """Two unit vectors at right angles to each other and to each normal, the columns of (k, 3, 2); 0 where it is 0."""
-    axis = np.abs(normals).argmin(axis=1)
-    first = cross_products(normals, np.eye(3)[axis])
-    squares = first * first
-    size = np.sqrt(squares[:, 0] + squares[:, 1] + squares[:, 2])
-    first /= np.maximum(size, np.finfo(float).tiny)[:, None]
-    return np.stack([first, cross_products(normals, first)], axis=-1)

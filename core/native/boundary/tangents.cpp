@@ -1,0 +1,68 @@
+#include "boundary/tangents.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "simd/threads.hpp"
+#include "simd/vectors.hpp"
+
+namespace hexmend {
+namespace {
+
+constexpr std::int64_t NODES_PER_CHUNK = 1024;
+
+// Interpolated directions shorter than this count as none: those at the corners are opposed.
+constexpr double LEAST_MEAN = 1e-6;
+
+// No product is fused with a sum, so that the directions have the same bits on every processor.
+double sum_of_squares(const V3<double> &a) {
+    return uncontracted(a.x * a.x) + uncontracted(a.y * a.y) + uncontracted(a.z * a.z);
+}
+
+V3<double> exact_cross(const V3<double> &a, const V3<double> &b) {
+    return {uncontracted(a.y * b.z) - uncontracted(a.z * b.y), uncontracted(a.z * b.x) - uncontracted(a.x * b.z),
+            uncontracted(a.x * b.y) - uncontracted(a.y * b.x)};
+}
+
+V3<double> over(const V3<double> &a, double size) { return {a.x / size, a.y / size, a.z / size}; }
+
+// The mean of the directions at the corners of a piece; that of the piece where it has none.
+V3<double> interpolated(const std::array<double, 9> &corners, const Barycentric &weights, const V3<double> &flat) {
+    double mean[3] = {};
+    for (int corner = 0; corner < 3; ++corner)
+        for (int k = 0; k < 3; ++k) mean[k] += uncontracted(weights[corner] * corners[3 * corner + k]);
+    V3<double> along{mean[0], mean[1], mean[2]};
+    double size = std::sqrt(sum_of_squares(along));
+    return size > LEAST_MEAN ? over(along, size) : flat;
+}
+
+// A unit vector at right angles to a normal, and to the axis that is most across it.
+V3<double> across(const V3<double> &normal) {
+    const double sides[3] = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+        if (sides[k] < sides[axis]) axis = k;
+    V3<double> first = exact_cross(normal, {double(axis == 0), double(axis == 1), double(axis == 2)});
+    return over(first, std::max(std::sqrt(sum_of_squares(first)), std::numeric_limits<double>::min()));
+}
+
+}  // namespace
+
+void tangent_bases(const SurfaceDirections &surface, Indices pieces, std::span<const Barycentric> weights,
+                   std::span<const bool> of_curve, double interior, ArrayView<double, 9> bases) {
+    expect(weights.size() == pieces.size() && of_curve.size() == pieces.size() && bases.size() == pieces.size(),
+           "pieces, weights, of_curve and bases have different lengths: expected a row a node");
+    parallel_for(pieces.size(), NODES_PER_CHUNK, [&](std::int64_t i) {
+        const std::int64_t number = surface.number[pieces[i]];
+        const Barycentric &weight = weights[i];
+        const bool curve = of_curve[i];  // a segment has two weights
+        const bool inside = weight[0] > interior && weight[1] > interior && (curve || weight[2] > interior);
+        V3<double> along = vector(surface.flat[number]);
+        if (!inside) along = interpolated(surface.smooth[number], weight, along);
+        const V3<double> first = curve ? along : across(along);
+        const V3<double> second = curve ? V3<double>{} : exact_cross(along, first);
+        bases[i] = {first.x, second.x, 0, first.y, second.y, 0, first.z, second.z, 0};
+    });
+}
+
+}  // namespace hexmend

@@ -1,0 +1,22 @@
+// Directions in which nodes that slide on a surface may move.
+#pragma once
+
+#include "boundary/closest_point.hpp"
+
+namespace hexmend {
+
+// Unit normals of triangles and tangents of segments, 0 for those without extent: of each as it is, and at its corners,
+// averaged over those around.
+struct SurfaceDirections {
+    std::span<const std::int64_t> number;  // of each piece of the trees among the triangles and segments
+    Points flat;
+    std::span<const std::array<double, 9>> smooth;  // at three corners
+};
+
+// Write orthonormal directions (k, 3, 3), in columns, at closest points on pieces: one where the node is of a curve,
+// two on a patch; other columns are 0. Where all weights exceed `interior` the direction of the piece counts, elsewhere
+// the one interpolated between its corners.
+void tangent_bases(const SurfaceDirections &surface, Indices pieces, std::span<const Barycentric> weights,
+                   std::span<const bool> of_curve, double interior, ArrayView<double, 9> bases);
+
+}  // namespace hexmend
