@@ -89,6 +89,7 @@ class MeshEnergy(TargetScales):
         self.barrier: FloorBarrier | None = None
         self.surface: SurfaceTerm | None = None
         self._workspace = Workspace()
+        self._ordered: list[BlockSparsity] = []  # none before first use; shared by copies
         self._evaluated: tuple[tuple, tuple, tuple] | None = None
 
     @cached_property
@@ -102,9 +103,18 @@ class MeshEnergy(TargetScales):
         couples_hexes = self.norm.p != 1 or self.barrier is not None
         return self.ordered_nodes if couples_hexes else self.ordered_nodes.of_tetrahedra
 
-    @cached_property
+    @property
     def ordered_nodes(self) -> BlockSparsity:
         """The order of free nodes in Hessians, with the pattern of all pairs that share a hex."""
+        if not self._ordered:
+            self._ordered.append(self._order_nodes())
+        return self._ordered[0]
+
+    @ordered_nodes.setter
+    def ordered_nodes(self, nodes: BlockSparsity) -> None:
+        self._ordered[:] = [nodes]
+
+    def _order_nodes(self) -> BlockSparsity:
         return BlockSparsity(self.mesh, workspace=self._workspace)
 
     @property

@@ -36,8 +36,7 @@ class RankEnergy(MeshEnergy):
         self.part, self.ranks, self.counted = part, part.ranks, part.counted
         self.nodes = np.flatnonzero(part.mesh.free & part.owned).astype(np.int32)
 
-    @cached_property
-    def ordered_nodes(self) -> BlockSparsity:
+    def _order_nodes(self) -> BlockSparsity:
         return BlockSparsity(self.mesh, workspace=self._workspace, owned=self.part.owned, ranks=self.ranks)
 
     @property

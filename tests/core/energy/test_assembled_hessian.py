@@ -256,3 +256,12 @@ def test_a_vector_of_another_length_is_refused_by_every_matrix(of, shape):
             take(vector)
     with pytest.raises(MeshError, match="the right-hand side are of type complex128"):
         assembled.solve(np.ones(hessian.shape[0]) + 0j, 1e-3, 5)
+
+
+def test_copies_with_another_objective_share_the_order_of_nodes_whoever_finds_it_first():
+    energy = MeshEnergy(scrambled(grid(3), 0.1))
+    one = energy.with_barrier(None)
+    found = one.ordered_nodes
+    assert energy.ordered_nodes is found
+    assert energy.with_objective(ObjectiveNorm(2.0), energy.omitted).sparsity is found
+    assert MeshEnergy(energy.mesh).ordered_nodes is not found
