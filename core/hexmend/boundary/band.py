@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import NamedTuple
 
@@ -42,6 +42,13 @@ class Deviations:
     directions: np.ndarray
     nodes: np.ndarray
     weights: np.ndarray
+
+    def beyond(self, limit: float) -> Deviations:
+        """Return the samples that are further than a higher limit; itself if all are."""
+        out = self.distances > limit
+        if out.all():
+            return self
+        return Deviations(*(getattr(self, field.name)[out] for field in fields(self)))
 
 
 class InitialDistances(NamedTuple):

@@ -41,6 +41,7 @@ class Envelope:
         self.off_surface = np.zeros(n_nodes, dtype=bool)
         self.flips_allowed = False
         self._tracker: DeviationTracker | None = None
+        self._examined: tuple[np.ndarray, SlidingBoundary, float, tuple[Deviations, Deviations]] | None = None
 
     def limit_to(self, max_deviation: float) -> None:
         """Set the distance of boundary and surface in the band, in the mesh's unit of length."""
@@ -132,10 +133,17 @@ class Envelope:
         return self.sliding is not None and bool(np.isfinite(self.max_deviation))
 
     def _deviations(self, points: np.ndarray, limit: float) -> tuple[Deviations, Deviations]:
-        """Places of the boundary further than `limit` from the surface, and of the surface from the boundary."""
-        sliding = self.sliding
-        midpoints = np.arange(len(sliding.samples))
-        return sliding.boundary_deviation(points, midpoints, limit), sliding.surface_deviation(points, limit=limit)
+        """Places of the boundary further than `limit` from the surface, and of the surface from the boundary.
+
+        Those of a lower limit, at the points that were examined last, have them all.
+        """
+        sliding, known = self.sliding, self._examined
+        if known is None or not (known[0] is points and known[1] is sliding and known[2] <= limit):
+            midpoints = np.arange(len(sliding.samples))
+            found = sliding.boundary_deviation(points, midpoints, limit), sliding.surface_deviation(points, limit=limit)
+            self._examined = known = points, sliding, limit, found
+        of_boundary, of_surface = known[3]
+        return of_boundary.beyond(limit), of_surface.beyond(limit)
 
     def _track(self, points: np.ndarray) -> DeviationTracker:
         if self._tracker is None or self._tracker.points is not points:
