@@ -8,11 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.arrays import any_of_rows, differing_rows, extent, mask, row_norms
+from hexmend.arrays import any_of_rows, extent, mask, row_norms
 from hexmend.boundary.cell_extremes import extremes_in_cells
 from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
 from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
+from hexmend.kernels import closest_point
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
 _ROUNDING = 1e-9
@@ -241,9 +242,11 @@ class Band:
         judged = self._judged  # one read, as another thread may replace it
         if judged is None or judged.max_deviation != self.max_deviation:
             return np.ones(len(self.samples), dtype=bool), np.ones(len(self.target_samples), dtype=bool)
-        moved = differing_rows(points, judged.points)
-        pieces = any_of_rows(moved, self._faces).take(self.skin.faces_of_pieces)
-        return judged.boundary | any_of_rows(moved, self.samples), judged.surface | pieces.take(judged.pieces)
+        boundary, surface = (np.empty(len(marks), dtype=bool) for marks in (judged.boundary, judged.surface))
+        where = self.samples, self._faces, self.skin.faces_of_pieces, judged.pieces
+        marks = judged.boundary, judged.surface, boundary, surface
+        closest_point.moved_samples(points, judged.points, *where, *marks)
+        return boundary, surface
 
     @property
     def _limits(self) -> tuple[np.ndarray, np.ndarray]:

@@ -121,16 +121,12 @@ class NearPoints:
 
         Returns
         -------
-        (k,) int64
+        (k,) int32
             Numbers of these samples, ascending.
         """
-        far = np.empty(len(x), dtype=bool)
-        closest_point.far_samples(points, trees.pieces, x, examined, limits, self._kernel, far)
-        far = np.flatnonzero(far)
-        if not far.size:
-            return far
-        self._points = None
-        return far[self._search(trees, points, x[far], limits[far], far)]
+        self._points, boxes = None, np.empty_like(trees.boxes)
+        moving = points, trees.pieces, trees.links, boxes
+        return closest_point.samples_beyond(*moving, x, examined, limits, self._kernel)
 
     @property
     def _kernel(self) -> closest_point.NearPoints:

@@ -90,10 +90,23 @@ def means_beyond(trees: BoxTrees, points: Annotated[NDArray[numpy.float64], dict
     Points that are found become the near ones.
     """
 
-def far_samples(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], examined: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], near: NearPoints, far: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
+def samples_beyond(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], links: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], boxes: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], examined: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], near: NearPoints) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
-    Write far (s,) bool: True where x (s, 3) is further than its limit (s,) from the point of its piece with
-    its weights, whatever its position in near. False where examined (s,) bool is.
+    The numbers, ascending int32, of the examined (s,) bool of x (s, 3) that are further than their limits (s,)
+    from the first tree, whose points have moved.
+
+    Boxes are written where a search is needed. Points that are found become the near ones, without their
+    positions.
+    """
+
+def moved_samples(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], earlier: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], boundary_samples: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], face_of_piece: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], boundary_before: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], surface_before: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], boundary: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')], surface: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Mark samples of a boundary, boundary (s,) bool, and of a surface, surface (t,) bool: those marked before, and
+    those of which a node differs between points and earlier, both (n, 3).
+
+    Nodes of samples of the boundary are rows of boundary_samples (s, 4), those of the surface the nodes of the
+    face, of faces (f, 4), on which pieces (t,) lie, -1 for none, by face_of_piece (p,) int64. Others are int32;
+    numbers must exist.
     """
 
 def numbers_of_different_points(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:

@@ -74,10 +74,34 @@ void bind_closest_point(nb::module_ m) {
           "Write beyond (s,) bool: True where the mean of the four points of a row of samples (s, 4) int32, which\n"
           "must exist, is further from the first tree than its limit (s,). False where examined (s,) bool is.\n"
           "Points that are found become the near ones.");
-    m.def("far_samples", &far_samples, "points"_a, "pieces"_a, "x"_a, "examined"_a, "limits"_a, "near"_a, "far"_a,
-          ReleaseGil(),
-          "Write far (s,) bool: True where x (s, 3) is further than its limit (s,) from the point of its piece with\n"
-          "its weights, whatever its position in near. False where examined (s,) bool is.");
+    m.def(
+        "samples_beyond",
+        [](Points points, std::span<const Piece> pieces, std::span<const ChildLinks> links, std::span<ChildSide> boxes,
+           Points x, std::span<const bool> examined, Numbers limits, const NearPoints &near) {
+            return samples_beyond({points, pieces, links, boxes}, x, examined, limits, near);
+        },
+        "points"_a, "pieces"_a, "links"_a, "boxes"_a, "x"_a, "examined"_a, "limits"_a, "near"_a, ReleaseGil(),
+        "The numbers, ascending int32, of the examined (s,) bool of x (s, 3) that are further than their limits (s,)\n"
+        "from the first tree, whose points have moved.\n\n"
+        "Boxes are written where a search is needed. Points that are found become the near ones, without their\n"
+        "positions.");
+    m.def(
+        "moved_samples",
+        [](Points points, Points earlier, std::span<const std::array<Node, 4>> boundary_samples,
+           std::span<const std::array<Node, 4>> faces, std::span<const std::int64_t> face_of_piece, Indices pieces,
+           std::span<const bool> boundary_before, std::span<const bool> surface_before, std::span<bool> boundary,
+           std::span<bool> surface) {
+            moved_samples({boundary_samples, faces, face_of_piece, pieces}, points, earlier, boundary_before,
+                          surface_before, boundary, surface);
+        },
+        "points"_a, "earlier"_a, "boundary_samples"_a, "faces"_a, "face_of_piece"_a, "pieces"_a, "boundary_before"_a,
+        "surface_before"_a, "boundary"_a, "surface"_a, ReleaseGil(),
+        "Mark samples of a boundary, boundary (s,) bool, and of a surface, surface (t,) bool: those marked before, "
+        "and\n"
+        "those of which a node differs between points and earlier, both (n, 3).\n\n"
+        "Nodes of samples of the boundary are rows of boundary_samples (s, 4), those of the surface the nodes of the\n"
+        "face, of faces (f, 4), on which pieces (t,) lie, -1 for none, by face_of_piece (p,) int64. Others are int32;\n"
+        "numbers must exist.");
     m.def("numbers_of_different_points", &numbers_of_different_points, "points"_a, ReleaseGil(),
           "The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first\n"
           "appear.");

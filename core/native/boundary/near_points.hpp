@@ -15,6 +15,14 @@ struct NearPoints {
     std::span<Point> places;
 };
 
+// Trees whose points have moved; the boxes are storage for those that fit them.
+struct MovingTrees {
+    Points points;
+    std::span<const Piece> pieces;
+    std::span<const ChildLinks> links;
+    std::span<ChildSide> boxes;
+};
+
 // The mean of four points.
 inline V3<double> mean_of(Points points, const std::array<Node, 4> &nodes) {
     V3<double> sum = vector(points[nodes[0]]);
@@ -36,9 +44,23 @@ inline double distance_from(Points points, std::span<const Piece> pieces, const 
 void means_beyond(const BoxTrees &trees, Points points, std::span<const std::array<Node, 4>> samples,
                   std::span<const bool> examined, Numbers limits, const NearPoints &near, std::span<bool> beyond);
 
-// Write `far`: whether x is further than its limit from the point of its piece with its weights, false for samples that
-// are not examined. Places are not used: the pieces may have moved.
-void far_samples(Points points, std::span<const Piece> pieces, Points x, std::span<const bool> examined, Numbers limits,
-                 const NearPoints &near, std::span<bool> far);
+// The numbers of the examined samples x that are further than their limits from the first tree, whose points have
+// moved: its boxes are refitted where one is further from the point of its piece with its weights. Points that are
+// found are stored, but for their places.
+IntArray samples_beyond(const MovingTrees &trees, Points x, std::span<const bool> examined, Numbers limits,
+                        const NearPoints &near);
+
+// Samples of a boundary, means of four nodes, and of the surface on which it slides, each near to a piece of a face of
+// the boundary.
+struct BandSamples {
+    std::span<const std::array<Node, 4>> boundary, faces;
+    std::span<const std::int64_t> face_of_piece;
+    Indices pieces;  // near to samples of the surface, -1 for none
+};
+
+// Mark samples of the boundary and of the surface that were marked before, `boundary_before` and `surface_before`, or
+// one of whose nodes differs between points and `earlier`.
+void moved_samples(const BandSamples &samples, Points points, Points earlier, std::span<const bool> boundary_before,
+                   std::span<const bool> surface_before, std::span<bool> boundary, std::span<bool> surface);
 
 }  // namespace hexmend

@@ -75,17 +75,21 @@ def test_samples_are_beyond_a_plane_that_has_moved_by_their_distance_from_where_
         assert 0 < beyond.size < examined.sum()
 
 
-def test_samples_are_far_by_the_distance_from_their_points_as_the_pieces_are_now():
-    rng = np.random.default_rng(10)
-    points, pieces = rng.normal(size=(50, 3)), rng.integers(0, 50, (80, 3)).astype(np.int32)
-    piece, weights = rng.integers(-1, 80, 1500).astype(np.int32), rng.dirichlet(np.ones(3), 1500)
-    x, limits, examined = rng.normal(size=(1500, 3)), rng.uniform(0.5, 3.0, 1500), rng.random(1500) < 0.8
-    distance = np.linalg.norm(np.einsum("ki,kij->kj", weights, points[pieces[piece]]) - x, axis=1)
-    far = np.empty(1500, dtype=bool)
-    near = closest_point.NearPoints(piece, weights, np.zeros((1500, 3)))
-    closest_point.far_samples(points, pieces, x, examined, limits, near, far)
-    np.testing.assert_array_equal(far, examined & ((piece < 0) | (distance > limits)))
-    assert np.count_nonzero(far[piece >= 0]) > 0
+def test_samples_are_marked_that_were_before_or_move_with_a_node():
+    rng, n = np.random.default_rng(10), 400
+    earlier, samples = rng.normal(size=(n, 3)), rng.integers(0, n, (900, 4)).astype(np.int32)
+    faces, face_of_piece = rng.integers(0, n, (80, 4)).astype(np.int32), rng.integers(0, 80, 200)
+    pieces = rng.integers(-1, 200, 1500).astype(np.int32)
+    before = rng.random(900) < 0.1, rng.random(1500) < 0.1
+    points, moved = earlier.copy(), rng.random(n) < 0.1
+    points[moved, rng.integers(0, 3)] += 1e-9
+    found = np.empty(900, bool), np.empty(1500, bool)
+    closest_point.moved_samples(points, earlier, samples, faces, face_of_piece, pieces, *before, *found)
+    np.testing.assert_array_equal(found[0], before[0] | moved[samples].any(axis=1))
+    of_faces = moved[faces[face_of_piece[pieces]]].any(axis=1)
+    np.testing.assert_array_equal(found[1], before[1] | of_faces | (pieces < 0))
+    assert 0 < found[0].sum() < 900
+    assert 0 < found[1].sum() < 1500
 
 
 def test_rows_of_different_numbers_and_pieces_that_do_not_exist_are_rejected():
