@@ -31,6 +31,12 @@ def mean_edge_length(points: Annotated[NDArray[numpy.float64], dict(shape=(None,
     Mean length of the hexes' edges, each counted once a hex; 0 without hexes.
     """
 
+def lower_to_edges(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Lower lengths (n,), at the nodes of hexes, to that of the shortest edge of theirs at each. Runs on one
+    thread.
+    """
+
 def corner_qualities(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], q: Annotated[NDArray[numpy.float64], dict(shape=(None, 8), order='C', device='cpu')]) -> None:
     """
     q(T) of the eight corner tetrahedra of every hex, (2.8), 0 where sigma <= 0; writes q (m, 8) float64.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.arrays import row_norms
 from hexmend.kernels import elements
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.validation import as_hexes, as_points
@@ -72,10 +71,7 @@ def robust_mean(mean: float, sample: np.ndarray) -> float:
 def shortest_edges(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     """Find the length of the shortest edge of hexes (k, 8) at each node, (n,); +inf at nodes of none of them."""
     size = np.full(len(points), np.inf)
-    ends = hexes[:, EDGES].reshape(-1, 2)
-    lengths = row_norms(points[ends[:, 1]] - points[ends[:, 0]])
-    for side in ends.T:
-        np.minimum.at(size, side, lengths)
+    elements.lower_to_edges(points, hexes, size)
     return size
 
 

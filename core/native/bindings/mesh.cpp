@@ -22,6 +22,9 @@ void bind_elements(nb::module_ m) {
           "the mean of 1/eta(T). An inverted corner has eta(T) = +inf.");
     m.def("mean_edge_length", &mean_edge_length, "points"_a, "hexes"_a, ReleaseGil(),
           "Mean length of the hexes' edges, each counted once a hex; 0 without hexes.");
+    m.def("lower_to_edges", &lower_to_edges, "points"_a, "hexes"_a, "lengths"_a, ReleaseGil(),
+          "Lower lengths (n,), at the nodes of hexes, to that of the shortest edge of theirs at each. Runs on one\n"
+          "thread.");
     m.def("corner_qualities", &corner_qualities, "points"_a, "hexes"_a, "q"_a, ReleaseGil(),
           "q(T) of the eight corner tetrahedra of every hex, (2.8), 0 where sigma <= 0; writes q (m, 8) float64.");
     m.def("corner_determinants", &corner_determinants, "points"_a, "hexes"_a, "sigma"_a, ReleaseGil(),

@@ -1,6 +1,7 @@
 #include "mesh/metrics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "energy/tetrahedron.hpp"
@@ -142,6 +143,21 @@ void jacobian_gradients(Points points, ArrayView<const Node, 4> corners, std::sp
         }
         out[0] = -total.x, out[1] = -total.y, out[2] = -total.z;
     }
+}
+
+void lower_to_edges(Points points, Hexes hexes, std::span<double> lengths) {
+    expect(lengths.size() == points.size(), "lengths: one for each of points is expected");
+    auto lower = [](double &to, double length) {
+        if (length < to || std::isnan(length)) to = length;  // what is no number stays none
+    };
+    for (const Hex &hex : hexes)
+        for (auto [a, b] : EDGES) {
+            V3<double> edge = vector(points[hex[b]]) - vector(points[hex[a]]);
+            // As NumPy sums the squares of short rows, without fused operations.
+            double x = uncontracted(edge.x * edge.x), y = uncontracted(edge.y * edge.y);
+            double length = std::sqrt(x + uncontracted(edge.z * edge.z) + y);
+            lower(lengths[hex[a]], length), lower(lengths[hex[b]], length);
+        }
 }
 
 double mean_edge_length(Points points, Hexes hexes) {

@@ -33,6 +33,9 @@ void jacobian_gradients(Points points, ArrayView<const Node, 4> corners, std::sp
 // Mean length of the hexes' edges, each counted once per hex; 0 without hexes.
 double mean_edge_length(Points points, Hexes hexes);
 
+// Lower lengths (n,), at the nodes of hexes, to that of the shortest edge at each.
+void lower_to_edges(Points points, Hexes hexes, std::span<double> lengths);
+
 // From the six faces.
 void angles(Points points, Hexes hexes, std::span<double> smallest, std::span<double> largest);
 void warpage(Points points, Hexes hexes, std::span<double> worst);
