@@ -201,6 +201,26 @@ class Band:
         found = self.skin.with_points(points).find(x, enough, self._near_boundary.pieces[indices])
         return _deviations_above(limit, indices, x, found.points, *self.skin.weights_of_nodes(found))
 
+    def find_surface_distances(
+        self, points: np.ndarray, indices: np.ndarray, into: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+    ) -> None:
+        """Find the distances of samples of the surface from the boundary, however small.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Node positions of the boundary.
+        indices : (k,) int64
+            Samples of the surface.
+        into : tuple of ndarray
+            Arrays of which the rows of these samples are written: distances, directions, nodes and weights of
+            `Deviations` of all samples.
+        """
+        first, trees, pieces = self.initial_surface_deviation, self.skin.trees, self._near_boundary.pieces
+        samples = closest_point.SurfaceSamples(self.target_samples, *first, pieces)
+        moving = vertices_of(points, self._faces), trees.pieces, trees.links, np.empty_like(trees.boxes)
+        closest_point.find_distances(*moving, self._start, self._faces, samples, indices, *into)
+
     def nodes_outside_band(self, points: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
         """Find nodes at which the boundary is outside the band and further from the surface than at first.
 

@@ -109,6 +109,26 @@ def moved_samples(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3)
     numbers must exist.
     """
 
+class SurfaceSamples:
+    """Samples of a surface on which a boundary of quads slides."""
+
+    def __init__(self, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        x (s, 3); before sliding, their distances (s,) from the boundary, and the nodes (s, 4) int32 and weights
+        (s, 4) of the closest points; pieces (s,) int32 of the boundary near them, -1 for none. Arrays are not
+        copied.
+        """
+
+def find_distances(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], links: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], boxes: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], start: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], samples: SurfaceSamples, which: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], directions: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')]) -> None:
+    """
+    Write the rows `which` (k,) int64 of distances (s,) of samples from the boundary, of the unit vectors from
+    the closest points to the samples, directions (s, 3), and of the nodes (s, 4) int32 and weights (s, 4) of
+    these points.
+
+    points are the n nodes of the boundary and the centres of its faces (f, 4) int32, of which each is divided
+    into four of the pieces of the first tree; boxes are written. start (n, 3): the nodes before sliding.
+    """
+
 def numbers_of_different_points(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first

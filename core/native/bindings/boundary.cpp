@@ -4,6 +4,7 @@
 #include "boundary/closest_point.hpp"
 #include "boundary/closest_point_cache.hpp"
 #include "boundary/near_points.hpp"
+#include "boundary/surface_distances.hpp"
 #include "boundary/surface_points.hpp"
 #include "boundary/tangents.hpp"
 #include "boundary/vertex_normals.hpp"
@@ -102,6 +103,30 @@ void bind_closest_point(nb::module_ m) {
         "Nodes of samples of the boundary are rows of boundary_samples (s, 4), those of the surface the nodes of the\n"
         "face, of faces (f, 4), on which pieces (t,) lie, -1 for none, by face_of_piece (p,) int64. Others are int32;\n"
         "numbers must exist.");
+    nb::class_<SurfaceSamples>(m, "SurfaceSamples", "Samples of a surface on which a boundary of quads slides.")
+        .def(
+            nb::init<Points, Numbers, std::span<const FaceNodes>, std::span<const FaceWeights>, Indices>(), "x"_a,
+            "distances"_a, "nodes"_a, "weights"_a, "pieces"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
+            "x (s, 3); before sliding, their distances (s,) from the boundary, and the nodes (s, 4) int32 and weights\n"
+            "(s, 4) of the closest points; pieces (s,) int32 of the boundary near them, -1 for none. Arrays are not\n"
+            "copied.");
+    m.def(
+        "find_distances",
+        [](Points points, std::span<const Piece> pieces, std::span<const ChildLinks> links, std::span<ChildSide> boxes,
+           Points start, std::span<const FaceNodes> faces, const SurfaceSamples &samples,
+           std::span<const std::int64_t> which, std::span<double> distances, std::span<Point> directions,
+           std::span<FaceNodes> nodes, std::span<FaceWeights> weights) {
+            find_distances({points, pieces, links, boxes}, start, faces, samples, which,
+                           {distances, directions, nodes, weights});
+        },
+        "points"_a, "pieces"_a, "links"_a, "boxes"_a, "start"_a, "faces"_a, "samples"_a, "which"_a, "distances"_a,
+        "directions"_a, "nodes"_a, "weights"_a, ReleaseGil(),
+        "Write the rows `which` (k,) int64 of distances (s,) of samples from the boundary, of the unit vectors from\n"
+        "the closest points to the samples, directions (s, 3), and of the nodes (s, 4) int32 and weights (s, 4) of\n"
+        "these points.\n\n"
+        "points are the n nodes of the boundary and the centres of its faces (f, 4) int32, of which each is divided\n"
+        "into four of the pieces of the first tree; boxes are written. start (n, 3): the nodes before sliding.");
     m.def("numbers_of_different_points", &numbers_of_different_points, "points"_a, ReleaseGil(),
           "The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first\n"
           "appear.");

@@ -117,3 +117,30 @@ def test_the_tolerance_is_no_smaller_than_the_rounding_of_the_size_of_the_bounda
     assert band_of(size=0.5)[1].max_deviation == 0.5
     nothing = Band(mesh.points, np.empty((0, 4), np.int32), mesh.points, None, 0.0)
     assert nothing.max_deviation == 0
+
+
+@pytest.mark.parametrize("target", [False, True])
+def test_distances_of_some_samples_are_those_of_a_search_and_those_at_first_where_nothing_moved(target):
+    mesh, band = band_of(0.1, 0.15, target)
+    random, points = np.random.default_rng(4), mesh.points.copy()
+    moved = np.flatnonzero(mesh.topology.boundary)[::5]
+    points[moved] += random.uniform(-0.2, 0.2, (moved.size, 3))
+    first, count = band.initial_surface_deviation, len(band.target_samples)
+    some = np.flatnonzero(random.random(count) < 0.7)
+    into = np.full(count, -1.0), np.full((count, 3), -1.0), np.full((count, 4), -1, np.int32), np.full((count, 4), -1.0)
+    band.find_surface_distances(points, some, into)
+    for array in into:
+        assert (array[np.setdiff1d(np.arange(count), some)] == -1).all()
+    distances, directions, nodes, weights = (array[some] for array in into)
+    skin = SkinSurface(points, mesh.topology.boundary_faces)
+    np.testing.assert_allclose(distances, skin.distances(band.target_samples[some]), atol=1e-12)
+    away = band.target_samples[some] - np.einsum("sk,ski->si", weights, points[nodes])
+    np.testing.assert_allclose(distances[:, None] * directions, away, atol=1e-12)
+    found = band.surface_deviation(points, some, limit=-1.0)
+    at = np.searchsorted(some, found.indices)
+    np.testing.assert_array_equal(nodes[at], found.nodes)
+    np.testing.assert_allclose(weights[at], found.weights, atol=1e-15)
+    others = np.setdiff1d(np.arange(some.size), at)
+    assert others.size > 0
+    np.testing.assert_array_equal(nodes[others], first.nodes[some[others]])
+    np.testing.assert_array_equal(distances[others], first.distances[some[others]])

@@ -71,10 +71,6 @@ class DeviationTracker:
 
     def _update(self, which: np.ndarray) -> None:
         """Find what is closest to some places of the surface, beginning with what was closest at first."""
-        at_first, nodes, weights = self.sliding.initial_surface_deviation
-        beyond = self.sliding.surface_deviation(self.points, which, limit=-1.0)
         self._nodes, self._weights = self._nodes.copy(), self._weights.copy()
-        self.distances[which], self._away[which] = at_first[which], 0.0
-        self._nodes[which], self._weights[which] = nodes[which], weights[which]
-        self.distances[beyond.indices], self._away[beyond.indices] = beyond.distances, beyond.directions
-        self._nodes[beyond.indices], self._weights[beyond.indices] = beyond.nodes, beyond.weights
+        into = self.distances, self._away, self._nodes, self._weights
+        self.sliding.find_surface_distances(self.points, which, into)
