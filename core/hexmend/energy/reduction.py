@@ -107,7 +107,7 @@ class Reduction:
         """
         dtype = full.dtype
         (scaled, scale), (turn, turned, row, column), slots = self._turned_blocks(full)
-        full.off_diagonal[scaled] = full.off_diagonal.take(scaled, axis=0, mode="clip") * scale  # faster than *=
+        conjugate_gradients.scale_blocks(scaled, scale, full.off_diagonal)
         if turned.size:
             conjugate_gradients.turn_blocks(turn.reshape(-1, 9), turned, row, column, full.off_diagonal)
         own = self._turn.astype(dtype)
@@ -143,7 +143,7 @@ class Reduction:
             row = np.repeat(np.arange(count, dtype=np.int32), np.diff(sparsity.row_start))
             column = sparsity.columns
             turned = skew[row] | skew[column]
-            scaled = np.flatnonzero((bent[row] | bent[column]) & ~turned)
+            scaled = np.flatnonzero((bent[row] | bent[column]) & ~turned).astype(np.int32)
             turned = np.flatnonzero(turned)
             scale = (diagonal[row[scaled], :, None] * diagonal[column[scaled], None]).reshape(-1, 9)
             turn = np.empty((0, 3, 3), dtype)

@@ -5,6 +5,16 @@
 
 namespace hexmend {
 
+// Multiply the numbers of the blocks `at` (j,), none of them twice, by factors (j, 9).
+template <class Real>
+void scale_blocks(Indices at, std::span<const std::array<Real, 9>> factors, std::span<std::array<Real, 9>> blocks) {
+    constexpr std::int64_t BLOCKS_PER_CHUNK = 4096;
+    expect(factors.size() == at.size(), "factors: a row for each of at is expected");
+    parallel_for(at.size(), BLOCKS_PER_CHUNK, [&](std::int64_t i) {
+        for (int k = 0; k < 9; ++k) blocks[at[i]][k] *= factors[i][k];
+    });
+}
+
 // Replace the blocks `at` (j,), which stand in rows and columns (j,), by T_row^T B T_column; turn holds T of each slot.
 template <class Real>
 void turn_blocks(std::span<const std::array<Real, 9>> turn, Indices at, Indices rows, Indices columns,

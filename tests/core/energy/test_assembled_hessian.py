@@ -265,3 +265,13 @@ def test_copies_with_another_objective_share_the_order_of_nodes_whoever_finds_it
     assert energy.ordered_nodes is found
     assert energy.with_objective(ObjectiveNorm(2.0), energy.omitted).sparsity is found
     assert MeshEnergy(energy.mesh).ordered_nodes is not found
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_the_numbers_of_some_blocks_are_scaled_and_no_others(dtype):
+    random = np.random.default_rng(5)
+    blocks, at = random.normal(size=(9000, 9)).astype(dtype), np.flatnonzero(random.random(9000) < 0.6).astype(np.int32)
+    factors, found = random.normal(size=(at.size, 9)).astype(dtype), blocks.copy()
+    conjugate_gradients.scale_blocks(at, factors, found)
+    blocks[at] *= factors
+    np.testing.assert_array_equal(found, blocks)
