@@ -9,6 +9,7 @@ import numpy as np
 
 from hexmend.arrays import differing_rows, index_of, mask, row_norms
 from hexmend.boundary import SlidingBoundary
+from hexmend.boundary.band import NO_NODES
 from hexmend.boundary.sliding.flat_parts import SLIDING_TOLERANCE
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.hessian import Hessian
@@ -173,9 +174,13 @@ class SlidingEnergy(MeshEnergy):
     def infeasible_nodes(
         self, x: np.ndarray, there: np.ndarray, changed: np.ndarray | None = None
     ) -> np.ndarray | None:
-        points = there * self.unit
-        nodes = self.sliding.rejected_nodes(x * self.unit, points, changed)
-        nodes = np.concatenate([nodes, self._past_their_rim(x * self.unit, points, changed)])
+        points, before = there * self.unit, x * self.unit
+        nodes, past_rim = self.sliding.rejected_nodes(before, points, changed), NO_NODES
+        if self._linear_nodes.size:
+            past_rim = self._past_their_rim(before, points, changed)
+        if not (nodes.size or past_rim.size):
+            return None
+        nodes = np.concatenate([nodes, past_rim])
         nodes = nodes[differing_rows(x[nodes], there[nodes])]
         return mask(nodes, len(x)) if nodes.size else None
 

@@ -186,8 +186,11 @@ class SlidingNodes(Band):
         changed : (n,) bool, optional
             Nodes at which the band is examined; all by default.
         """
-        found = mask(self.boundary.faces[self.flipped_quads(before, after)], len(after))
-        found[self.nodes_outside_band(after, changed)] = True
+        flipped, outside = self.flipped_quads(before, after), self.nodes_outside_band(after, changed)
+        if not flipped.size:
+            return outside
+        found = mask(self.boundary.faces[flipped], len(after))
+        found[outside] = True
         return np.flatnonzero(found)
 
     def reject_flips(self, before: np.ndarray, after: np.ndarray, exempt: np.ndarray | None = None) -> np.ndarray:
