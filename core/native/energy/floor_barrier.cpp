@@ -123,14 +123,16 @@ struct LaneFloors {
         }
     }
 
-    bool any() const {
-        for (int i = 0; i < LANES; ++i)
-            if (jacobian[i] > -INF || quality[i] > -INF) return true;
-        return false;
-    }
+    bool any() const { return some(jacobian) || some(quality); }
+
+    // Some lane has a floor of this kind.
+    static bool some(const Lanes &floor) { return hexmend::any(floor > -INF); }
 
     Bits counted(int t) const { return (ignored & (std::int64_t{1} << t)) == 0; }
 };
+
+// Value that is above any floor.
+inline Lanes above_all() { return broadcast<Lanes>(INF); }
 
 template <class Scales> Lanes quality_of(const Corners<Lanes> &x, const Scales &scales, const auto &counted) {
     Lanes sum{};
@@ -148,13 +150,16 @@ void values_of(Points points, Hexes hexes, const Floors &floors, OmittedCorners 
         Lanes sum{};
         if (block.any()) {
             auto x = gather_corners<Lanes>(points, hexes, first, count);
-            unroll<8>([&](auto t) {
-                auto s = scaled_jacobian(x.edges<t>());
-                sum += barrier_of<false>(s, block.jacobian, floors.jacobian_band, block.counted(t)).value;
-            });
-            CornerMask<Lanes> counted(omitted, first, count);
-            auto quality = quality_of(x, scales_of<Lanes>(target, first, count), counted);
-            sum += barrier_of<false>(quality, block.quality, floors.quality_band, ALL).value;
+            if (block.some(block.jacobian))
+                unroll<8>([&](auto t) {
+                    auto s = scaled_jacobian(x.edges<t>());
+                    sum += barrier_of<false>(s, block.jacobian, floors.jacobian_band, block.counted(t)).value;
+                });
+            if (block.some(block.quality)) {
+                CornerMask<Lanes> counted(omitted, first, count);
+                auto quality = quality_of(x, scales_of<Lanes>(target, first, count), counted);
+                sum += barrier_of<false>(quality, block.quality, floors.quality_band, ALL).value;
+            }
         }
         store(floors.weight * sum, first, count, values);
     });
@@ -171,7 +176,8 @@ void gradient_of(Points points, Hexes hexes, const Floors &floors, OmittedCorner
         CornerMask<Lanes> counted(omitted, first, count);
         Corners<Lanes> total;
         bool some = false;
-        auto by = barrier_of<true>(quality_of(x, scales, counted), block.quality, floors.quality_band, ALL);
+        auto quality = block.some(block.quality) ? quality_of(x, scales, counted) : above_all();
+        auto by = barrier_of<true>(quality, block.quality, floors.quality_band, ALL);
         if (by.any) {
             some = true;
             unroll<8>([&](auto t) {
@@ -223,11 +229,13 @@ std::vector<std::int32_t> hexes_near_floors(Points points, const Floors &floors,
             auto s = scaled_jacobian(x.edges<t>());
             found |= below(s, block.jacobian, floors.jacobian_band, block.counted(t), SURELY_ABOVE);
         });
-        auto scales = scales_of<Lanes>(target, [&](int i) { return shared.number(first, i, count); });
-        std::uint8_t bits[LANES] = {};
-        for (int i = 0; i < count; ++i) bits[i] = omitted[numbers[i]];
-        auto quality = quality_of(x, scales, CornerMask<Lanes>(bits, 0, count));
-        found |= below(quality, block.quality, floors.quality_band, ALL, SURELY_ABOVE);
+        if (block.some(block.quality)) {
+            auto scales = scales_of<Lanes>(target, [&](int i) { return shared.number(first, i, count); });
+            std::uint8_t bits[LANES] = {};
+            for (int i = 0; i < count; ++i) bits[i] = omitted[numbers[i]];
+            auto quality = quality_of(x, scales, CornerMask<Lanes>(bits, 0, count));
+            found |= below(quality, block.quality, floors.quality_band, ALL, SURELY_ABOVE);
+        }
         for (int i = 0; i < count; ++i)
             if (found[i]) near.push_back(numbers[i]);
     }
@@ -255,7 +263,8 @@ void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, co
             for (int i = 0; i < count; ++i) bits[i] = omitted[numbers[i]];
             CornerMask<Lanes> counted(bits, 0, count);
             *sums = HessianSums{};
-            auto by = barrier_of<true>(quality_of(x, scales, counted), block.quality, floors.quality_band, ALL);
+            auto quality = block.some(block.quality) ? quality_of(x, scales, counted) : above_all();
+            auto by = barrier_of<true>(quality, block.quality, floors.quality_band, ALL);
             bool some = by.any;
             if (by.any) {
                 unroll<8>([&](auto t) { add_tetrahedron<false, t>(x, scales, 0.0, counted(t), *sums, Inverse{}); });
