@@ -113,7 +113,7 @@ class SlidingEnergy(MeshEnergy):
     def _slide(self, sliding: Slides, nodes: np.ndarray) -> None:
         """Let nodes (k,) slide, ascending."""
         self.sliding, self.sliding_nodes = sliding, nodes
-        self.faceted = self.ranks.any(nodes.size > 0)
+        self.faceted = self._slides = self.ranks.any(nodes.size > 0)  # on any rank: they exchange projectors together
         self._rows = np.searchsorted(self.nodes, nodes)
         self._sliding_blocks: dict[BlockSparsity, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
@@ -201,7 +201,7 @@ class SlidingEnergy(MeshEnergy):
         return row_norms(self.sliding.project(points[nodes], nodes) - points[nodes])
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
-        if not self.sliding_nodes.size:
+        if not self._slides:
             return super().gradient(x, delta)
         gradient = self._gradient_in_space(x, delta).copy()
         along = self.projectors(x)[: self._rows.size]

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.energy import ObjectiveNorm, SlidingEnergy, energy_of
 from hexmend.energy.floor_barrier import FloorBarrier
+from hexmend.energy.ranks import Ranks
 from hexmend.mesh.element_target import Target
 from hexmend.optimise.floors.region import Region
 from tests.core.boundary.solids import ball, cylinder, slid
@@ -155,3 +156,25 @@ def test_a_part_moves_its_nodes_as_the_mesh_does(solid, linear):
     in_part = np.zeros(here.shape[0], dtype=bool) if in_part is None else in_part
     np.testing.assert_array_equal(marked[numbers[part.nodes]], in_part[part.nodes])
     assert in_part.any()
+
+
+def test_a_rank_without_sliding_nodes_takes_part_in_the_exchange_of_projectors():
+    """Else what other ranks send it then arrives where it expects something else."""
+
+    class TwoRanks(Ranks):
+        def any(self, values):
+            return True
+
+    class OnTwoRanks(SlidingEnergy):
+        ranks, exchanges = TwoRanks(), 0
+
+        def _with_ghosts(self, projectors):
+            self.exchanges += 1
+            return projectors
+
+    sliding = SlidingBoundary(grid(3)).at_rest()
+    energy = OnTwoRanks(sliding)
+    x = energy.to_edge_units(sliding.mesh.points)
+    assert not energy.sliding_nodes.size
+    np.testing.assert_array_equal(energy.gradient(x), SlidingEnergy(sliding).gradient(x))
+    assert energy.exchanges == 1
