@@ -59,3 +59,12 @@ def test_kershaws_map_ends_at_the_uniform_lattice(how, scale):
     order = np.lexsort(lattice.T)
     points = result.mesh.points[np.lexsort(np.rint(result.mesh.points / scale * 6).T)]
     assert np.abs(points - lattice[order]).max() < 1e-6
+
+
+def test_sliding_raises_the_least_where_no_corner_can_be_moved_with_the_boundary_fixed():
+    mesh = grid(4, 1, 1)
+    points = mesh.points.copy()
+    points[(points[:, 0] == 2) & (points[:, 1] == 0), 0] += 0.7
+    result = hx.smooth(mesh.with_points(points), "mend", goal="scaled-jacobian", boundary="slide")
+    assert result.before.scaled_jacobian_min < 0.9
+    assert result.after.scaled_jacobian_min > 0.999

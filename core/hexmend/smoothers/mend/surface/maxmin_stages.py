@@ -125,7 +125,7 @@ class MaxMinStages(ShapeStages):
 
         def raise_least(optimiser: MaxMinOptimiser) -> Generator[Step, None, ActiveCorners | None]:
             groups = MAXMIN.max_groups
-            if self.settings.maximises_jacobian and optimiser.corners.active_minimum > 0:
+            if self.settings.maximises_jacobian and 0 < optimiser.corners.active_minimum < np.inf:
                 energy = self._sound_energy(mesh, optimiser.points, sliding)
                 steps = raise_jacobian(energy, optimiser.points)
                 if not (yield from improve_within_reach(optimiser, steps, wanted, PATH.max_floors)):
