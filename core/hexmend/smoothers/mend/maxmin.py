@@ -64,6 +64,9 @@ class MaxMinConfig:
         Factor of the least at which a detour ends, with the next width.
     detour_programs, programs_between : int
         Linear programs outside the band, at most, and within it before the next detour.
+    regained : float
+        By how much the least may be lower after the shape was improved above it; half of what counts in the choice of
+        the best iterate.
     trial_iterations : int
         Iterations in which the more promising of two starts has to come as high as the other, at most.
     shape_patience : int
@@ -93,6 +96,7 @@ class MaxMinConfig:
     target_growth: float = 1.3
     detour_programs: int = 90
     programs_between: int = 60
+    regained: float = 5e-6
     trial_iterations: int = 10
     shape_patience: int = 5
     untangling_iterations: int = 10

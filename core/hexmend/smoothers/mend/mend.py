@@ -16,6 +16,9 @@ from hexmend.smoothers.mend.balance import BALANCE
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.stages import Stages
 
+#: Digits of the minimum scaled Jacobian that count in the choice of the best iterate; linear programs leave the others.
+_LEAST_DIGITS = 5
+
 
 @method
 @dataclass(frozen=True)
@@ -69,7 +72,7 @@ class Mend(MendSettings):
         )
         harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
-            return inverted, harmed, -least
+            return inverted, harmed, -round(least, _LEAST_DIGITS)
         if self.goal == "time-step":  # the time step itself comes last, see `rank_by_points`
             return inverted, harmed if self.guard else False
         before, after = (ranks.sum(objective_of_sound(of, self.norm)) for of in (start, now))

@@ -115,7 +115,7 @@ def check_freedom(mesh):
     fixed, slides = (smooth(mesh, Mend(goal="scaled-jacobian", boundary=boundary)) for boundary in ("fixed", "slide"))
     assert slides.after.inverted <= fixed.after.inverted
     if not fixed.after.inverted:
-        assert slides.after.scaled_jacobian_min >= fixed.after.scaled_jacobian_min - 1e-9
+        assert slides.after.scaled_jacobian_min >= fixed.after.scaled_jacobian_min - MAXMIN.regained
 
 
 @pytest.mark.parametrize("name", SMALL)
@@ -265,7 +265,7 @@ def test_nodes_that_do_not_limit_the_least_go_where_the_shape_is_best(name, monk
     improved = smooth(SMALL[name](), method).after
     monkeypatch.setattr(Stages, "_improve_shape", without)
     risen = smooth(SMALL[name](), method).after
-    assert improved.scaled_jacobian_min >= risen.scaled_jacobian_min
+    assert improved.scaled_jacobian_min >= risen.scaled_jacobian_min - MAXMIN.regained
     assert improved.q_mean > risen.q_mean + 0.01
     assert improved.q_min > risen.q_min
 

@@ -140,7 +140,8 @@ class MaxMinStages(ShapeStages):
     ) -> Generator[Step, None, MaxMinResult]:
         """Improve the shape above the least values of a result; programs regain what that costs of the least.
 
-        Nodes that do not limit the least are where its rise has left them. Returns `result` where the least is lower.
+        Nodes that do not limit the least are where its rise has left them. Returns `result` where the least is lower by
+        more than programs leave.
         """
         around = None if leaving is None else leaving.boundary(result)
         energy = self._sound_energy(mesh if around is None else around.mesh, result.optimiser.points, around)
@@ -153,7 +154,7 @@ class MaxMinStages(ShapeStages):
         with optimiser.envelope.relaxed(optimiser.envelope.max_deviation):
             active = yield from infeasible(maximise_minimum(optimiser))
         improved = MaxMinResult(optimiser, active)
-        if improved.least < result.least:
+        if improved.least < result.least - MAXMIN.regained:
             return result
         yield improved.step()
         return improved
