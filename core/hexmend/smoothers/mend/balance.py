@@ -38,8 +38,9 @@ class BalanceConfig:
         at the start.
     quality_margin : float
         Share by which the least q(H) is raised above its floor at first.
-    margin : float
-        Least distance of a floor from the value above it, as a share.
+    margin, last_margin : float
+        Least distance of a floor from the value above it, as a share; the second of the minimum scaled Jacobian of a
+        result, where that is as high as it goes.
     weights, last_weights : tuple of float
         Of the barrier while the energy falls above the floors; the second above the least values of a result.
     returns : tuple of float
@@ -64,6 +65,7 @@ class BalanceConfig:
     kept_share: tuple[float, ...] = (0.96, 0.9, 0.75, 0.5, 0.0)
     quality_margin: float = 2e-3
     margin: float = 1e-4
+    last_margin: float = 1e-5
     weights: tuple[float, ...] = (1.0, 0.1, 0.01)
     last_weights: tuple[float, ...] = (0.1, 0.01)
     returns: tuple[float, ...] = (0.5, 0.25, 0.125, 0.0625)
@@ -276,7 +278,7 @@ def improve_above_least(
     """
     path = CentralPath(energy, points, config.path)
     least = path.least
-    floors = Least(_below(least.jacobian, config.margin), _below(least.quality, config.margin))
+    floors = Least(_below(least.jacobian, config.last_margin), _below(least.quality, config.margin))
     yield from _steps(path, path.minimise_above(floors, config.last_weights))
     return path.points
 
