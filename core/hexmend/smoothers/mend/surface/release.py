@@ -49,7 +49,7 @@ class ReleaseConfig:
     starts: int = 2
     rounds: int = 3
     steps: tuple[float, ...] = (0.3, 0.5, 0.75, 1.0)
-    smaller: tuple[float, ...] = (0.1, 0.3)
+    smaller: tuple[float, ...] = (0.03, 0.1, 0.3)
     few: int = 5
     steps_per_iteration: int = 10
 
