@@ -1,11 +1,11 @@
 """Boundary of a mesh: corners, curves and patches, sliding on a surface, closest points, comparison of two surfaces."""
 
 from hexmend.aliases import exports
-from hexmend.boundary.band import Deviations
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of, classify
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees
 from hexmend.boundary.comparison import SurfaceChange, mutual_distances, surface_change
 from hexmend.boundary.departures import Departures, Keeping, departures
+from hexmend.boundary.deviations import Deviations
 from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.skin_surface import SkinSurface
 from hexmend.boundary.sliding import SlidingBoundary

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import NamedTuple
 
@@ -11,6 +10,7 @@ import numpy as np
 from hexmend.arrays import any_of_rows, extent, mask, row_norms
 from hexmend.boundary.cell_extremes import extremes_in_cells
 from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
+from hexmend.boundary.deviations import Deviations, InitialDistances, deviations_above
 from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
 from hexmend.kernels import closest_point
@@ -18,56 +18,6 @@ from hexmend.kernels import closest_point
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
 _ROUNDING = 1e-9
 NO_NODES = np.empty(0, dtype=np.int64)
-
-
-@dataclass(frozen=True, eq=False)
-class Deviations:
-    """Samples of one surface that lie further from the other than a limit.
-
-    Parameters
-    ----------
-    indices : (k,) int64
-        Numbers of these samples, ascending.
-    distances : (k,) float64
-        Distance of each from the closest point of the other surface, in the mesh's unit.
-    directions : (k, 3) float64
-        Unit vectors from the closest point to the sample: moving along them increases the distance.
-    nodes : (k, 4) int
-        Boundary nodes whose weighted mean is the sample, or the point closest to it.
-    weights : (k, 4) float64
-        Weights of these nodes.
-    """
-
-    indices: np.ndarray
-    distances: np.ndarray
-    directions: np.ndarray
-    nodes: np.ndarray
-    weights: np.ndarray
-
-    def beyond(self, limit: float) -> Deviations:
-        """Return the samples that are further than a higher limit; itself if all are."""
-        out = self.distances > limit
-        if out.all():
-            return self
-        return Deviations(*(getattr(self, field.name)[out] for field in fields(self)))
-
-
-class InitialDistances(NamedTuple):
-    """Distances of samples of a surface from the boundary before sliding.
-
-    Parameters
-    ----------
-    distances : (s,) float64
-        In the mesh's unit.
-    nodes : (s, 4) int
-        Boundary nodes whose weighted mean is the closest point.
-    weights : (s, 4) float64
-        Their weights.
-    """
-
-    distances: np.ndarray
-    nodes: np.ndarray
-    weights: np.ndarray
 
 
 class _Judged(NamedTuple):
@@ -163,7 +113,7 @@ class Band:
         nodes = self.samples[indices]
         x = means(points, nodes)
         closest = self.target.closest(x, max(float(limit.min(initial=np.inf)), 0.0), self._near_target.pieces[indices])
-        return _deviations_above(limit, indices, x, closest, nodes, np.full(nodes.shape, 0.25))
+        return deviations_above(limit, indices, x, closest, nodes, np.full(nodes.shape, 0.25))
 
     def surface_deviation(
         self, points: np.ndarray, indices: np.ndarray | None = None, limit: float | np.ndarray = 0.0
@@ -199,7 +149,7 @@ class Band:
         x = self.target_samples[indices]
         enough = max(float(limit.min(initial=np.inf)), 0.0)
         found = self.skin.with_points(points).find(x, enough, self._near_boundary.pieces[indices])
-        return _deviations_above(limit, indices, x, found.points, *self.skin.weights_of_nodes(found))
+        return deviations_above(limit, indices, x, found.points, *self.skin.weights_of_nodes(found))
 
     def find_surface_distances(
         self, points: np.ndarray, indices: np.ndarray, into: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
@@ -323,14 +273,3 @@ class Band:
         x = self.target_samples
         self._near_boundary.store(self._first)
         return InitialDistances(row_norms(x - self._first.points), *self.skin.weights_of_nodes(self._first))
-
-
-def _deviations_above(
-    limit: np.ndarray, indices: np.ndarray, x: np.ndarray, closest: np.ndarray, nodes: np.ndarray, weights: np.ndarray
-) -> Deviations:
-    """Deviations of the samples x (k, 3) whose distance from the closest points (k, 3) exceeds a limit (k,)."""
-    away = x - closest
-    distances = row_norms(away)
-    out = distances > limit
-    directions = away[out] / np.maximum(distances[out], np.finfo(float).tiny)[:, None]
-    return Deviations(indices[out], distances[out], directions, nodes[out], weights[out])

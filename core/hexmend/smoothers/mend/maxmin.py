@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.iteration import ActiveSet, Step
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.optimise.maxmin.slp_config import SLP
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 
 
 @dataclass(frozen=True)

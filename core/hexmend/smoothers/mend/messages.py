@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.quality.file_ids import hex_ids, with_ids
 from hexmend.smoothers.mend.maxmin import locked_below
 from hexmend.terminal_text import count_phrase

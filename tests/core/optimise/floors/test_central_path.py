@@ -10,7 +10,8 @@ from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy
 from hexmend.gallery import make
 from hexmend.optimise.floors.central_path import PATH, CentralPath, Least
 from hexmend.optimise.floors.region import Region
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.run import smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.balance import raise_jacobian

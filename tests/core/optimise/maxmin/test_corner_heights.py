@@ -9,7 +9,8 @@ from hexmend.mesh.edge_length import shortest_edges
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.optimise.maxmin.corner_heights import corner_heights, height_gradients, least_corner_heights
 from hexmend.optimise.maxmin.corner_measure import SCALED_JACOBIAN, time_step_measure
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.quality.corner_heights import least_heights
 from tests.core.grids import grid, scrambled
 

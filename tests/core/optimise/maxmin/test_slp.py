@@ -11,7 +11,8 @@ from hexmend.mesh.edge_length import shortest_edges
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.optimise.maxmin.corner_values import gradients, scaled_jacobians
 from hexmend.optimise.maxmin.linear_program import MOVE_COST
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid, scrambled
 

@@ -7,7 +7,8 @@ import numpy as np
 from hexmend.boundary import NodeClass, SlidingBoundary, surface_change
 from hexmend.io import read
 from hexmend.optimise.maxmin import envelope as envelopes
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
 from tests.core.optimise.maxmin.test_slp import raised

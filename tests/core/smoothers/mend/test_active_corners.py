@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend.optimise.maxmin.corner_measure import SCALED_JACOBIAN
-from hexmend.optimise.maxmin.slp import ActiveCorners
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.smoothers.mend.maxmin import active_set
 from hexmend.smoothers.mend.messages import limit_message
 from tests.core.grids import grid

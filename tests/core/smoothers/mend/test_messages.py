@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.quality.regressions import REGRESSION_KEYS
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.maxmin import MAXMIN

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinStep
+from hexmend.optimise.maxmin.slp_step import ActiveCorners, MaxMinStep
 from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
 from tests.core.smoothers.mend.walks import walked
 

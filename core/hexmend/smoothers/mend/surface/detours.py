@@ -9,7 +9,8 @@ from itertools import islice
 import numpy as np
 
 from hexmend.iteration import Step
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.smoothers.mend.maxmin import MAXMIN, MaxMinConfig, maximise_minimum
 from hexmend.smoothers.mend.surface.release import infeasible
 

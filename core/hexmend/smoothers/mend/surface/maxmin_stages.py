@@ -11,8 +11,9 @@ from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.floors.central_path import PATH
 from hexmend.optimise.maxmin.corner_set import least_movable
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.optimise.maxmin.slp_config import SLP
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.parameters import AUTO
 from hexmend.smoothers.mend.balance import improve_above_least, raise_jacobian
 from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum

@@ -14,7 +14,8 @@ import numpy as np
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.corner_set import MovableCorners
-from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.smoothers.mend.surface.detours import MaxMinResult
 
 T = TypeVar("T")
