@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 
 import numpy as np
@@ -26,7 +27,11 @@ BOX = "#cc0066"
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
-    """Register both examples from files in additional folders."""
+    """Register both examples from files in additional folders.
+
+    Tests of other modules may run between those of this one, so that the fixture is made more than once a process:
+    the modules are imported anew each time, as they register their entries when they are imported.
+    """
     folder = tmp_path_factory.mktemp("additions")
     with pytest.MonkeyPatch.context() as patch:
         for package, title, registry, load in (
@@ -38,6 +43,7 @@ def files(tmp_path_factory):
             own.mkdir()
             (own / "made_up.py").write_text(example(title), encoding="utf-8")
             patch.setattr(registry, "_entries", dict(registry))
+            sys.modules.pop(f"{package}.made_up", None)
             patch.setattr(import_module(package), "__path__", [*import_module(package).__path__, str(own)])
             load()
         yield
