@@ -68,6 +68,8 @@ class MaxMinConfig:
     regained : float
         By how much the least may be lower after the shape was improved above it; half of what counts in the choice of
         the best iterate.
+    reach : float
+        Share of the result within another tolerance that the central path has to reach, for programs to exceed it.
     trial_iterations : int
         Iterations in which the more promising of two starts has to come as high as the other, at most.
     shape_patience : int
@@ -98,6 +100,7 @@ class MaxMinConfig:
     detour_programs: int = 90
     programs_between: int = 60
     regained: float = 5e-6
+    reach: float = 0.9
     trial_iterations: int = 10
     shape_patience: int = 5
     untangling_iterations: int = 10

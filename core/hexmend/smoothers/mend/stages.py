@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
-from itertools import islice
 
 import numpy as np
 
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.quality import ElementQuality, measure
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.base import Steps
 from hexmend.smoothers.mend.balance import balance
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
-from hexmend.smoothers.mend.maxmin import MAXMIN, active_set, maximise_minimum
+from hexmend.smoothers.mend.maxmin import active_set
 from hexmend.smoothers.mend.messages import freed_message, limit_message
 from hexmend.smoothers.mend.surface.detours import MaxMinResult
 from hexmend.smoothers.mend.surface.leaving_surface import LeavingSurface
@@ -45,27 +43,21 @@ class Stages(MaxMinStages):
         shape = yield from steps
         if not intermediate:
             return shape.outcome
-        fixed_optimum, sliding, fixed = shape.points, None, None  # the optimum with the boundary fixed
+        sliding = None
         kept = None  # quality of the result with the boundary fixed, which is that of the run until sliding is better
-        candidates = [mesh.points, fixed_optimum]
+        at_rest = candidates = [mesh.points, shape.points]  # with the boundary fixed
         if slides:
             fixed, given, kept = yield from self._raise_fixed(mesh, candidates, given)
             sliding = self.sliding_boundary(mesh)
             mesh = sliding.mesh
-            optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
-            steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
-            yield from keeping(kept, mesh.hexes, islice(steps, MAXMIN.untangling_iterations))
-            candidates.append(optimiser.points)
-            del steps, optimiser
-            others = candidates if fixed is not None and self.settings.maximises_jacobian else []
-            start = self._start_at_shape(sliding, candidates[-1], others)
-            shape = (yield from keeping(kept, mesh.hexes, start)) or shape
-            candidates.append(shape.points)
+            start = self._start_sliding(sliding, candidates, fixed)
+            candidates, slid = yield from keeping(kept, mesh.hexes, start)
+            shape = slid or shape
         if sliding is None:
             leaving, result = None, (yield from self._maxmin_stage(mesh, candidates, None))
         else:
-            leaving = LeavingSurface(self.settings, sliding, self._untangled, self._sliding_shape)
-            leaving, result = yield from self._raise_within_tolerances(leaving, fixed_optimum, candidates, fixed)
+            raising = self._raise_within_tolerances(sliding, at_rest, candidates, fixed)
+            leaving, result = yield from raising
         if self.settings.maximises_jacobian and result.least > 0:
             result = yield from self._improve_shape(mesh, leaving, result)
         if self.goal == "time-step":

@@ -175,14 +175,14 @@ def test_hexes_that_untangling_leaves_inverted_are_raised_from_where_the_fewest_
     assert result.after.scaled_jacobian_min > 0.1
 
 
-def check_tolerances(mesh, tolerances=(0.0, 0.1, 0.3, 1.0)):
+def check_tolerances(mesh, tolerances=(0.0, 0.03, 0.1, 0.3, 1.0)):
     """Check that the least is no lower with a larger tolerance."""
     ends = [
         smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance=tolerance)).after
         for tolerance in tolerances
     ]
     least = [end.scaled_jacobian_min for end in ends]
-    assert all(after >= before - 1e-9 for before, after in pairwise(least)), least
+    assert all(after >= before - MAXMIN.regained for before, after in pairwise(least)), least
     assert ends[-1].inverted == 0
 
 
@@ -192,9 +192,15 @@ def test_a_larger_tolerance_ends_no_lower(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["block_in.mesh", "mid2FemPer.vtk"])
+@pytest.mark.parametrize("name", ["block_in.mesh", "mid2FemPer.vtk", "spring.mesh"])
 def test_a_larger_tolerance_of_a_real_boundary_ends_no_lower(real_mesh, name):
     check_tolerances(read(real_mesh(name)))
+
+
+@pytest.mark.slow
+def test_where_nodes_have_left_the_surface_a_larger_tolerance_ends_no_lower(real_mesh):
+    """A run within 0.3 alone ends at 0.2415."""
+    check_tolerances(read(real_mesh("bunnyPer.vtk")), (0.1, 0.3))
 
 
 @pytest.mark.slow

@@ -87,6 +87,7 @@ def improve_off_surface(
     reached: MaxMinResult,
     wanted: float,
     config: MaxMinConfig = MAXMIN,
+    lowest: float = -np.inf,
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least with nodes of the boundary off the surface, then bring them back into its band.
 
@@ -105,6 +106,8 @@ def improve_off_surface(
     wanted : float
         Minimum scaled Jacobian from which on there are no further detours.
     config : MaxMinConfig
+    lowest : float
+        Minimum scaled Jacobian up to which there are none after the first from each start: it promises too little.
 
     Yields
     ------
@@ -122,6 +125,8 @@ def improve_off_surface(
         result, _ = yield from _detour(optimiser, limits, far, target, result, config)
         if result.least > 0:
             break
+    if result.least <= lowest:
+        return result
     for _ in range(config.detours):
         least = result.least
         if least >= wanted:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
-from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
@@ -41,15 +40,23 @@ class LeavingSurface:
     sliding : SlidingBoundary
     untangled, optimise_shape : callable
         Stages of the run that it needs.
+    best : MaxMinResult, optional
+        Of the run within another tolerance: this ends where it becomes clear that it does not come higher.
     """
 
     def __init__(
-        self, settings: MendSettings, sliding: SlidingBoundary, untangled: Untangle, optimise_shape: OptimiseShape
+        self,
+        settings: MendSettings,
+        sliding: SlidingBoundary,
+        untangled: Untangle,
+        optimise_shape: OptimiseShape,
+        best: MaxMinResult | None = None,
     ):
         self.settings, self.sliding, self.mesh = settings, sliding, sliding.mesh
         self._untangled, self._optimise_shape = untangled, optimise_shape
         self._nearly: MaxMinOptimiser | None = None  # with the fewest inverted hexes, where some may be left
         self.widened = False  # distances beyond the least one were tried
+        self._best = best
 
     def untangle(
         self, optimum: np.ndarray, candidates: Sequence[np.ndarray]
@@ -77,18 +84,21 @@ class LeavingSurface:
                 return (yield from self._raise_untangled(points, released))
         return None
 
-    def within_less(self, result: MaxMinResult | None) -> LeavingSurface | None:
-        """The same within less than the tolerance, if that is a number, where its result may be lower than there.
+    def smaller_tolerance(self, result: MaxMinResult | None) -> float | None:
+        """A tolerance below that of the run, in mean edge lengths, within which the least may be higher; else None.
 
-        It may where hexes are inverted still, or larger distances were tried than the least one; else None.
+        On the surface 0.3 begins with the band of 0.1, but not with that of the smallest. Where hexes are inverted
+        still, or nodes have left the surface, any smaller tolerance may come higher. Only a tolerance in numbers has
+        smaller ones: otherwise it is as large as it needs to be.
         """
-        settings, edge = self.settings, self.mesh.mean_edge_length
-        smaller = [share for share in RELEASE.smaller if share * edge * (1 + SLP.band_excess) < self._tolerance]
-        failed = result is None or not result.least > 0
-        if settings.surface_tolerance in (AUTO, UNLIMITED) or not smaller or not (failed or self.widened):
+        if self.settings.surface_tolerance in (AUTO, UNLIMITED):
             return None
-        settings = replace(settings, surface_tolerance=smaller[-1])
-        return LeavingSurface(settings, self.sliding, self._untangled, self._optimise_shape)
+        edge = self.mesh.mean_edge_length
+        smaller = [share for share in RELEASE.smaller if share * edge * (1 + SLP.band_excess) < self._tolerance]
+        if not smaller:
+            return None
+        failed = result is None or not result.least > 0
+        return smaller[-1] if failed or self.widened or result.optimiser.envelope.released.any() else smaller[0]
 
     def raise_least(
         self, start: np.ndarray, result: MaxMinResult, tolerance: float
@@ -105,7 +115,8 @@ class LeavingSurface:
         if measure(result.optimiser.points, self.mesh.hexes).n_inverted:
             self.widened = len(self._limits) > 1
             starts = [optimiser] if self._nearly is None else [self._nearly, optimiser]
-            return (yield from improve_off_surface(starts, self._limits, result, wanted))
+            lowest = 0.0 if self._best is not None and self._best.least > 0 else -np.inf
+            return (yield from improve_off_surface(starts, self._limits, result, wanted, lowest=lowest))
         nearer = [share * self.mesh.mean_edge_length for share in MAXMIN.off_surface_tolerances]
         reached = result.optimiser.envelope.max_deviation / (1 + SLP.band_excess)
         limits = [limit for limit in nearer if reached <= limit < (1 - MAXMIN.worth_widening) * tolerance]
@@ -180,6 +191,13 @@ class LeavingSurface:
         """Tolerance for quads while nodes slide, for one of `tolerances`: without a limit, the last has none."""
         unlimited = self.settings.surface_tolerance == UNLIMITED and tolerance == self.tolerances[-1]
         return np.inf if unlimited else tolerance
+
+    @property
+    def least_in_reach(self) -> float:
+        """Least that the central path has to reach on the surface, for programs to exceed the best result there."""
+        if self._best is None or self._best.optimiser.envelope.released.any():
+            return -np.inf
+        return MAXMIN.reach * self._best.least
 
     @property
     def may_leave(self) -> bool:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
+from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.parameters import AUTO
 from hexmend.smoothers.mend.balance import improve_above_least, raise_jacobian
 from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
+from hexmend.smoothers.mend.shape_optimum import ShapeOptimum
 from hexmend.smoothers.mend.shape_stages import ShapeStages
 from hexmend.smoothers.mend.surface.detours import MaxMinResult, raise_to_the_end
 from hexmend.smoothers.mend.surface.leaving_surface import LeavingSurface
@@ -39,20 +42,53 @@ class MaxMinStages(ShapeStages):
             sets_hold,
         )
 
+    def _start_sliding(
+        self, sliding: SlidingBoundary, candidates: Sequence[np.ndarray], fixed: MaxMinResult | None
+    ) -> Generator[Step, None, tuple[list[np.ndarray], ShapeOptimum | None]]:
+        """Slide from the last of some points (n, 3): by linear programs, then to the optimum of shape.
+
+        Returns the points with those of both, and the optimum; None where its least is lower than at the others.
+        """
+        optimiser = MaxMinOptimiser(sliding.mesh, candidates[-1], sliding)
+        steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
+        yield from islice(steps, MAXMIN.untangling_iterations)
+        candidates = [*candidates, optimiser.points]
+        others = candidates if fixed is not None and self.settings.maximises_jacobian else []
+        shape = yield from self._start_at_shape(sliding, candidates[-1], others)
+        return candidates if shape is None else [*candidates, shape.points], shape
+
     def _raise_within_tolerances(
         self,
-        leaving: LeavingSurface,
-        optimum: np.ndarray,
+        sliding: SlidingBoundary,
+        at_rest: Sequence[np.ndarray],
         candidates: Sequence[np.ndarray],
         fixed: MaxMinResult | None,
     ) -> Generator[Step, None, tuple[LeavingSurface, MaxMinResult | None]]:
-        """Raise the least within the tolerance, then within less where it may come higher; see `_raise_sliding`.
+        """Raise the least within the tolerance, then within smaller ones where it may come higher.
 
-        Returns the better result, and the boundary that it was reached with.
+        Parameters
+        ----------
+        sliding : SlidingBoundary
+        at_rest : sequence of (n, 3) float64
+            Points with the boundary fixed, the optimum of shape last.
+        candidates : sequence of (n, 3) float64
+            Those, and points on the surface.
+        fixed : MaxMinResult, optional
+            With the boundary fixed.
+
+        Returns
+        -------
+        LeavingSurface, MaxMinResult
+            The best result, see `_raise_sliding`, and the boundary that it was reached with.
         """
-        result, near = (yield from self._raise_sliding(leaving, optimum, candidates, fixed)), leaving
-        while self.settings.maximises_jacobian and (near := near.within_less(result)):
-            nearer = yield from self._raise_sliding(near, optimum, candidates, fixed)
+        leaving = LeavingSurface(self.settings, sliding, self._untangled, self._sliding_shape)
+        result, near = (yield from self._raise_sliding(leaving, at_rest[-1], candidates, fixed)), leaving
+        while self.settings.maximises_jacobian and (smaller := near.smaller_tolerance(result)):
+            settings = replace(self.settings, surface_tolerance=smaller)
+            band = self._bands(sliding.mesh, settings.absolute_tolerance(sliding.mesh))[0]
+            near = LeavingSurface(settings, sliding.with_band(band), self._untangled, self._sliding_shape, result)
+            candidates, _ = yield from infeasible(self._start_sliding(near.sliding, at_rest, fixed))
+            nearer = yield from self._raise_sliding(near, at_rest[-1], candidates, fixed)
             if nearer is not None and (result is None or nearer.least > result.least):
                 leaving, result = near, nearer
         return leaving, result
@@ -71,10 +107,11 @@ class MaxMinStages(ShapeStages):
         """
         result = yield from leaving.untangle(optimum, candidates)
         if result is None:
-            wanted = MAXMIN.acceptable if leaving.may_leave else -np.inf
-            result = yield from self._maxmin_stage(leaving.mesh, candidates, leaving.sliding, fixed, wanted)
-            if result is None:
-                return None
+            wanted, in_reach = MAXMIN.acceptable if leaving.may_leave else -np.inf, leaving.least_in_reach
+            stage = self._maxmin_stage(leaving.mesh, candidates, leaving.sliding, fixed, max(wanted, in_reach))
+            result = yield from stage
+            if result is None or (result.active is None and in_reach > wanted):
+                return result
         was_left = result.active is None  # the surface, before the least was as high there as it can be
         result = yield from self._raise_on_and_off(leaving, optimum, result)
         if was_left and not result.optimiser.envelope.released.any():
