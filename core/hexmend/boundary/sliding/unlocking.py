@@ -1,4 +1,4 @@
-"""Locked hexes that sliding of the boundary can free."""
+"""Locked hexes that sliding of the boundary can free, and hexes that stay inverted."""
 
 from __future__ import annotations
 
@@ -31,16 +31,32 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, feature_angle: FeatureAngle
     -------
     (m,) bool
     """
-    freed = locked.copy()
-    where = np.flatnonzero(locked)
-    if not where.size:
-        return freed
-    sliding = SlidingBoundary(mesh, feature_angle)
-    tetrahedra = mesh.hexes[where][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
-    blocked = sliding.mesh.fixed[tetrahedra].all(axis=2)
-    for part in flat_parts(mesh.points, sliding.boundary, mesh.mean_edge_length):
+    freed, where = locked.copy(), np.flatnonzero(locked)
+    if where.size:
+        freed[where] = ~stays_inverted(SlidingBoundary(mesh, feature_angle), mesh.points, where)
+    return freed
+
+
+def stays_inverted(sliding: SlidingBoundary, points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Find hexes with a corner that stays inverted wherever nodes slide; see `freed_by_sliding`.
+
+    Parameters
+    ----------
+    sliding : SlidingBoundary
+    points : (n, 3) float64
+        On its surface.
+    hexes : (k,) int64
+        Numbers of hexes.
+
+    Returns
+    -------
+    (k,) bool
+    """
+    mesh = sliding.mesh
+    tetrahedra = mesh.hexes[hexes][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
+    blocked = mesh.fixed[tetrahedra].all(axis=2)
+    for part in flat_parts(points, sliding.boundary, mesh.mean_edge_length):
         most = part.directions.shape[1] + 1  # nodes of a valid tetrahedron on a plane, and on a line
         blocked |= mask(part.nodes, mesh.n_nodes)[tetrahedra].sum(axis=2) > most
-    inverted = ~(corner_determinants(mesh.points, mesh.hexes, where) > 0)
-    freed[where] = ~(blocked & inverted).any(axis=1)
-    return freed
+    inverted = ~(corner_determinants(points, mesh.hexes, hexes) > 0)
+    return (blocked & inverted).any(axis=1)

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Generator, Sequence
 from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
+from hexmend.boundary.sliding.unlocking import stays_inverted
 from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
-from hexmend.smoothers.mend.maxmin import MAXMIN
+from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import omission_message
 from hexmend.smoothers.mend.nested.nested_start import NESTED, NestedConfig, nested_start
@@ -108,3 +111,29 @@ class ShapeStages:
         """Go to the optimum of shape from points (n, 3) on; None where its least is lower than at another start."""
         steps = self._sliding_shape(sliding, points)
         return (yield from while_promising(steps, sliding.mesh, others, MAXMIN.shape_patience))
+
+    def _start_sliding(
+        self, sliding: SlidingBoundary, candidates: Sequence[np.ndarray], is_untangled: bool
+    ) -> Generator[Step, None, tuple[list[np.ndarray], ShapeOptimum | None]]:
+        """Slide from the last of some points (n, 3): by linear programs, then to the optimum of shape.
+
+        Returns the points with those of both, and the optimum; None where its least is lower than at the others, or
+        nodes have to leave the surface anyway. `is_untangled` says that no hex is inverted with the boundary fixed.
+        """
+        optimiser = MaxMinOptimiser(sliding.mesh, candidates[-1], sliding)
+        steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
+        yield from islice(steps, MAXMIN.untangling_iterations)
+        candidates = [*candidates, optimiser.points]
+        if self.settings.maximises_jacobian and not is_untangled and self._has_to_leave(sliding, optimiser.points):
+            return candidates, None
+        others = candidates if is_untangled and self.settings.maximises_jacobian else []
+        shape = yield from self._start_at_shape(sliding, candidates[-1], others)
+        return candidates if shape is None else [*candidates, shape.points], shape
+
+    def _has_to_leave(self, sliding: SlidingBoundary, points: np.ndarray) -> bool:
+        """Return True if hexes stay inverted unless nodes leave the surface, and nodes of each of them may."""
+        if not self.settings.absolute_tolerance(sliding.mesh) > 0:
+            return False
+        hexes = np.flatnonzero(measure(points, sliding.mesh.hexes).inverted)
+        stuck = sliding.mesh.hexes[hexes[stays_inverted(sliding, points, hexes)]]
+        return len(stuck) > 0 and bool(sliding.leavable[stuck].any(axis=1).all())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Generator, Sequence
 from dataclasses import replace
-from itertools import islice
 
 import numpy as np
 
@@ -19,7 +18,6 @@ from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.parameters import AUTO
 from hexmend.smoothers.mend.balance import improve_above_least, raise_jacobian
 from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
-from hexmend.smoothers.mend.shape_optimum import ShapeOptimum
 from hexmend.smoothers.mend.shape_stages import ShapeStages
 from hexmend.smoothers.mend.surface.detours import MaxMinResult, raise_to_the_end
 from hexmend.smoothers.mend.surface.leaving_surface import LeavingSurface
@@ -41,21 +39,6 @@ class MaxMinStages(ShapeStages):
             settings.slides,
             sets_hold,
         )
-
-    def _start_sliding(
-        self, sliding: SlidingBoundary, candidates: Sequence[np.ndarray], fixed: MaxMinResult | None
-    ) -> Generator[Step, None, tuple[list[np.ndarray], ShapeOptimum | None]]:
-        """Slide from the last of some points (n, 3): by linear programs, then to the optimum of shape.
-
-        Returns the points with those of both, and the optimum; None where its least is lower than at the others.
-        """
-        optimiser = MaxMinOptimiser(sliding.mesh, candidates[-1], sliding)
-        steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
-        yield from islice(steps, MAXMIN.untangling_iterations)
-        candidates = [*candidates, optimiser.points]
-        others = candidates if fixed is not None and self.settings.maximises_jacobian else []
-        shape = yield from self._start_at_shape(sliding, candidates[-1], others)
-        return candidates if shape is None else [*candidates, shape.points], shape
 
     def _raise_within_tolerances(
         self,
@@ -87,7 +70,7 @@ class MaxMinStages(ShapeStages):
             settings = replace(self.settings, surface_tolerance=smaller)
             band = self._bands(sliding.mesh, settings.absolute_tolerance(sliding.mesh))[0]
             near = LeavingSurface(settings, sliding.with_band(band), self._untangled, self._sliding_shape, result)
-            candidates, _ = yield from infeasible(self._start_sliding(near.sliding, at_rest, fixed))
+            candidates, _ = yield from infeasible(self._start_sliding(near.sliding, at_rest, fixed is not None))
             nearer = yield from self._raise_sliding(near, at_rest[-1], candidates, fixed)
             if nearer is not None and (result is None or nearer.least > result.least):
                 leaving, result = near, nearer
