@@ -43,7 +43,12 @@ class MaxMinConfig:
         the least by `worth_widening`. They are the same for all tolerances; the last band is `surface_share` of the
         tolerance.
     worth_widening : float
-        Gain of the least, as a share of it or of 0.1, from which on the boundary may be further from its surface.
+        Gain of the least, as a share of it or of 0.1, from which on quads of a boundary that slides may be further from
+        its surface.
+    worth_detour : float
+        The same of a detour, from which on the next is no wider.
+    distinct : float
+        Share of the width of a band up to which a narrower one is tried before it.
     worth_leaving : float
         The same where nodes that have left the surface may be further from it, though the least is acceptable.
     off_surface_tolerances : tuple of float
@@ -87,7 +92,9 @@ class MaxMinConfig:
     surface_share: float = 1 / 3
     first_share: float = 0.45
     bands: tuple[float, ...] = (0.045, 0.1, 1 / 3)
-    worth_widening: float = 0.05
+    worth_widening: float = 0.01
+    worth_detour: float = 0.05
+    distinct: float = 0.95
     worth_leaving: float = 0.25
     off_surface_tolerances: tuple[float, ...] = (1 / 30, 0.1, 0.3)
     off_surface_limit: float = 1.5

@@ -241,7 +241,7 @@ def test_without_a_limit_quads_may_be_further_from_the_surface_than_within_any()
 
 
 def test_the_boundary_is_no_further_away_than_pays():
-    """A wider band is used only where the least gains a twentieth by it."""
+    """A wider band is used only where the least gains a hundredth by it."""
     mesh = SMALL["five-side"]()
     narrow, wide = (
         smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance=tolerance))

@@ -138,7 +138,7 @@ def improve_off_surface(
         result, was_limited = yield from _detour(
             fork, [limit], factor * limit, target, result, config, config.detour_programs
         )
-        if not result.gains(least, config.worth_widening):
+        if not result.gains(least, config.worth_detour):
             factor, target = next(factors, None), config.target_growth * target
             if factor is None or not was_limited:
                 break

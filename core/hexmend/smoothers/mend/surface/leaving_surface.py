@@ -119,7 +119,7 @@ class LeavingSurface:
             return (yield from improve_off_surface(starts, self._limits, result, wanted, lowest=lowest))
         nearer = [share * self.mesh.mean_edge_length for share in MAXMIN.off_surface_tolerances]
         reached = result.optimiser.envelope.max_deviation / (1 + SLP.band_excess)
-        limits = [limit for limit in nearer if reached <= limit < (1 - MAXMIN.worth_widening) * tolerance]
+        limits = [limit for limit in nearer if reached <= limit < MAXMIN.distinct * tolerance]
         return (yield from improve_off_surface([optimiser], [*limits, tolerance], result, wanted))
 
     def boundary(self, result: MaxMinResult | None) -> SlidingBoundary:

@@ -186,7 +186,7 @@ class MaxMinStages(ShapeStages):
         if not self.settings.maximises_jacobian:
             return [widest]
         widest = max(widest, min(narrower[0], MAXMIN.first_share * tolerance))
-        return [*narrower[narrower < (1 - MAXMIN.worth_widening) * widest], widest]
+        return [*narrower[narrower < MAXMIN.distinct * widest], widest]
 
     def _raise_in_wider_bands(
         self,
