@@ -109,8 +109,10 @@ class MaxMinOptimiser:
         self.points, self.at_maximum = points, False
         self.corners.update(points, np.arange(self.mesh.n_hexes))
 
-    def steps(self, target: float = np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
+    def steps(self, target: float = np.inf, patient_below: float = -np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
         """Raise the least until no step does any more, or it has reached `target`.
+
+        Below `patient_below` programs go on that promise little.
 
         Yields
         ------
@@ -133,7 +135,9 @@ class MaxMinOptimiser:
                 yield MaxMinStep(self.points, self.least, low.size, radius)
             gains.append(gain)
             enough = config.min_gain if least < config.acceptable else config.min_gain_acceptable
-            if promised <= config.no_gain or sum(gains[-config.window :]) < enough:
+            slow = enough / config.window * min(radius / config.initial_radius, 1.0)
+            slow = 0.0 if least < patient_below else config.promise * slow
+            if promised <= max(config.no_gain, slow) or sum(gains[-config.window :]) < enough:
                 if whole or self._max_corners >= config.max_corners:
                     break
                 self._max_corners, self._radius = 2 * self._max_corners, max(self._radius, config.min_active_band)

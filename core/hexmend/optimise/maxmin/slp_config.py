@@ -31,6 +31,8 @@ class SLPConfig:
         Steps over which the gain is judged.
     min_gain, min_gain_acceptable : float
         Gain in these steps below which the algorithm ends; the second where the least is above `acceptable`.
+    promise : float
+        Share of that gain per step that a program has to promise; less in a small trust region.
     acceptable : float
         Value from which on a corner is sound, so that small gains are not worth their time.
     min_multiplier : float
@@ -65,6 +67,7 @@ class SLPConfig:
     window: int = 10
     min_gain: float = 2e-4
     min_gain_acceptable: float = 1e-3
+    promise: float = 1.0
     acceptable: float = 0.2
     min_multiplier: float = 1e-3
     return_step: float = 0.2

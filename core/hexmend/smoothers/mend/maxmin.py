@@ -127,6 +127,7 @@ def maximise_minimum(
     give_up_below: float = -np.inf,
     max_programs: float = np.inf,
     config: MaxMinConfig = MAXMIN,
+    patient_below: float = -np.inf,
 ) -> Generator[Step, None, ActiveCorners | None]:
     """Raise the least value of the corners that can be moved; groups after the first take as many programs, at most.
 
@@ -146,6 +147,8 @@ def maximise_minimum(
     max_programs : float
         Linear programs, at most.
     config : MaxMinConfig
+    patient_below : float
+        Least below which programs go on that promise little.
 
     Yields
     ------
@@ -161,7 +164,7 @@ def maximise_minimum(
     begin, reached, fruitless, first = optimiser.programs, -np.inf, 0, None
     end = begin + max_programs
     while True:
-        active = yield from _raise_group(optimiser, target, infeasible, end, config)
+        active = yield from _raise_group(optimiser, target, infeasible, end, config, patient_below)
         if active is None or not active.hexes.size or active.least >= target:
             break
         releasable = active.least < release_below
@@ -182,10 +185,15 @@ def maximise_minimum(
 
 
 def _raise_group(
-    optimiser: MaxMinOptimiser, target: float, infeasible: bool, last_program: float, config: MaxMinConfig
+    optimiser: MaxMinOptimiser,
+    target: float,
+    infeasible: bool,
+    last_program: float,
+    config: MaxMinConfig,
+    patient_below: float,
 ) -> Generator[Step, None, ActiveCorners | None]:
     """Raise the least until a group is stuck, which is returned; None where so many programs were not enough."""
-    for number, step in enumerate(optimiser.steps(target)):
+    for number, step in enumerate(optimiser.steps(target, patient_below)):
         if isinstance(step, ActiveCorners):
             return step
         if number % config.programs_per_iteration == 0:

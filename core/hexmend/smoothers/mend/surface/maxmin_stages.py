@@ -173,7 +173,7 @@ class MaxMinStages(ShapeStages):
         else:
             optimiser = yield from infeasible(leaving.returned(result, points))
         with optimiser.envelope.relaxed(optimiser.envelope.max_deviation):
-            active = yield from infeasible(maximise_minimum(optimiser))
+            active = yield from infeasible(maximise_minimum(optimiser, patient_below=result.least))
         improved = MaxMinResult(optimiser, active)
         if improved.least < result.least - MAXMIN.regained:
             return result
