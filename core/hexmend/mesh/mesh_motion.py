@@ -15,6 +15,7 @@ from hexmend.mesh.linear_motion.constrained_points import constrained_points, wi
 from hexmend.mesh.materials import STRUCTURED_BLOCKS, Materials, find_materials
 from hexmend.mesh.mesh_data import MeshData
 from hexmend.mesh.rules.motion_rules import MotionRules, NodeRules
+from hexmend.mesh.second_order import corners_of_mid_nodes
 from hexmend.mesh.validation import as_bools, check_finite, points_like
 from hexmend.terminal_text import count_phrase
 
@@ -69,12 +70,20 @@ class MeshMotion(MeshData):
 
     @cached_property
     def immovable(self) -> np.ndarray:
-        """True for nodes that stay where they are even if the boundary slides: pinned or fixed by a rule; (n,) bool."""
+        """True for nodes that stay where they are even if the boundary slides: pinned or fixed by a rule; (n,) bool.
+
+        So do the corners with which such a mid-node would move.
+        """
         rules = self.node_rules
         stays = np.zeros(self.n_nodes, dtype=bool) if self.pinned is None else self.pinned.copy()
         if rules.free is not None:
             stays &= ~rules.free
-        return as_immutable(stays if rules.fixed is None else stays | rules.fixed)
+        if rules.fixed is not None:
+            stays |= rules.fixed
+        if self.mid_nodes is not None and stays.any():
+            corners = corners_of_mid_nodes(stays, self.hexes, self.mid_nodes)
+            stays |= corners if rules.free is None else corners & ~rules.free
+        return as_immutable(stays)
 
     @cached_property
     def fixed(self) -> np.ndarray:

@@ -75,6 +75,27 @@ def move_mid_nodes(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid
     return answer
 
 
+def corners_of_mid_nodes(marks: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
+    """Mark the corners with which marked mid-nodes move: they stay if these do.
+
+    Parameters
+    ----------
+    marks : (n,) bool
+        Nodes.
+    hexes : (m, 8) int32
+    mid_nodes : (m, 19) int32
+
+    Returns
+    -------
+    (n,) bool
+    """
+    corners = np.zeros(marks.size, dtype=bool)
+    for column, weights in enumerate(MID_NODE_WEIGHTS):
+        nodes = mid_nodes[:, column]
+        corners[hexes[(nodes >= 0) & marks[nodes]][:, weights > 0]] = True
+    return corners
+
+
 def scaled_jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
     """Compute the minimum scaled Jacobian of second-order hexes over their nodes and the 3 x 3 x 3 Gauss points.
 

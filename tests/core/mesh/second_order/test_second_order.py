@@ -10,11 +10,20 @@ from hypothesis.extra.numpy import arrays
 
 from hexmend import io
 from hexmend.cli.main import main
+from hexmend.mesh.fixing import with_pinned
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_NODE_POSITIONS, NODE_POSITIONS, move_mid_nodes, scaled_jacobians
+from hexmend.mesh.second_order import (
+    MID_NODE_POSITIONS,
+    MID_NODE_WEIGHTS,
+    NODE_POSITIONS,
+    move_mid_nodes,
+    scaled_jacobians,
+)
 from hexmend.mesh.second_order.shape_functions import lagrange, serendipity
 from hexmend.quality import summarise_second_order
+from hexmend.run import smooth
+from tests.core.curved_shell import curved_shell
 from tests.core.grids import grid
 
 every_function = pytest.mark.parametrize(("functions", "width"), [(serendipity, 20), (lagrange, 27)])
@@ -110,3 +119,15 @@ def test_info_and_smooth_say_it(tmp_path, capsys):
     io.write(tmp_path / "plain.vtk", grid(1))
     main(["info", str(tmp_path / "plain.vtk"), "--json"])
     assert "second_order" not in json.loads(capsys.readouterr().out)
+
+
+@pytest.mark.parametrize("column", [0, 17, 18])
+def test_the_corners_of_a_pinned_mid_node_stay_and_so_does_it(column):
+    mesh = curved_shell(27, through=5, around=5, along=5)
+    inside = np.flatnonzero(mesh.free[mesh.hexes].all(axis=1))[0]
+    node, corners = mesh.mid_nodes[inside, column], mesh.hexes[inside, MID_NODE_WEIGHTS[column] > 0]
+    pinned = with_pinned(mesh, node)
+    np.testing.assert_array_equal(np.flatnonzero(mesh.free & ~pinned.free), np.unique(corners))
+    moved = smooth(pinned, "laplacian", max_iterations=3, keep_last=True).mesh.points
+    assert (moved != mesh.points).any()
+    np.testing.assert_array_equal(moved[node], mesh.points[node])
