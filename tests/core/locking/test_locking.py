@@ -65,8 +65,13 @@ def test_two_faces_of_a_hex_on_one_flat_patch_need_a_layer():
         assert np.linalg.matrix_rank(x[1:] - x[0], tol=1e-9) == 2
         assert one.sentence.endswith("lie on one flat piece of the boundary.")
     assert planes
-    run = hx.smooth(mesh, boundary="slide", surface_tolerance="unlimited", goal="scaled-jacobian", max_iterations=30)
+    run = hx.smooth(
+        mesh, "local-nr", boundary="slide", surface_tolerance="unlimited", max_iterations=30, keep_last=True
+    )
+    assert (run.mesh.points != mesh.points).any()
     assert (measure(run.mesh.points, mesh.hexes).scaled_jacobian[locking.hexes] < ROUNDING).all()
+    run = hx.smooth(mesh, boundary="slide", goal="scaled-jacobian")
+    assert run.after.inverted == 0  # its nodes leave the surface
     padding = hx.pad(mesh)
     assert padding.after.inverted == 2
     assert not measure(padding.mesh.points, padding.mesh.hexes).inverted[locking.hexes].any()

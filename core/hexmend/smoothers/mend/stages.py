@@ -56,8 +56,8 @@ class Stages(MaxMinStages):
         if sliding is None:
             leaving, result = None, (yield from self._maxmin_stage(mesh, candidates, None))
         else:
-            raising = self._raise_within_tolerances(sliding, at_rest, candidates, fixed)
-            leaving, result = yield from raising
+            steps = self._raise_within_tolerances(sliding, at_rest, candidates, fixed)
+            leaving, result = yield from steps
         if self.settings.maximises_jacobian and result.least > 0:
             result = yield from self._improve_shape(mesh, leaving, result)
         if self.goal == "time-step":

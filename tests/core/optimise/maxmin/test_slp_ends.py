@@ -12,9 +12,10 @@ from hexmend.optimise.maxmin.slp_config import SLPConfig
 from tests.core.grids import grid, scrambled
 
 
-def steps_of(**settings):
+def steps_of(patient_below=-np.inf, **settings):
     mesh = scrambled(grid(3), 0.4, 1)
-    *steps, limit = slp.MaxMinOptimiser(mesh, mesh.points, config=SLPConfig(**settings)).steps()
+    optimiser = slp.MaxMinOptimiser(mesh, mesh.points, config=SLPConfig(**settings))
+    *steps, limit = optimiser.steps(patient_below=patient_below)
     assert isinstance(limit, slp.ActiveCorners)
     return steps
 
@@ -24,8 +25,17 @@ def steps_of(**settings):
 def test_it_ends_after_some_steps_that_together_gain_less_than_a_little(window, sound):
     """Below `sound` what counts is `min_gain`, above it `min_gain_acceptable`."""
     much, nothing = ("min_gain", "min_gain_acceptable") if sound == 2.0 else ("min_gain_acceptable", "min_gain")
-    assert len(steps_of(window=window, acceptable=sound, **{much: 10.0, nothing: 0.0})) == window
-    assert len(steps_of(window=window, acceptable=sound, **{much: 0.0, nothing: 10.0})) > window
+    settings = {"window": window, "acceptable": sound, "promise": 0.0}
+    assert len(steps_of(**settings, **{much: 10.0, nothing: 0.0})) == window
+    assert len(steps_of(**settings, **{much: 0.0, nothing: 10.0})) > window
+
+
+def test_it_ends_where_a_program_promises_less_than_a_share_of_that_per_step():
+    every = [step.least for step in steps_of(promise=0.0)]
+    fewer = [step.least for step in steps_of(promise=100.0)]
+    assert fewer == every[: len(fewer)]
+    assert 1 < len(fewer) < len(every)
+    assert len(steps_of(promise=1e4, patient_below=1.0)) == len(every)
 
 
 @pytest.mark.parametrize("few", [1, 3])

@@ -23,7 +23,7 @@ class StandIn:
         self.asked, self.frozen, self.released, self.released_around = [], [], [], []
         self.programs = 0
 
-    def steps(self, aim):
+    def steps(self, aim, patient_below):
         self.asked.append(aim)
         for number in range(self._steps):
             self.programs += 1
