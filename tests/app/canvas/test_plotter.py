@@ -40,6 +40,7 @@ def _saved(canvas):
     return canvas.draw_page(canvas.scene(Page())).image().convert("RGB")
 
 
+@pytest.mark.slow
 def test_its_actors_are_on_the_screen_and_in_pictures(canvas):
     before = canvas.viewport.layers[0].GetViewProps().GetNumberOfItems()
     assert isinstance(canvas.plotter, pv.Plotter)

@@ -78,6 +78,7 @@ def grab(qtbot, make, state):
     return image
 
 
+@pytest.mark.slow
 @THEMES
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("name", CONTROLS)

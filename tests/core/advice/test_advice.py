@@ -104,6 +104,7 @@ def test_hexes_left_inverted_by_mend_at_fixed_nodes_are_told_to_slide():
     assert followed(mesh, result, suggestion).after.inverted == 0
 
 
+@pytest.mark.slow
 def test_following_a_suggestion_helps_beside_what_is_locked():
     follow_all(with_locked_corner(make("five-side", size=300)))
     assert follow_all(with_locked_corner(make("five-side", size=150, scramble=0.8))), "nothing was suggested at all"

@@ -9,6 +9,8 @@ import pytest
 
 from hexmend import gallery, io
 
+pytestmark = pytest.mark.slow
+
 #: The script that pip writes, with a place before it (`{moment}`) where the moment of the signal is chosen.
 SCRIPT = """
 import os, re, signal, sys

@@ -23,6 +23,7 @@ def cubes(*places):
     return Mesh(nodes, number.reshape(-1, 8))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cube", "bridge-sharp", "five-side", "kershaw", "layered", "materials", "plane"])
 def test_every_gallery_mesh_is_padded_and_mended(name):
     mesh = hx.gallery.make(name, size=200)

@@ -63,6 +63,7 @@ def reaches_the_optimum_of_one_process(given, folder, ranks, goal, tolerance, *w
     np.testing.assert_allclose(figures(several), figures(one), atol=tolerance, rtol=tolerance)
 
 
+@pytest.mark.slow
 @needs_mpi
 def test_two_ranks_reach_the_optimum_of_one_process(tangled, tmp_path):
     reaches_the_optimum_of_one_process(tangled, tmp_path, 2, "shape", 1e-8)

@@ -74,6 +74,7 @@ def test_quads_of_the_surface_end_better_with_weight(monkeypatch):
     assert {head.count("|")} == {row.count("|") for row in rows}
 
 
+@pytest.mark.slow
 def test_more_freedom_of_a_mesh_is_a_row_that_names_what_ends_lower(tmp_path, monkeypatch):
     io.write(tmp_path / "cube.vtk", make("cube", size=27, scramble=0.3))
     (tmp_path / "broken.vtk").write_text("# vtk DataFile Version 3.0\n")

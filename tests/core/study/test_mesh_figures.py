@@ -65,6 +65,7 @@ def test_measured_experiments_are_drawn(tmp_path, measured, joining):
     assert f"{plane.initial.inverted:,} inverted" in next(one["caption"] for one in figures if one["number"] == "4.6")
 
 
+@pytest.mark.slow
 def test_without_the_viewer_a_line_names_the_missing_figures_and_the_remedy(tmp_path, measured, joining):
     for there in ((), (None,)):
         joining(*there)

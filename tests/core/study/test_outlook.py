@@ -106,6 +106,7 @@ def test_sections_are_chosen_like_tables():
     assert [one.section for one in some.outlooks] == ["5.2.6", "5.2.6"]
 
 
+@pytest.mark.slow
 def test_the_command_runs_a_section(tmp_path, capsys, monkeypatch):
     small = replace(THESIS, outlooks=(TINY,))
     monkeypatch.setattr("hexmend.study.thesis.experiments.load", lambda: small)

@@ -286,6 +286,7 @@ def test_quick_runs_are_repeated_and_the_least_time_counts(tiny, monkeypatch):
     assert run_experiments(repeated).results[0].rows["local-sd"].seconds == 6.0
 
 
+@pytest.mark.slow
 def test_meshes_of_the_thesis_with_inverted_hexes_have_as_many():
     for one in load().experiments:
         if one.scramble:

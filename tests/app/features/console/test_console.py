@@ -79,6 +79,7 @@ def test_an_endless_loop_can_be_interrupted(window, console, qtbot):
     assert "\n2\n" in console.enter_and_wait("1 + 1")
 
 
+@pytest.mark.slow
 def test_an_endless_print_is_shown_and_interrupted(console, qtbot):
     console.run("while True: print('again')")
     qtbot.waitUntil(lambda: console.panel.output.blockCount() > 1000, timeout=PATIENCE)

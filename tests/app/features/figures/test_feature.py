@@ -88,6 +88,7 @@ def page(tmp_path, monkeypatch):
     return path
 
 
+@pytest.mark.slow
 def test_the_report_shows_the_opened_and_the_current_mesh(window, qtbot, page):
     stepped(window, qtbot, 4)
     end_run(window.session)
@@ -104,6 +105,7 @@ def test_the_report_shows_the_opened_and_the_current_mesh(window, qtbot, page):
     assert "Limits of each run" not in text
 
 
+@pytest.mark.slow
 def test_each_step_of_a_report_is_named_and_the_report_can_be_cancelled(window, qtbot, page, monkeypatch):
     texts = []
     show = window.busy.show_work

@@ -51,6 +51,7 @@ def apply(host, title):
     host.feature.panel.suggestion_chosen.emit(index)
 
 
+@pytest.mark.slow
 def test_a_suggestion_without_the_rules_that_fix_sets_changes_the_rules_of_the_next_run(host, qtbot):
     session = host.session
     session.run_setup.set_rules(MotionRules(interfaces="slide", fix=("bolt",)))

@@ -50,6 +50,7 @@ def test_the_mesh_is_padded_and_undone(window, session, qtbot, choice):
     assert session.document.now is now
 
 
+@pytest.mark.slow
 def test_a_run_goes_on_with_the_padded_mesh_and_its_pins(window, session, qtbot):
     now = pad(qtbot, session, PaddingChoice())
     assert np.flatnonzero(now.mesh.pinned).tolist() == [21]

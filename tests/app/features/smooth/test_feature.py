@@ -63,6 +63,7 @@ def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
     assert document.undo_title == "reset"
 
 
+@pytest.mark.slow
 def test_a_complete_run_untangles_and_shows_it(window, qtbot):
     choose(window, "mend", StoppingCriteria(tolerance=1e-2))
     with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
@@ -186,6 +187,7 @@ def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatc
         assert window.session.run.phase is Phase.PAUSED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("metric", "shown"), [("q", "scaled-jacobian"), ("condition", "condition")])
 def test_a_run_that_raises_the_scaled_jacobian_is_coloured_by_it(window, qtbot, metric, shown):
     window.session.view.change(colours={"metric": metric})

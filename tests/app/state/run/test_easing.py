@@ -142,6 +142,7 @@ class Worsening(LocalSteepestDescent):
             yield Step(mesh.points + generator.normal(size=mesh.points.shape) * mesh.free[:, None])
 
 
+@pytest.mark.slow
 def test_a_run_without_a_better_iteration_ends_on_the_mesh_before_it(document, run, qtbot):
     start = document.now
     run_and_wait(qtbot, run, stop=StoppingCriteria(max_iterations=12, tolerance=0), smoother=Worsening())

@@ -135,6 +135,7 @@ def perturbed(mesh, seed):
     return mesh.with_points(mesh.points * factors)
 
 
+@pytest.mark.slow
 def test_rounding_does_not_choose_the_nodes_that_leave():
     """Whether the barrier untangles all hexes or leaves two is chance where nodes slide on facets."""
     mesh = SMALL["ball"]()
@@ -186,7 +187,10 @@ def check_tolerances(mesh, tolerances=(0.0, 0.03, 0.1, 0.3, 1.0)):
     assert ends[-1].inverted == 0
 
 
-@pytest.mark.parametrize("name", ["ball", "cylinder", "five-side"])
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param("ball", marks=pytest.mark.slow), pytest.param("cylinder", marks=pytest.mark.slow), "five-side"],
+)
 def test_a_larger_tolerance_ends_no_lower(name):
     check_tolerances(SMALL[name]())
 
@@ -229,6 +233,7 @@ def test_a_band_that_is_wider_by_rounding_is_no_other_band(monkeypatch, goal):
     np.testing.assert_allclose(after.scaled_jacobian_min, expected.scaled_jacobian_min, rtol=1e-3)
 
 
+@pytest.mark.slow
 def test_without_a_limit_quads_may_be_further_from_the_surface_than_within_any():
     mesh = wavy(ball(3), 0.05, 10)
     within, unlimited = (

@@ -141,6 +141,7 @@ def test_the_optimum_is_that_without_the_start_or_better(boundary):
         assert ends[1] < ends[0] * (1 + 1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("goal", ["shape", "balanced"])
 def test_kershaws_mesh_ends_at_the_lattice_in_fewer_steps_of_all_its_nodes(goal):
     mesh, smoother = make("kershaw", size=24**3), Mend(goal=goal, boundary="slide", p=1.0)
