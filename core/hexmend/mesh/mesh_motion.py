@@ -81,8 +81,7 @@ class MeshMotion(MeshData):
         if rules.fixed is not None:
             stays |= rules.fixed
         if self.mid_nodes is not None and stays.any():
-            corners = corners_of_mid_nodes(stays, self.hexes, self.mid_nodes)
-            stays |= corners if rules.free is None else corners & ~rules.free
+            stays |= corners_of_mid_nodes(stays, self.hexes, self.mid_nodes)
         return as_immutable(stays)
 
     @cached_property

@@ -43,8 +43,9 @@ def stays_inverted(sliding: SlidingBoundary, points: np.ndarray, hexes: np.ndarr
     Parameters
     ----------
     sliding : SlidingBoundary
+        On its own surface, not on a target: which parts are flat is seen from the nodes where it began.
     points : (n, 3) float64
-        On its surface.
+        Node positions on that surface.
     hexes : (k,) int64
         Numbers of hexes.
 
@@ -55,7 +56,7 @@ def stays_inverted(sliding: SlidingBoundary, points: np.ndarray, hexes: np.ndarr
     mesh = sliding.mesh
     tetrahedra = mesh.hexes[hexes][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
     blocked = mesh.fixed[tetrahedra].all(axis=2)
-    for part in flat_parts(points, sliding.boundary, mesh.mean_edge_length):
+    for part in flat_parts(sliding.points, sliding.boundary, mesh.mean_edge_length):
         most = part.directions.shape[1] + 1  # nodes of a valid tetrahedron on a plane, and on a line
         blocked |= mask(part.nodes, mesh.n_nodes)[tetrahedra].sum(axis=2) > most
     inverted = ~(corner_determinants(points, mesh.hexes, hexes) > 0)

@@ -3,7 +3,7 @@
 The least of many functions has no derivative where two of them are equal, which is where its maximum lies. So each step
 takes all functions that could become the least by their linear models, and finds the displacement within a trust region
 that raises their least most: a linear program (Madsen 1975; Fletcher and Sainz de la Maza 1989). At the end its
-multipliers name the active corners: no direction raises one of them without lowering another.
+multipliers name the active corners: hardly any direction raises one of them without lowering another.
 """
 
 from __future__ import annotations
@@ -110,9 +110,9 @@ class MaxMinOptimiser:
         self.corners.update(points, np.arange(self.mesh.n_hexes))
 
     def steps(self, target: float = np.inf, patient_below: float = -np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
-        """Raise the least until no step does any more, or it has reached `target`.
+        """Raise the least until steps gain or programs promise too little, or it has reached `target`.
 
-        Below `patient_below` programs go on that promise little.
+        Below `patient_below` a program that promises little is no reason to end.
 
         Yields
         ------
@@ -135,9 +135,9 @@ class MaxMinOptimiser:
                 yield MaxMinStep(self.points, self.least, low.size, radius)
             gains.append(gain)
             enough = config.min_gain if least < config.acceptable else config.min_gain_acceptable
-            slow = enough / config.window * min(radius / config.initial_radius, 1.0)
-            slow = 0.0 if least < patient_below else config.promise * slow
-            if promised <= max(config.no_gain, slow) or sum(gains[-config.window :]) < enough:
+            per_step = config.promise * enough / config.window * min(radius / config.initial_radius, 1.0)
+            least_promise = config.no_gain if least < patient_below else max(config.no_gain, per_step)
+            if promised <= least_promise or sum(gains[-config.window :]) < enough:
                 if whole or self._max_corners >= config.max_corners:
                     break
                 self._max_corners, self._radius = 2 * self._max_corners, max(self._radius, config.min_active_band)

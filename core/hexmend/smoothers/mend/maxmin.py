@@ -42,13 +42,13 @@ class MaxMinConfig:
         Narrower bands, in mean edge lengths, in which the least is raised first; a wider one follows where it raises
         the least by `worth_widening`. They are the same for all tolerances; the last band is `surface_share` of the
         tolerance.
+    distinct : float
+        Share of the width of a band up to which a narrower one is tried before it.
     worth_widening : float
         Gain of the least, as a share of it or of 0.1, from which on quads of a boundary that slides may be further from
         its surface.
     worth_detour : float
-        The same of a detour, from which on the next is no wider.
-    distinct : float
-        Share of the width of a band up to which a narrower one is tried before it.
+        The same of a detour, from which on the next one is no wider.
     worth_leaving : float
         The same where nodes that have left the surface may be further from it, though the least is acceptable.
     off_surface_tolerances : tuple of float
@@ -73,8 +73,8 @@ class MaxMinConfig:
     regained : float
         By how much the least may be lower after the shape was improved above it; half of what counts in the choice of
         the best iterate.
-    reach : float
-        Share of the result within another tolerance that the central path has to reach, for programs to exceed it.
+    share_in_reach : float
+        Share of the best result that the central path has to reach, so that linear programs can exceed that.
     trial_iterations : int
         Iterations in which the more promising of two starts has to come as high as the other, at most.
     shape_patience : int
@@ -92,9 +92,9 @@ class MaxMinConfig:
     surface_share: float = 1 / 3
     first_share: float = 0.45
     bands: tuple[float, ...] = (0.045, 0.1, 1 / 3)
+    distinct: float = 0.95
     worth_widening: float = 0.01
     worth_detour: float = 0.05
-    distinct: float = 0.95
     worth_leaving: float = 0.25
     off_surface_tolerances: tuple[float, ...] = (1 / 30, 0.1, 0.3)
     off_surface_limit: float = 1.5
@@ -107,7 +107,7 @@ class MaxMinConfig:
     detour_programs: int = 90
     programs_between: int = 60
     regained: float = 5e-6
-    reach: float = 0.9
+    share_in_reach: float = 0.9
     trial_iterations: int = 10
     shape_patience: int = 5
     untangling_iterations: int = 10
@@ -148,7 +148,7 @@ def maximise_minimum(
         Linear programs, at most.
     config : MaxMinConfig
     patient_below : float
-        Least below which programs go on that promise little.
+        Least below which a program that promises little is no reason to end.
 
     Yields
     ------

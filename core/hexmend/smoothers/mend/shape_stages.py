@@ -132,7 +132,7 @@ class ShapeStages:
 
     def _has_to_leave(self, sliding: SlidingBoundary, points: np.ndarray) -> bool:
         """Return True if hexes stay inverted unless nodes leave the surface, and nodes of each of them may."""
-        if not self.settings.absolute_tolerance(sliding.mesh) > 0:
+        if sliding.mesh.target is not None or not self.settings.absolute_tolerance(sliding.mesh) > 0:
             return False
         hexes = np.flatnonzero(measure(points, sliding.mesh.hexes).inverted)
         stuck = sliding.mesh.hexes[hexes[stays_inverted(sliding, points, hexes)]]

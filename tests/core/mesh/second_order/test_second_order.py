@@ -131,3 +131,13 @@ def test_the_corners_of_a_pinned_mid_node_stay_and_so_does_it(column):
     moved = smooth(pinned, "laplacian", max_iterations=3, keep_last=True).mesh.points
     assert (moved != mesh.points).any()
     np.testing.assert_array_equal(moved[node], mesh.points[node])
+
+
+def test_the_corners_of_a_mid_node_stay_that_is_fixed_by_a_rule_even_if_another_frees_them():
+    mesh = curved_shell(27, through=5, around=5, along=5)
+    inside = np.flatnonzero(mesh.free[mesh.hexes].all(axis=1))[0]
+    sets = {"middle": mesh.mid_nodes[inside, :1], "corners": mesh.hexes[inside]}
+    mesh = mesh.replace(node_sets=sets)
+    moved = smooth(mesh, "laplacian", max_iterations=3, keep_last=True, fix="middle", free="corners").mesh.points
+    assert (moved != mesh.points).any()
+    np.testing.assert_array_equal(moved[sets["middle"]], mesh.points[sets["middle"]])

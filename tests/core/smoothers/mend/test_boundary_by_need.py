@@ -10,6 +10,7 @@ from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.fixing import with_pinned
+from hexmend.mesh.mesh import Mesh
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.maxmin import MAXMIN
@@ -199,6 +200,26 @@ def test_a_larger_tolerance_ends_no_lower(name):
 @pytest.mark.parametrize("name", ["block_in.mesh", "mid2FemPer.vtk", "spring.mesh"])
 def test_a_larger_tolerance_of_a_real_boundary_ends_no_lower(real_mesh, name):
     check_tolerances(read(real_mesh(name)))
+
+
+def knob():
+    """A grid with a hex on the centre of a face; one of its outer nodes is below that face."""
+    mesh = grid(3, 3, 2)
+    on_face = [int(np.flatnonzero((mesh.points == place).all(axis=1))[0]) for place in
+               ((1, 1, 2), (2, 1, 2), (2, 2, 2), (1, 2, 2))]  # fmt: skip
+    above = mesh.points[on_face] + [0, 0, 1]
+    above[2] = 2, 2, 1.8
+    top = mesh.n_nodes + np.arange(4)
+    return Mesh(np.vstack([mesh.points, above]), np.vstack([mesh.hexes, [*on_face, *top]]))
+
+
+@pytest.mark.parametrize("keep_last", [False, True])
+def test_a_result_with_an_inverted_hex_is_no_better_than_one_without(keep_last):
+    """Within smaller tolerances the hex stays inverted, and the least of the corners that can be moved is 1."""
+    settings = {"goal": "scaled-jacobian", "boundary": "slide", "surface_tolerance": 0.3, "keep_last": keep_last}
+    result = smooth(knob(), "mend", **settings)
+    assert result.after.inverted == 0
+    assert result.after.scaled_jacobian_min > 0.95
 
 
 @pytest.mark.slow

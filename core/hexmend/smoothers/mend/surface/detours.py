@@ -11,6 +11,7 @@ import numpy as np
 from hexmend.iteration import Step
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.optimise.maxmin.slp_step import ActiveCorners
+from hexmend.quality import measure
 from hexmend.smoothers.mend.maxmin import MAXMIN, MaxMinConfig, maximise_minimum
 from hexmend.smoothers.mend.surface.release import infeasible
 
@@ -35,6 +36,18 @@ class MaxMinResult:
     def step(self) -> Step:
         """Step of a smoother to these points."""
         return Step(self.optimiser.points, {"least": self.least}, intermediate=True)
+
+    def is_better_than(self, other: MaxMinResult) -> bool:
+        """Return True if fewer hexes are inverted, or the minimum scaled Jacobian of all is higher.
+
+        Where corners that cannot be moved hold that, those that can decide.
+        """
+        return self._order > other._order
+
+    @property
+    def _order(self) -> tuple[int, float, float]:
+        quality = measure(self.optimiser.points, self.optimiser.mesh.hexes)
+        return -quality.n_inverted, float(quality.scaled_jacobian.min()), self.least
 
     def gains(self, least: float, share: float = MAXMIN.worth_widening) -> bool:
         """Return True if the least is higher than another by a share of that or of 0.1."""
@@ -107,7 +120,7 @@ def improve_off_surface(
         Minimum scaled Jacobian from which on there are no further detours.
     config : MaxMinConfig
     lowest : float
-        Minimum scaled Jacobian up to which there are none after the first from each start: it promises too little.
+        Minimum scaled Jacobian up to which no further detours follow the first one from each start.
 
     Yields
     ------

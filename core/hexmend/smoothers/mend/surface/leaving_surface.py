@@ -41,7 +41,7 @@ class LeavingSurface:
     untangled, optimise_shape : callable
         Stages of the run that it needs.
     best : MaxMinResult, optional
-        Of the run within another tolerance: this ends where it becomes clear that it does not come higher.
+        The best result within other tolerances: the run ends where it becomes clear that it does not come higher.
     """
 
     def __init__(
@@ -73,9 +73,9 @@ class LeavingSurface:
         trials = [(optimum, limits[:1], True)]
         trials += [(start, limits[:1], False) for start in starts[: RELEASE.starts]] + [(starts[0], limits[1:], False)]
         for start, within, others_stay in trials:
-            if fewest <= RELEASE.few:  # linear programs do better
+            if fewest <= RELEASE.few or not within:  # linear programs do better
                 break
-            self.widened = self.widened or within[:1] != limits[:1]
+            self.widened = self.widened or within[0] > limits[0]
             points, released = yield from untangle_released(self.sliding, start, self._untangled, within, others_stay)
             inverted = measure(points, hexes).n_inverted
             if inverted < fewest and released.size:
@@ -87,9 +87,9 @@ class LeavingSurface:
     def smaller_tolerance(self, result: MaxMinResult | None) -> float | None:
         """A tolerance below that of the run, in mean edge lengths, within which the least may be higher; else None.
 
-        On the surface 0.3 begins with the band of 0.1, but not with that of the smallest. Where hexes are inverted
-        still, or nodes have left the surface, any smaller tolerance may come higher. Only a tolerance in numbers has
-        smaller ones: otherwise it is as large as it needs to be.
+        A run on the surface begins in the same band within 0.3 and 0.1, so that only the smallest tolerance can bring
+        more. Where hexes are still inverted, or nodes have been released, any smaller one can. Only a tolerance in
+        numbers has smaller ones: otherwise it is as large as it needs to be.
         """
         if self.settings.surface_tolerance in (AUTO, UNLIMITED):
             return None
@@ -113,7 +113,7 @@ class LeavingSurface:
             return (yield from raise_to_the_end(result))
         optimiser = MaxMinOptimiser(self.mesh, start, self.sliding)
         if measure(result.optimiser.points, self.mesh.hexes).n_inverted:
-            self.widened = len(self._limits) > 1
+            self.widened = self.widened or len(self._limits) > 1
             starts = [optimiser] if self._nearly is None else [self._nearly, optimiser]
             lowest = 0.0 if self._best is not None and self._best.least > 0 else -np.inf
             return (yield from improve_off_surface(starts, self._limits, result, wanted, lowest=lowest))
@@ -193,11 +193,11 @@ class LeavingSurface:
         return np.inf if unlimited else tolerance
 
     @property
-    def least_in_reach(self) -> float:
-        """Least that the central path has to reach on the surface, for programs to exceed the best result there."""
+    def least_to_reach(self) -> float:
+        """Least that the central path has to reach on the surface, so that linear programs can exceed the best."""
         if self._best is None or self._best.optimiser.envelope.released.any():
             return -np.inf
-        return MAXMIN.reach * self._best.least
+        return MAXMIN.share_in_reach * self._best.least
 
     @property
     def may_leave(self) -> bool:

@@ -65,36 +65,42 @@ class MaxMinStages(ShapeStages):
             The best result, see `_raise_sliding`, and the boundary that it was reached with.
         """
         leaving = LeavingSurface(self.settings, sliding, self._untangled, self._sliding_shape)
-        result, near = (yield from self._raise_sliding(leaving, at_rest[-1], candidates, fixed)), leaving
+        result, near = (yield from self._raise_sliding(leaving, at_rest, candidates, fixed)), leaving
         while self.settings.maximises_jacobian and (smaller := near.smaller_tolerance(result)):
             settings = replace(self.settings, surface_tolerance=smaller)
             band = self._bands(sliding.mesh, settings.absolute_tolerance(sliding.mesh))[0]
             near = LeavingSurface(settings, sliding.with_band(band), self._untangled, self._sliding_shape, result)
             candidates, _ = yield from infeasible(self._start_sliding(near.sliding, at_rest, fixed is not None))
-            nearer = yield from self._raise_sliding(near, at_rest[-1], candidates, fixed)
-            if nearer is not None and (result is None or nearer.least > result.least):
+            nearer = yield from self._raise_sliding(near, at_rest, candidates, fixed)
+            if nearer is not None and (result is None or nearer.is_better_than(result)):
                 leaving, result = near, nearer
         return leaving, result
 
     def _raise_sliding(
         self,
         leaving: LeavingSurface,
-        optimum: np.ndarray,
+        at_rest: Sequence[np.ndarray],
         candidates: Sequence[np.ndarray],
         fixed: MaxMinResult | None,
     ) -> Generator[Step, None, MaxMinResult | None]:
         """Raise the least on the surface from the best of some points (n, 3), then with nodes that leave it.
 
-        Nodes leave it from points `optimum` (n, 3) on. The result is no lower than `fixed`, that with the boundary
-        fixed; None where nothing is to be raised.
+        Nodes leave it from the last points of `at_rest` on. The result is no lower than `fixed`, that with the boundary
+        fixed; None where nothing is to be raised, or the best result within other tolerances is out of reach.
         """
+        optimum = at_rest[-1]
         result = yield from leaving.untangle(optimum, candidates)
+        passed_over = fixed is None and len(candidates) == len(at_rest) + 1  # the optimum of shape that slides
+        if result is None and passed_over and not leaving.nearly_untangled:
+            shape = yield from infeasible(self._sliding_shape(leaving.sliding, candidates[-1]))
+            candidates = [*candidates, shape.points]
+            result = yield from leaving.untangle(optimum, candidates)
         if result is None:
-            wanted, in_reach = MAXMIN.acceptable if leaving.may_leave else -np.inf, leaving.least_in_reach
-            stage = self._maxmin_stage(leaving.mesh, candidates, leaving.sliding, fixed, max(wanted, in_reach))
+            wanted, to_reach = MAXMIN.acceptable if leaving.may_leave else -np.inf, leaving.least_to_reach
+            stage = self._maxmin_stage(leaving.mesh, candidates, leaving.sliding, fixed, max(wanted, to_reach))
             result = yield from stage
-            if result is None or (result.active is None and in_reach > wanted):
-                return result
+            if result is None or (result.active is None and to_reach > wanted):
+                return None
         was_left = result.active is None  # the surface, before the least was as high there as it can be
         result = yield from self._raise_on_and_off(leaving, optimum, result)
         if was_left and not result.optimiser.envelope.released.any():
