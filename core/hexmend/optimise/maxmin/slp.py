@@ -134,9 +134,12 @@ class MaxMinOptimiser:
             if gain > 0:
                 yield MaxMinStep(self.points, self.least, low.size, radius)
             gains.append(gain)
-            enough = config.min_gain if least < config.acceptable else config.min_gain_acceptable
-            per_step = config.promise * enough / config.window * min(radius / config.initial_radius, 1.0)
-            least_promise = config.no_gain if least < patient_below else max(config.no_gain, per_step)
+            is_sound = least >= config.acceptable
+            enough = config.min_gain_acceptable if is_sound else config.min_gain
+            least_promise = config.no_gain
+            if is_sound and least >= patient_below:
+                per_step = config.promise * enough / config.window * min(radius / config.initial_radius, 1.0)
+                least_promise = max(least_promise, per_step)
             if promised <= least_promise or sum(gains[-config.window :]) < enough:
                 if whole or self._max_corners >= config.max_corners:
                     break

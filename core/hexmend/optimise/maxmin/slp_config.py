@@ -32,7 +32,8 @@ class SLPConfig:
     min_gain, min_gain_acceptable : float
         Gain in these steps below which the algorithm ends; the second where the least is above `acceptable`.
     promise : float
-        Share of that gain per step that a program has to promise; less in a small trust region.
+        Share of that gain per step that a program has to promise where the least is above `acceptable`; less in a small
+        trust region.
     acceptable : float
         Value from which on a corner is sound, so that small gains are not worth their time.
     min_multiplier : float

@@ -70,7 +70,7 @@ class MaxMinStages(ShapeStages):
             settings = replace(self.settings, surface_tolerance=smaller)
             band = self._bands(sliding.mesh, settings.absolute_tolerance(sliding.mesh))[0]
             near = LeavingSurface(settings, sliding.with_band(band), self._untangled, self._sliding_shape, result)
-            candidates, _ = yield from infeasible(self._start_sliding(near.sliding, at_rest, fixed is not None))
+            candidates, _ = yield from self._start_sliding(near.sliding, at_rest, fixed is not None)
             nearer = yield from self._raise_sliding(near, at_rest, candidates, fixed)
             if nearer is not None and (result is None or nearer.is_better_than(result)):
                 leaving, result = near, nearer
@@ -90,11 +90,6 @@ class MaxMinStages(ShapeStages):
         """
         optimum = at_rest[-1]
         result = yield from leaving.untangle(optimum, candidates)
-        passed_over = fixed is None and len(candidates) == len(at_rest) + 1  # the optimum of shape that slides
-        if result is None and passed_over and not leaving.nearly_untangled:
-            shape = yield from infeasible(self._sliding_shape(leaving.sliding, candidates[-1]))
-            candidates = [*candidates, shape.points]
-            result = yield from leaving.untangle(optimum, candidates)
         if result is None:
             wanted, to_reach = MAXMIN.acceptable if leaving.may_leave else -np.inf, leaving.least_to_reach
             stage = self._maxmin_stage(leaving.mesh, candidates, leaving.sliding, fixed, max(wanted, to_reach))
@@ -106,6 +101,11 @@ class MaxMinStages(ShapeStages):
         if was_left and not result.optimiser.envelope.released.any():
             result = yield from self._maxmin_stage(leaving.mesh, [result.optimiser.points], leaving.sliding)
             result = yield from self._raise_on_and_off(leaving, optimum, result)
+        passed_over = fixed is None and len(candidates) == len(at_rest) + 1  # the optimum of shape that slides
+        if passed_over and not result.least > 0:
+            shape = yield from self._sliding_shape(leaving.sliding, candidates[-1])
+            slid = yield from self._maxmin_stage(leaving.mesh, [*candidates, shape.points], leaving.sliding)
+            result = slid if slid is not None and slid.is_better_than(result) else result
         return result
 
     def _raise_on_and_off(
