@@ -112,7 +112,7 @@ class ShapeStages:
         steps = self._sliding_shape(sliding, points)
         return (yield from while_promising(steps, sliding.mesh, others, MAXMIN.shape_patience))
 
-    def _start_sliding(
+    def start_sliding(
         self, sliding: SlidingBoundary, candidates: Sequence[np.ndarray], is_untangled: bool
     ) -> Generator[Step, None, tuple[list[np.ndarray], ShapeOptimum | None]]:
         """Slide from the last of some points (n, 3): by linear programs, then to the optimum of shape.

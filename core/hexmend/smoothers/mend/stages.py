@@ -50,7 +50,7 @@ class Stages(MaxMinStages):
             fixed, given, kept = yield from self._raise_fixed(mesh, candidates, given)
             sliding = self.sliding_boundary(mesh)
             mesh = sliding.mesh
-            start = self._start_sliding(sliding, candidates, fixed is not None)
+            start = self.start_sliding(sliding, candidates, fixed is not None)
             candidates, slid = yield from keeping(kept, mesh.hexes, start)
             shape = slid or shape
         if sliding is None:

@@ -70,7 +70,7 @@ class MaxMinStages(ShapeStages):
             settings = replace(self.settings, surface_tolerance=smaller)
             band = self._bands(sliding.mesh, settings.absolute_tolerance(sliding.mesh))[0]
             near = LeavingSurface(settings, sliding.with_band(band), self._untangled, self._sliding_shape, result)
-            candidates, _ = yield from self._start_sliding(near.sliding, at_rest, fixed is not None)
+            candidates, _ = yield from self.start_sliding(near.sliding, at_rest, fixed is not None)
             nearer = yield from self._raise_sliding(near, at_rest, candidates, fixed)
             if nearer is not None and (result is None or nearer.is_better_than(result)):
                 leaving, result = near, nearer
