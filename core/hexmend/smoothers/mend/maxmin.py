@@ -138,17 +138,13 @@ def maximise_minimum(
         Ends where the least has reached it; groups below it are frozen, and the corners above them raised further.
     release_below : float
         Where a group is stuck below it, nodes leave their curves or the surface, if any can, before it is frozen.
-    groups : int
-        Groups that are raised, at most.
+    groups, max_programs : int, float
+        Groups that are raised, and linear programs, at most.
     infeasible : bool
         Of the steps: see `Step`.
-    give_up_below : float
-        Ends where a group is stuck below it.
-    max_programs : float
-        Linear programs, at most.
+    give_up_below, patient_below : float
+        Ends where a group is stuck below the first; below the second a program that promises little does not end it.
     config : MaxMinConfig
-    patient_below : float
-        Least below which a program that promises little is no reason to end.
 
     Yields
     ------

@@ -104,8 +104,7 @@ def improve_off_surface(
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least with nodes of the boundary off the surface, then bring them back into its band.
 
-    Where it is still too low, nodes leave the band again from the result on, on detours that are limited in width and
-    number of programs.
+    Where it is still too low, nodes leave the band again from the result on, on detours of limited width and length.
 
     Parameters
     ----------
@@ -116,11 +115,9 @@ def improve_off_surface(
         the least of them at which it is better than `reached` and no hex is inverted or, if none is there, acceptable.
     reached : MaxMinResult
         The result so far.
-    wanted : float
-        Minimum scaled Jacobian from which on there are no further detours.
+    wanted, lowest : float
+        Minimum scaled Jacobian from which on, and up to which, no detours follow the first one from each start.
     config : MaxMinConfig
-    lowest : float
-        Minimum scaled Jacobian up to which no further detours follow the first one from each start.
 
     Yields
     ------
@@ -148,9 +145,8 @@ def improve_off_surface(
         limit = fork.envelope.max_deviation
         if result is reached:
             limit = limits[-1] if least > 0 else limits[0]
-        result, was_limited = yield from _detour(
-            fork, [limit], factor * limit, target, result, config, config.detour_programs
-        )
+        detour = _detour(fork, [limit], factor * limit, target, result, config, config.detour_programs)
+        result, was_limited = yield from detour
         if not result.gains(least, config.worth_detour):
             factor, target = next(factors, None), config.target_growth * target
             if factor is None or not was_limited:
