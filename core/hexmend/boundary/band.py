@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hexmend.arrays import any_of_rows, extent, mask, row_norms
+from hexmend.boundary.boundary_samples import samples_and_groups
 from hexmend.boundary.cell_extremes import extremes_in_cells
 from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
 from hexmend.boundary.deviations import Deviations, InitialDistances, deviations_above
@@ -47,12 +48,22 @@ class Band:
         The surface; None if it is the original boundary.
     max_deviation : float
         Largest distance allowed, in the mesh's unit; 0 allows rounding only.
+    inner : (k,) bool, optional
+        Faces of interfaces; none by default. Distances of the others are those from each other, and so are theirs, so
+        that one is never near because of the other.
     """
 
     def __init__(
-        self, points: np.ndarray, faces: np.ndarray, start: np.ndarray, target: SkinSurface | None, max_deviation: float
+        self,
+        points: np.ndarray,
+        faces: np.ndarray,
+        start: np.ndarray,
+        target: SkinSurface | None,
+        max_deviation: float,
+        inner: np.ndarray | None = None,
     ):
         self.points, self._faces, self._start, self._given = points, faces, start, target
+        self._inner = inner if inner is not None and inner.any() and not inner.all() else None
         self._first: ClosestPoints | None = None  # points of the boundary closest to `target_samples` at first
         self._judged: _Judged | None = None  # by the last call of `nodes_outside_band`
         self._known_limits: tuple[float, tuple[np.ndarray, np.ndarray]] | None = None  # and the width they are for
@@ -63,7 +74,8 @@ class Band:
     @cached_property
     def skin(self) -> SkinSurface:
         """The original boundary."""
-        return SkinSurface(self.points, self._faces)
+        group = None if self._inner is None else self._inner.astype(np.int64)
+        return SkinSurface(self.points, self._faces, group=group)
 
     @property
     def target(self) -> SkinSurface:
@@ -72,13 +84,27 @@ class Band:
 
     @cached_property
     def samples(self) -> np.ndarray:
-        """Samples of the boundary, (s, 4) int: each is the mean of four nodes.
+        """Samples of the boundary, (s, 4) int32: each is the mean of four nodes.
 
-        They are the midpoints of edges (with each node twice) and of faces, then the nodes themselves.
+        They are the midpoints of edges (with each node twice) and of faces, then the nodes themselves; those of
+        interfaces follow, so that edges and nodes at which these end are among them twice.
         """
-        nodes = np.tile(self.skin.nodes[:, None], 4)
-        samples = np.concatenate([np.tile(self.skin.edges.nodes, 2), self._faces, nodes])
-        return np.ascontiguousarray(samples, dtype=np.int32)
+        return self._samples_and_groups[0]
+
+    @cached_property
+    def _samples_and_groups(self) -> tuple[np.ndarray, np.ndarray]:
+        return samples_and_groups(self._faces, self.skin.edges.nodes, len(self.points), self._inner)
+
+    @cached_property
+    def _groups_on_target(self) -> np.ndarray:
+        """The group of faces of the surface that is searched for each sample of the boundary, (s,) int64."""
+        groups = self._samples_and_groups[1]
+        return groups if self._given is None else np.zeros_like(groups)
+
+    @cached_property
+    def _groups_on_boundary(self) -> np.ndarray:
+        """The group of faces of `skin` that is searched for each sample of the surface, (t,) int64."""
+        return self._groups_on_target if self._given is None else np.zeros(len(self.target_samples), dtype=np.int64)
 
     def samples_at(self, nodes: np.ndarray) -> np.ndarray:
         """Find the samples of `samples` that move with some nodes (j,), as (k,) int64."""
@@ -112,8 +138,9 @@ class Band:
         indices, limit = indices[far], limit[far]
         nodes = self.samples[indices]
         x = means(points, nodes)
-        closest = self.target.closest(x, max(float(limit.min(initial=np.inf)), 0.0), self._near_target.pieces[indices])
-        return deviations_above(limit, indices, x, closest, nodes, np.full(nodes.shape, 0.25))
+        enough = max(float(limit.min(initial=np.inf)), 0.0)
+        found = self.target.find(x, enough, self._near_target.pieces[indices], self._groups_on_target[indices])
+        return deviations_above(limit, indices, x, found.points, nodes, np.full(nodes.shape, 0.25))
 
     def surface_deviation(
         self, points: np.ndarray, indices: np.ndarray | None = None, limit: float | np.ndarray = 0.0
@@ -148,7 +175,8 @@ class Band:
             return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
         x = self.target_samples[indices]
         enough = max(float(limit.min(initial=np.inf)), 0.0)
-        found = self.skin.with_points(points).find(x, enough, self._near_boundary.pieces[indices])
+        known, groups = self._near_boundary.pieces[indices], self._groups_on_boundary[indices]
+        found = self.skin.with_points(points).find(x, enough, known, groups)
         return deviations_above(limit, indices, x, found.points, *self.skin.weights_of_nodes(found))
 
     def find_surface_distances(
@@ -166,8 +194,8 @@ class Band:
             Arrays of which the rows of these samples are written: distances, directions, nodes and weights of
             `Deviations` of all samples.
         """
-        first, trees, pieces = self.initial_surface_deviation, self.skin.trees, self._near_boundary.pieces
-        samples = closest_point.SurfaceSamples(self.target_samples, *first, pieces)
+        first, trees, near = self.initial_surface_deviation, self.skin.trees, self._near_boundary
+        samples = closest_point.SurfaceSamples(self.target_samples, *first, near.pieces, near.roots)
         moving = vertices_of(points, self._faces), trees.pieces, trees.links, np.empty_like(trees.boxes)
         closest_point.find_distances(*moving, self._start, self._faces, samples, indices, *into)
 
@@ -231,12 +259,12 @@ class Band:
     @cached_property
     def _near_target(self) -> NearPoints:
         """Points of the surface near `samples` at some earlier node positions."""
-        return NearPoints(len(self.samples))
+        return NearPoints(self.target.trees.roots[self._groups_on_target])
 
     @cached_property
     def _near_boundary(self) -> NearPoints:
         """Points of the boundary near samples of the surface at some earlier node positions."""
-        return NearPoints(len(self.target_samples))
+        return NearPoints(self.skin.trees.roots[self._groups_on_boundary])
 
     @cached_property
     def target_samples(self) -> np.ndarray:

@@ -16,16 +16,18 @@ class NearPoints:
 
     Parameters
     ----------
-    count : int
-        Number of samples.
+    roots : (count,) int32
+        Root of the tree that is searched for each sample.
 
     Attributes
     ----------
+    roots : (count,) int32
     pieces : (count,) int32
         Number of the piece on which the point near to each sample lies; -1 for none.
     """
 
-    def __init__(self, count: int):
+    def __init__(self, roots: np.ndarray):
+        self.roots, count = roots, len(roots)
         self.pieces, self._weights = np.full(count, -1, dtype=np.int32), np.zeros((count, 3))
         self._points: np.ndarray | None = None  # of the trees on which `_places` lie
         self._places = np.empty((count, 3))
@@ -42,7 +44,7 @@ class NearPoints:
         limits: np.ndarray,
         samples: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Find samples that are further than their limits from the first group of trees; stores the closest points.
+        """Find samples that are further than their limits from their trees; stores the closest points.
 
         Parameters
         ----------
@@ -77,7 +79,7 @@ class NearPoints:
     def means_beyond(
         self, trees: ClosestPointTrees, points: np.ndarray, nodes: np.ndarray, examined: np.ndarray, limits: np.ndarray
     ) -> np.ndarray:
-        """Find samples that are further than their limits from the first group of trees; stores the closest points.
+        """Find samples that are further than their limits from their trees; stores the closest points.
 
         Parameters
         ----------
@@ -130,7 +132,7 @@ class NearPoints:
 
     @property
     def _kernel(self) -> closest_point.NearPoints:
-        return closest_point.NearPoints(self.pieces, self._weights, self._places)
+        return closest_point.NearPoints(self.pieces, self._weights, self._places, self.roots)
 
     def _search(
         self, trees: ClosestPointTrees, points: np.ndarray, x: np.ndarray, limits: np.ndarray, known: np.ndarray
@@ -140,7 +142,7 @@ class NearPoints:
             trees = trees.with_points(points)
         pieces, places, weights = self.pieces[known], np.empty((known.size, 3)), np.empty((known.size, 3))
         found = np.empty(known.size)
-        closest_point.near(trees.box_trees, x, limits, pieces, places, weights, found)
+        closest_point.near(trees.box_trees, x, self.roots[known], limits, pieces, places, weights, found)
         self.pieces[known], self._weights[known] = pieces, weights
         if self._points is not None:
             places[pieces < 0] = np.inf

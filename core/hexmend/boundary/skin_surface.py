@@ -31,6 +31,8 @@ class SkinSurface:
     faces : (k, 4) or (k, 3) int32
     name : str
         Name in messages; the file's name if it was read.
+    group : (k,) int, optional
+        Group of each face, from 0, none empty: only one is searched for each point. One group by default.
 
     Attributes
     ----------
@@ -38,7 +40,7 @@ class SkinSurface:
         Nodes of the faces, ascending.
     edges : SurfaceEdges
     trees : ClosestPointTrees
-        All faces as one group, divided by `triangulate`.
+        The groups of faces, divided by `triangulate`.
     faces_of_pieces : (p,) int64
         Number of the face on which each piece of the trees lies.
     derived : dict
@@ -50,14 +52,15 @@ class SkinSurface:
         For arrays of another shape or type, and for a node that does not exist.
     """
 
-    def __init__(self, points: np.ndarray, faces: np.ndarray, name: str = ""):
+    def __init__(self, points: np.ndarray, faces: np.ndarray, name: str = "", group: np.ndarray | None = None):
         points = as_points(points)
         faces = as_faces(faces, len(points))
         self.points, self.faces, self.name = points, faces, name
         self.derived: dict[float | str, PartitionedSurface] = {}
         self.nodes, self.edges = np.flatnonzero(mask(faces, len(points))), SurfaceEdges(faces, len(points))
         vertices, triangles, face = triangulate(points, faces)
-        self.trees = ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
+        of_piece = np.zeros(len(triangles), dtype=np.int64) if group is None else group[face]
+        self.trees = ClosestPointTrees(vertices, triangles, of_piece)
         self.faces_of_pieces = face[self.trees.order]
 
     def with_points(self, points: np.ndarray) -> SkinSurface:
@@ -89,7 +92,13 @@ class SkinSurface:
         """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit."""
         return np.linalg.norm(self.closest(x) - x, axis=1)
 
-    def find(self, x: np.ndarray, stop_distance: float = 0.0, known: np.ndarray | None = None) -> ClosestPoints:
+    def find(
+        self,
+        x: np.ndarray,
+        stop_distance: float = 0.0,
+        known: np.ndarray | None = None,
+        group: np.ndarray | None = None,
+    ) -> ClosestPoints:
         """Find the points of the surface closest to x (k, 3), or any within `stop_distance`.
 
         Parameters
@@ -99,8 +108,10 @@ class SkinSurface:
             The search ends at any point within this distance.
         known : (k,) int32, optional
             See `ClosestPointTrees.closest`.
+        group : (k,) int, optional
+            Group that is searched for each point; the first by default.
         """
-        return self.trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance, known)
+        return self.trees.closest(x, np.zeros(len(x), dtype=np.int64) if group is None else group, stop_distance, known)
 
     def closest(self, x: np.ndarray, stop_distance: float = 0.0, known: np.ndarray | None = None) -> np.ndarray:
         """Return the positions that `find` finds, (k, 3)."""

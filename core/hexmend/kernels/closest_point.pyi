@@ -60,9 +60,9 @@ def closest(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(No
     one of the tree that is near and shortens the search, or -1.
     """
 
-def near(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
+def near(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
-    A point of the first tree for each of x (j, 3): one within the limit (j,), or the closest one.
+    A point of the tree of its root (j,) for each of x (j, 3): one within the limit (j,), or the closest one.
 
     Writes its piece (j,) int32, the point on it (j, 3), its barycentric weights (j, 3) and its distance
     (j,). On entry, piece has one that is near and shortens the search, or -1.
@@ -77,23 +77,24 @@ def distances_from(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3
 class NearPoints:
     """Points that were near samples before."""
 
-    def __init__(self, piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
+    def __init__(self, piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
         The piece (s,) int32 on which each lies, -1 for none, its barycentric weights there (s, 3), and its
-        position (s, 3), infinite for none. Arrays are not copied, and are written.
+        position (s, 3), infinite for none; the root (s,) int32 of the tree that is searched for each. Arrays are
+        not copied; all but the roots are written.
         """
 
 def means_beyond(trees: BoxTrees, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], samples: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], examined: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], near: NearPoints, beyond: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
     Write beyond (s,) bool: True where the mean of the four points of a row of samples (s, 4) int32, which
-    must exist, is further from the first tree than its limit (s,). False where examined (s,) bool is.
+    must exist, is further from its tree than its limit (s,). False where examined (s,) bool is.
     Points that are found become the near ones.
     """
 
 def samples_beyond(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], links: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], boxes: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], examined: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], near: NearPoints) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     The numbers, ascending int32, of the examined (s,) bool of x (s, 3) that are further than their limits (s,)
-    from the first tree, whose points have moved.
+    from their trees, whose points have moved.
 
     Boxes are written where a search is needed. Points that are found become the near ones, without their
     positions.
@@ -112,11 +113,11 @@ def moved_samples(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3)
 class SurfaceSamples:
     """Samples of a surface on which a boundary of quads slides."""
 
-    def __init__(self, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+    def __init__(self, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
         x (s, 3); before sliding, their distances (s,) from the boundary, and the nodes (s, 4) int32 and weights
-        (s, 4) of the closest points; pieces (s,) int32 of the boundary near them, -1 for none. Arrays are not
-        copied.
+        (s, 4) of the closest points; pieces (s,) int32 of the boundary near them, -1 for none; roots (s,)
+        int32 of the trees searched for them. Arrays are not copied.
         """
 
 def find_distances(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], links: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], boxes: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], start: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], samples: SurfaceSamples, which: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], directions: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')]) -> None:
@@ -126,7 +127,7 @@ def find_distances(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3
     these points.
 
     points are the n nodes of the boundary and the centres of its faces (f, 4) int32, of which each is divided
-    into four of the pieces of the first tree; boxes are written. start (n, 3): the nodes before sliding.
+    into four of the pieces of the trees; boxes are written. start (n, 3): the nodes before sliding.
     """
 
 def numbers_of_different_points(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:

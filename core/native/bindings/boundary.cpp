@@ -50,10 +50,12 @@ void bind_closest_point(nb::module_ m) {
           "A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is\n"
           "not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3). On entry, piece has\n"
           "one of the tree that is near and shortens the search, or -1.");
-    m.def("near", &near, "trees"_a, "x"_a, "limits"_a, "piece"_a, "places"_a, "weights"_a, "distances"_a, ReleaseGil(),
-          "A point of the first tree for each of x (j, 3): one within the limit (j,), or the closest one.\n\n"
-          "Writes its piece (j,) int32, the point on it (j, 3), its barycentric weights (j, 3) and its distance\n"
-          "(j,). On entry, piece has one that is near and shortens the search, or -1.");
+    m.def(
+        "near", &near, "trees"_a, "x"_a, "roots"_a, "limits"_a, "piece"_a, "places"_a, "weights"_a, "distances"_a,
+        ReleaseGil(),
+        "A point of the tree of its root (j,) for each of x (j, 3): one within the limit (j,), or the closest one.\n\n"
+        "Writes its piece (j,) int32, the point on it (j, 3), its barycentric weights (j, 3) and its distance\n"
+        "(j,). On entry, piece has one that is near and shortens the search, or -1.");
     m.def("distances_from", &distances_from, "points"_a, "pieces"_a, "x"_a, "piece"_a, "weights"_a, "distances"_a,
           ReleaseGil(),
           "Write the distance (j,) of each of x (j, 3) from a point: that of piece (j,) int32 with barycentric\n"
@@ -61,19 +63,22 @@ void bind_closest_point(nb::module_ m) {
     nb::class_<NearPoints>(m, "NearPoints", "Points that were near samples before.")
         .def(
             "__init__",
-            [](NearPoints *self, std::span<std::int32_t> piece, std::span<Barycentric> weights,
-               std::span<Point> places) {
-                expect(weights.size() == piece.size() && places.size() == piece.size(),
-                       "piece, weights and places have different lengths: expected a row a sample");
-                new (self) NearPoints{piece, weights, places};
+            [](NearPoints *self, std::span<std::int32_t> piece, std::span<Barycentric> weights, std::span<Point> places,
+               Indices roots) {
+                expect(weights.size() == piece.size() && places.size() == piece.size() && roots.size() == piece.size(),
+                       "piece, weights, places and roots have different lengths: expected a row a sample");
+                new (self) NearPoints{piece, weights, places, roots};
             },
-            "piece"_a, "weights"_a, "places"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+            "piece"_a, "weights"_a, "places"_a, "roots"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
             "The piece (s,) int32 on which each lies, -1 for none, its barycentric weights there (s, 3), and its\n"
-            "position (s, 3), infinite for none. Arrays are not copied, and are written.");
+            "position (s, 3), infinite for none; the root (s,) int32 of the tree that is searched for each. Arrays "
+            "are\n"
+            "not copied; all but the roots are written.");
     m.def("means_beyond", &means_beyond, "trees"_a, "points"_a, "samples"_a, "examined"_a, "limits"_a, "near"_a,
           "beyond"_a, ReleaseGil(),
           "Write beyond (s,) bool: True where the mean of the four points of a row of samples (s, 4) int32, which\n"
-          "must exist, is further from the first tree than its limit (s,). False where examined (s,) bool is.\n"
+          "must exist, is further from its tree than its limit (s,). False where examined (s,) bool is.\n"
           "Points that are found become the near ones.");
     m.def(
         "samples_beyond",
@@ -83,7 +88,7 @@ void bind_closest_point(nb::module_ m) {
         },
         "points"_a, "pieces"_a, "links"_a, "boxes"_a, "x"_a, "examined"_a, "limits"_a, "near"_a, ReleaseGil(),
         "The numbers, ascending int32, of the examined (s,) bool of x (s, 3) that are further than their limits (s,)\n"
-        "from the first tree, whose points have moved.\n\n"
+        "from their trees, whose points have moved.\n\n"
         "Boxes are written where a search is needed. Points that are found become the near ones, without their\n"
         "positions.");
     m.def(
@@ -105,12 +110,13 @@ void bind_closest_point(nb::module_ m) {
         "numbers must exist.");
     nb::class_<SurfaceSamples>(m, "SurfaceSamples", "Samples of a surface on which a boundary of quads slides.")
         .def(
-            nb::init<Points, Numbers, std::span<const FaceNodes>, std::span<const FaceWeights>, Indices>(), "x"_a,
-            "distances"_a, "nodes"_a, "weights"_a, "pieces"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
+            nb::init<Points, Numbers, std::span<const FaceNodes>, std::span<const FaceWeights>, Indices, Indices>(),
+            "x"_a, "distances"_a, "nodes"_a, "weights"_a, "pieces"_a, "roots"_a, nb::keep_alive<1, 2>(),
+            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
+            nb::keep_alive<1, 7>(),
             "x (s, 3); before sliding, their distances (s,) from the boundary, and the nodes (s, 4) int32 and weights\n"
-            "(s, 4) of the closest points; pieces (s,) int32 of the boundary near them, -1 for none. Arrays are not\n"
-            "copied.");
+            "(s, 4) of the closest points; pieces (s,) int32 of the boundary near them, -1 for none; roots (s,)\n"
+            "int32 of the trees searched for them. Arrays are not copied.");
     m.def(
         "find_distances",
         [](Points points, std::span<const Piece> pieces, std::span<const ChildLinks> links, std::span<ChildSide> boxes,
@@ -126,7 +132,7 @@ void bind_closest_point(nb::module_ m) {
         "the closest points to the samples, directions (s, 3), and of the nodes (s, 4) int32 and weights (s, 4) of\n"
         "these points.\n\n"
         "points are the n nodes of the boundary and the centres of its faces (f, 4) int32, of which each is divided\n"
-        "into four of the pieces of the first tree; boxes are written. start (n, 3): the nodes before sliding.");
+        "into four of the pieces of the trees; boxes are written. start (n, 3): the nodes before sliding.");
     m.def("numbers_of_different_points", &numbers_of_different_points, "points"_a, ReleaseGil(),
           "The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first\n"
           "appear.");

@@ -96,14 +96,14 @@ void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std:
     });
 }
 
-void near(const BoxTrees &trees, Points x, Numbers limits, std::span<std::int32_t> piece, std::span<Point> places,
-          std::span<Barycentric> weights, std::span<double> distances) {
-    expect(limits.size() == x.size() && piece.size() == x.size() && places.size() == x.size() &&
-               weights.size() == x.size() && distances.size() == x.size(),
-           "x, limits, piece, places, weights and distances have different lengths: expected a row a point");
+void near(const BoxTrees &trees, Points x, Indices roots, Numbers limits, std::span<std::int32_t> piece,
+          std::span<Point> places, std::span<Barycentric> weights, std::span<double> distances) {
+    expect(roots.size() == x.size() && limits.size() == x.size() && piece.size() == x.size() &&
+               places.size() == x.size() && weights.size() == x.size() && distances.size() == x.size(),
+           "x, roots, limits, piece, places, weights and distances have different lengths: expected a row a point");
     expect_known(piece, trees.pieces.size());
     parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
-        ClosestPoint found = trees.closest(x[i], 0, limits[i] * limits[i], piece[i]);
+        ClosestPoint found = trees.closest(x[i], roots[i], limits[i] * limits[i], piece[i]);
         piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
         distances[i] = std::sqrt(found.square);
     });

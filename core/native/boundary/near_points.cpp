@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t SAMPLES_PER_CHUNK = 1024, SEARCHES_PER_CHUNK = 256, MARKS_PER_CHUNK = 8192;
 
 void expect_rows(std::size_t rows, std::span<const bool> examined, Numbers limits, const NearPoints &near) {
-    expect(examined.size() == rows && limits.size() == rows && near.piece.size() == rows,
+    expect(examined.size() == rows && limits.size() == rows && near.piece.size() == rows && near.roots.size() == rows,
            "samples, examined, limits and near have different lengths: expected a row a sample");
 }
 
@@ -27,7 +27,7 @@ void means_beyond(const BoxTrees &trees, Points points, std::span<const std::arr
         if (!examined[i]) return;
         const V3<double> x = mean_of(points, samples[i]);
         if (length(vector(near.places[i]) - x) <= limits[i]) return;
-        const ClosestPoint found = trees.closest(point(x), 0, limits[i] * limits[i], near.piece[i]);
+        const ClosestPoint found = trees.closest(point(x), near.roots[i], limits[i] * limits[i], near.piece[i]);
         near.piece[i] = found.piece, near.weights[i] = found.weights;
         near.places[i] = found.piece < 0 ? Point{INF, INF, INF} : found.place;
         beyond[i] = !(std::sqrt(found.square) <= limits[i]);
@@ -51,7 +51,7 @@ IntArray samples_beyond(const MovingTrees &trees, Points x, std::span<const bool
     const BoxTrees fitted{trees.points, trees.pieces, trees.boxes, trees.links};
     parallel_for(doubtful.size(), SEARCHES_PER_CHUNK, [&](std::int64_t k) {
         const std::int32_t i = doubtful[k];
-        const ClosestPoint found = fitted.closest(x[i], 0, limits[i] * limits[i], near.piece[i]);
+        const ClosestPoint found = fitted.closest(x[i], near.roots[i], limits[i] * limits[i], near.piece[i]);
         near.piece[i] = found.piece, near.weights[i] = found.weights;
         far[i] = !(std::sqrt(found.square) <= limits[i]);
     });

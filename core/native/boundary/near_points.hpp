@@ -8,11 +8,12 @@
 namespace hexmend {
 
 // The point near to each sample: the piece on which it lies, -1 for none, its barycentric weights there, and its
-// position, infinite for none.
+// position, infinite for none; and the root of the tree that is searched for the sample.
 struct NearPoints {
     std::span<std::int32_t> piece;
     std::span<Barycentric> weights;
     std::span<Point> places;
+    Indices roots;
 };
 
 // Trees whose points have moved; the boxes are storage for those that fit them.
@@ -39,14 +40,14 @@ inline double distance_from(Points points, std::span<const Piece> pieces, const 
     return length(known - vector(x));
 }
 
-// Write `beyond`: whether the mean of four points is further than its limit from the first tree, false for samples that
-// are not examined. Points that are found are stored.
+// Write `beyond`: whether the mean of four points is further than its limit from its tree, false for samples that are
+// not examined. Points that are found are stored.
 void means_beyond(const BoxTrees &trees, Points points, std::span<const std::array<Node, 4>> samples,
                   std::span<const bool> examined, Numbers limits, const NearPoints &near, std::span<bool> beyond);
 
-// The numbers of the examined samples x that are further than their limits from the first tree, whose points have
-// moved: its boxes are refitted where one is further from the point of its piece with its weights. Points that are
-// found are stored, but for their places.
+// The numbers of the examined samples x that are further than their limits from their trees, whose points have moved:
+// the boxes are refitted where one is further from the point of its piece with its weights. Points that are found are
+// stored, but for their places.
 IntArray samples_beyond(const MovingTrees &trees, Points x, std::span<const bool> examined, Numbers limits,
                         const NearPoints &near);
 

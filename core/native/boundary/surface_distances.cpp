@@ -36,8 +36,8 @@ FaceWeights weights_at(const FaceNodes &nodes, const Piece &piece, const Barycen
 void expect_rows(const SurfaceSamples &samples, const SampleDistances &now) {
     const std::size_t rows = samples.x.size();
     expect(samples.distances.size() == rows && samples.nodes.size() == rows && samples.weights.size() == rows &&
-               samples.pieces.size() == rows && now.distances.size() == rows && now.directions.size() == rows &&
-               now.nodes.size() == rows && now.weights.size() == rows,
+               samples.pieces.size() == rows && samples.roots.size() == rows && now.distances.size() == rows &&
+               now.directions.size() == rows && now.nodes.size() == rows && now.weights.size() == rows,
            "arrays of samples have different lengths: expected a row a sample");
 }
 
@@ -63,7 +63,7 @@ void find_distances(const MovingTrees &trees, Points start, std::span<const Face
     const auto first_centre = static_cast<Node>(start.size());
     parallel_for(searched.size(), SAMPLES_PER_CHUNK, [&](std::int64_t k) {
         const std::int64_t i = searched[k];
-        const ClosestPoint found = fitted.closest(samples.x[i], 0, 0, samples.pieces[i]);
+        const ClosestPoint found = fitted.closest(samples.x[i], samples.roots[i], 0, samples.pieces[i]);
         if (found.piece < 0) {
             now.distances[i] = INF;
             return;

@@ -10,13 +10,13 @@ using FaceNodes = std::array<Node, 4>;
 using FaceWeights = std::array<double, 4>;
 
 // Samples x of the surface: their distances from the boundary before sliding, the nodes and weights of the closest
-// points then, and pieces of the boundary near them, -1 for none.
+// points then, pieces of the boundary near them, -1 for none, and the roots of the trees searched for them.
 struct SurfaceSamples {
     Points x;
     Numbers distances;
     std::span<const FaceNodes> nodes;
     std::span<const FaceWeights> weights;
-    Indices pieces;
+    Indices pieces, roots;
 };
 
 // Distances of samples from the boundary now, unit vectors from the closest points to the samples, and the nodes and

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.boundary.band import Band
+from hexmend.boundary.skin_faces import skin_faces
 from hexmend.boundary.skin_surface import SkinSurface
 from tests.core.grids import grid
 
@@ -102,6 +103,38 @@ def test_what_was_found_at_earlier_places_does_not_change_which_nodes_have_left_
             points = mesh.points
             assert band.nodes_outside_band(points).size == 0
     assert some_left == {True, False}
+
+
+def halves():
+    """Two materials of 2 x 1 x 1 each, the faces of their boundary and of the interface, and which are of that."""
+    mesh = grid(4, 1, 1)
+    mesh = mesh.replace(hex_data={"material": np.arange(4) // 2})
+    faces = skin_faces(mesh).faces
+    return mesh, faces, np.arange(len(faces)) >= len(mesh.topology.boundary_faces)
+
+
+def test_an_interface_that_comes_near_to_the_boundary_is_as_far_from_where_it_was():
+    mesh, faces, inner = halves()
+    on = mesh.points[:, 0] == 2
+    points = mesh.points - 1.9 * on[:, None] * [1, 0, 0]  # 1.9 from where it was, 0.1 from the end of the boundary
+    apart, as_one = (Band(mesh.points, faces, mesh.points, None, 0.5, inner=one) for one in (inner, None))
+    assert as_one.nodes_outside_band(points).size == 0
+    np.testing.assert_array_equal(apart.nodes_outside_band(points), np.flatnonzero(on))
+    every, far = np.arange(len(apart.samples)), apart.surface_deviation(points)
+    assert far.distances.max() == pytest.approx(1.9)
+    assert apart.boundary_deviation(points, every).distances.max() == pytest.approx(1.9)
+    first = apart.initial_surface_deviation
+    found = np.zeros(every.size), np.zeros((every.size, 3)), first.nodes.copy(), first.weights.copy()
+    apart.find_surface_distances(points, every, found)
+    np.testing.assert_allclose(found[0][far.indices], far.distances, atol=1e-12)
+
+
+def test_samples_of_interfaces_follow_those_of_the_boundary():
+    mesh, faces, inner = halves()
+    apart = Band(mesh.points, faces, mesh.points, None, 0.5, inner=inner).samples
+    outer = Band(mesh.points, faces[~inner], mesh.points, None, 0.5).samples
+    alone = Band(mesh.points, faces[inner], mesh.points, None, 0.5).samples
+    np.testing.assert_array_equal(apart, np.concatenate([outer, alone]))
 
 
 def test_midpoints_that_move_with_a_node_are_the_node_and_those_of_its_edges_and_faces():

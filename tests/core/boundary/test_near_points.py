@@ -26,7 +26,7 @@ def places(rng, count):
 
 
 def test_the_mean_of_four_points_is_beyond_its_limit_by_its_height_whatever_was_near_before():
-    rng, trees, near = np.random.default_rng(7), plane(), NearPoints(3000)
+    rng, trees, near = np.random.default_rng(7), plane(), NearPoints(np.zeros(3000, np.int32))
     samples = rng.integers(0, 500, (3000, 4)).astype(np.int32)
     limits = rng.uniform(0.1, 1.0, 3000)
     for _ in range(4):
@@ -42,7 +42,7 @@ def test_points_near_samples_are_on_the_surface_and_within_the_limit():
     rng, trees, points = np.random.default_rng(8), plane(), places(np.random.default_rng(9), 400)
     samples = np.repeat(np.arange(400, dtype=np.int32), 4).reshape(-1, 4)
     piece, weights, found = np.full(400, -1, dtype=np.int32), np.empty((400, 3)), np.full((400, 3), np.inf)
-    near, limits = closest_point.NearPoints(piece, weights, found), rng.uniform(0.1, 1.0, 400)
+    near, limits = closest_point.NearPoints(piece, weights, found, np.zeros(400, np.int32)), rng.uniform(0.1, 1.0, 400)
     every, beyond = np.ones(400, dtype=bool), np.empty(400, dtype=bool)
     closest_point.means_beyond(trees.box_trees, points, samples, every, limits, near, beyond)
     np.testing.assert_allclose(np.einsum("ki,kij->kj", weights, PLANE[trees.pieces[piece]]), found, atol=1e-12)
@@ -51,7 +51,7 @@ def test_points_near_samples_are_on_the_surface_and_within_the_limit():
 
 
 def test_a_sample_that_was_nowhere_is_near_nothing_at_the_origin():
-    trees, near = plane(PLANE + [0, 0, 5]), NearPoints(1)
+    trees, near = plane(PLANE + [0, 0, 5]), NearPoints(np.zeros(1, np.int32))
     samples, every, limit = np.zeros((1, 4), dtype=np.int32), np.ones(1, dtype=bool), np.ones(1)
     for x in [0, 0, 5.0], [np.nan, 0, 0], [0, 0, 0]:
         beyond = near.means_beyond(trees, np.array([x], dtype=float), samples, every, limit)
@@ -59,20 +59,35 @@ def test_a_sample_that_was_nowhere_is_near_nothing_at_the_origin():
 
 
 def test_a_sample_that_was_nowhere_is_near_nothing_at_the_origin_by_its_position_either():
-    trees, near = plane(PLANE + [0, 0, 5]), NearPoints(1)
+    trees, near = plane(PLANE + [0, 0, 5]), NearPoints(np.zeros(1, np.int32))
     for x in [0, 0, 5.0], [np.nan, 0, 0], [0, 0, 0]:
         beyond = near.beyond(trees, trees.points, np.array([x], dtype=float), np.ones(1))
         assert beyond.tolist() == [x != [0, 0, 5.0]]
 
 
 def test_samples_are_beyond_a_plane_that_has_moved_by_their_distance_from_where_it_is_now():
-    rng, trees, near = np.random.default_rng(9), plane(), NearPoints(2000)
+    rng, trees, near = np.random.default_rng(9), plane(), NearPoints(np.zeros(2000, np.int32))
     x, limits = places(rng, 2000), rng.uniform(0.1, 1.0, 2000)
     for height in 0.0, 0.3, -0.2, 0.0:
         examined = rng.random(2000) < 0.6
         beyond = near.beyond_moving(trees, PLANE + [0, 0, height], x, examined, limits)
         np.testing.assert_array_equal(beyond, np.flatnonzero(examined & (np.abs(x[:, 2] - height) > limits)))
         assert 0 < beyond.size < examined.sum()
+
+
+def test_each_sample_is_compared_with_the_tree_of_its_root():
+    both = np.concatenate([PLANE, PLANE + [0, 0, 1]])
+    triangles = np.concatenate([TRIANGLES, TRIANGLES + len(PLANE)])
+    trees = ClosestPointTrees(both, triangles, np.repeat([0, 1], len(TRIANGLES)))
+    x = np.array([[0, 0, 0.1], [0, 0, 0.1], [1, 2, 1.1], [1, 2, 1.1]])
+    near = NearPoints(trees.roots[[0, 1, 0, 1]])
+    every, limits, expected = np.ones(4, bool), np.full(4, 0.5), [False, True, True, False]
+    samples = np.repeat(np.arange(4, dtype=np.int32), 4).reshape(-1, 4)
+    for _ in range(2):  # as found at first, and as known then
+        assert near.means_beyond(trees, x, samples, every, limits).tolist() == expected
+        assert near.beyond(trees, trees.points, x, limits).tolist() == expected
+        np.testing.assert_array_equal(near.beyond_moving(trees, both, x, every, limits), [1, 2])
+        assert near.beyond_moving(trees, both - [0, 0, 1], x, every, limits).tolist() == [0, 2, 3]
 
 
 def test_samples_are_marked_that_were_before_or_move_with_a_node():
@@ -95,8 +110,8 @@ def test_samples_are_marked_that_were_before_or_move_with_a_node():
 def test_rows_of_different_numbers_and_pieces_that_do_not_exist_are_rejected():
     trees, none = plane(), np.empty((0, 3))
     with pytest.raises(ValueError, match="expected a row a sample"):
-        closest_point.NearPoints(np.zeros(2, np.int32), none, none)
-    near = NearPoints(2)
+        closest_point.NearPoints(np.zeros(2, np.int32), none, none, np.zeros(2, np.int32))
+    near = NearPoints(np.zeros(2, np.int32))
     with pytest.raises(ValueError, match="expected a row a sample"):
         near.beyond_moving(trees, PLANE, np.zeros((3, 3)), np.ones(3, bool), np.ones(3))
     near.pieces[0] = len(TRIANGLES)

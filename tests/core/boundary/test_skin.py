@@ -65,7 +65,7 @@ def test_points_known_from_before_do_not_change_which_are_beyond_their_limits(mo
     skin = SkinSurface(mesh.points, mesh.topology.boundary_faces)
     x = skin.samples() + rng.normal(scale=0.05, size=skin.samples().shape)
     limits = rng.uniform(0.01, 0.2, len(x))
-    near, some = NearPoints(len(x)), rng.permutation(len(x))[:50]
+    near, some = NearPoints(np.zeros(len(x), np.int32)), rng.permutation(len(x))[:50]
     for seed, amplitude in enumerate(moves):
         moved = skin.with_points(slid(mesh, amplitude, seed).points)
         far = moved.distances(x) > limits
@@ -76,7 +76,7 @@ def test_points_known_from_before_do_not_change_which_are_beyond_their_limits(mo
 
 
 def test_a_sample_that_is_nowhere_is_beyond_its_limit_before_and_after_one_is_known(skin):
-    x, near = skin.samples()[:3].copy(), NearPoints(3)
+    x, near = skin.samples()[:3].copy(), NearPoints(np.zeros(3, np.int32))
     for first in (x[0].copy(), np.full(3, np.nan), x[0].copy()):
         x[0] = first
         expected = [not np.isfinite(first).all(), False, False]

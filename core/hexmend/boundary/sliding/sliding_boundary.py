@@ -88,7 +88,8 @@ class SlidingBoundary(SlidingNodes):
         if mesh.linear_motion is not None:
             slides &= ~mesh.linear_motion.marks(mesh.n_nodes)
         nodes = np.flatnonzero(slides)
-        super().__init__(boundary.with_faces(moves_with), surface, nodes, start, target, max_deviation)
+        inner = np.arange(len(whole.faces))[moves_with] >= len(mesh.topology.boundary_faces)
+        super().__init__(boundary.with_faces(moves_with), surface, nodes, start, target, max_deviation, inner)
         if target is not None:
             at_start = np.array_equal(mesh.points, start)
             mesh = mesh.with_points(self._start if at_start else self.projected(mesh.points))

@@ -37,6 +37,8 @@ class SlidingNodes(Band):
         The surface; None if it is the original boundary.
     max_deviation : float
         Largest distance of the boundary's edge and face midpoints from the surface, in the mesh's unit.
+    inner : (f,) bool, optional
+        Faces of interfaces; see `Band`.
 
     Attributes
     ----------
@@ -52,13 +54,14 @@ class SlidingNodes(Band):
         points: np.ndarray,
         target: SkinSurface | None = None,
         max_deviation: float = np.inf,
+        inner: np.ndarray | None = None,
     ):
         self.boundary, self.surface, self.nodes, self.node_class = boundary, surface, nodes, surface.node_class
         self._group = surface.group_of(nodes)
         self._number = index_of(nodes, len(points))
         self._cache = ClosestPointCache(surface.trees, self._group)
         start = points if target is None else self.projected(points)
-        super().__init__(points, boundary.faces, start, target, max_deviation)
+        super().__init__(points, boundary.faces, start, target, max_deviation, inner)
 
     def on_boundary(self) -> tuple[SlidingNodes, np.ndarray]:
         """Return the sliding nodes of the boundary alone, and the numbers (b,) int64 of all its nodes, ascending."""
@@ -68,9 +71,8 @@ class SlidingNodes(Band):
         at = np.flatnonzero(has)
         number = index_of(at, has.size)
         boundary, surface = self.boundary.on_nodes(at), self.surface.on_nodes(at)
-        return SlidingNodes(
-            boundary, surface, number[self.nodes].astype(np.int64), self.points[at], self._given, self.max_deviation
-        ), at
+        nodes, points = number[self.nodes].astype(np.int64), self.points[at]
+        return SlidingNodes(boundary, surface, nodes, points, self._given, self.max_deviation, self._inner), at
 
     def with_band(self, max_deviation: float) -> Self:
         """Return the sliding boundary with another width of the band, in the mesh's unit."""
