@@ -16,9 +16,9 @@ namespace nb = nanobind;
         family(conjugate_gradients) family(corner_values) family(sparsity) family(decimals) family(element_step)   \
             family(floor_barrier) family(elements) family(faces) family(getme) family(incidence) family(laplacian) \
                 family(patches) family(local) family(metrics) family(objective) family(occlusion) family(ordering) \
-                    family(scalar_reference) family(polygons) family(step_limits) family(clip_planes) family(skin) \
-                        family(sliding_surface) family(linear_program) family(structure) family(wavefronts)        \
-                            family(worst_first)
+                    family(rows) family(scalar_reference) family(polygons) family(step_limits) family(clip_planes) \
+                        family(skin) family(sliding_surface) family(linear_program) family(structure)              \
+                            family(wavefronts) family(worst_first)
 
 namespace hexmend {
 #define DECLARE(name) void bind_##name(nb::module_);

@@ -46,7 +46,7 @@ class FloorBarrier:
 
     def on_part(self, hexes: np.ndarray) -> FloorBarrier:
         """Return the barrier of some hexes (k,)."""
-        arrays = self.jacobians[hexes], self.qualities[hexes], self.ignored[hexes]
+        arrays = (floors.take(hexes, axis=0) for floors in (self.jacobians, self.qualities, self.ignored))
         return FloorBarrier(*arrays, self.jacobian_band, self.quality_band, self.weight)
 
     def hex_values(

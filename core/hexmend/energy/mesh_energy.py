@@ -234,7 +234,7 @@ class MeshEnergy(TargetScales):
         if among is None:
             eta, barriers = self._terms_of_hexes(x, delta, 1.0)
             return eta + barriers
-        hexes, omitted, target = self.mesh.hexes[among], self.omitted[among], self._target_of(among)
+        hexes, omitted, target = self.mesh.hexes.take(among, axis=0), self.omitted[among], self._target_of(among)
         values = energies(x, hexes, delta, omitted, 1.0, target)
         if self.barrier is not None:
             values += self.barrier.on_part(among).hex_values(x, hexes, omitted, target)

@@ -7,9 +7,10 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.arrays import index_of, mask
-from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
+from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import conjugate_gradients
+from hexmend.kernels.rows import scale_rows
 from hexmend.mesh.mesh import Mesh
 
 #: Places of xx xy xz yy yz zz in a matrix of 3 rows.
@@ -45,6 +46,8 @@ class Reduction:
         self._bent, self._turn = _turned_nodes(mesh, free)
         self._scales = np.einsum("bii->bi", self._turn).copy()  # all of T in planes and lines of the axes
         self._skew = np.flatnonzero((self._turn != self._scales[:, :, None] * np.eye(3)).any(axis=(1, 2)))
+        self._bent_rows, self._skew_rows = self._bent.astype(np.int32), self._bent[self._skew]
+        self._turn_of_skew = self._turn[self._skew]
         self._turned: dict[tuple[BlockSparsity, np.dtype], tuple] = {}
         self._others: dict[np.dtype, tuple[np.ndarray, np.ndarray]] = {}
         self._maps: dict[BlockSparsity, tuple[np.ndarray, ...]] = {}
@@ -60,16 +63,16 @@ class Reduction:
     def expand(self, steps: np.ndarray) -> np.ndarray:
         """T times steps of the independent nodes, (j, 3): those of all free nodes, (k, 3)."""
         steps = steps.take(self.row, axis=0)
-        turned = np.einsum("kij,kj->ki", self._turn[self._skew], steps[self._bent[self._skew]])
-        steps[self._bent] *= self._scales
-        steps[self._bent[self._skew]] = turned
+        turned = np.einsum("kij,kj->ki", self._turn_of_skew, steps.take(self._skew_rows, axis=0))
+        scale_rows(self._scales, self._bent_rows, steps)
+        steps[self._skew_rows] = turned
         return steps
 
     def contract(self, forces: np.ndarray) -> np.ndarray:
         """T^T times vectors of all free nodes, (k, 3), overwritten: those of the independent nodes, (j, 3)."""
-        turned = np.einsum("kji,kj->ki", self._turn[self._skew], forces[self._bent[self._skew]])
-        forces[self._bent] *= self._scales
-        forces[self._bent[self._skew]] = turned
+        turned = np.einsum("kji,kj->ki", self._turn_of_skew, forces.take(self._skew_rows, axis=0))
+        scale_rows(self._scales, self._bent_rows, forces)
+        forces[self._skew_rows] = turned
         if not self.has_ties:
             return forces
         sums = forces[self._own]
@@ -110,9 +113,7 @@ class Reduction:
         conjugate_gradients.scale_blocks(scaled, scale, full.off_diagonal)
         if turned.size:
             conjugate_gradients.turn_blocks(turn.reshape(-1, 9), turned, row, column, full.off_diagonal)
-        own = self._turn.astype(dtype)
-        own = own.transpose(0, 2, 1) @ unpack_symmetric(full.diagonal[slots]) @ own
-        full.diagonal[slots] = own.reshape(-1, 9)[:, _UPPER]
+        conjugate_gradients.turn_diagonal(self._turn.astype(dtype).reshape(-1, 9), slots, full.diagonal)
         matrix = self._merged(full) if self.has_ties else full
         slots, (dimensions, others) = matrix.order[self._restricted], self._inadmissible_blocks(dtype)
         diagonal = matrix.diagonal.take(slots, axis=0)

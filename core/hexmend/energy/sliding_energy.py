@@ -11,12 +11,13 @@ from hexmend.arrays import differing_rows, index_of, mask, row_norms
 from hexmend.boundary import SlidingBoundary
 from hexmend.boundary.band import NO_NODES
 from hexmend.boundary.sliding.flat_parts import SLIDING_TOLERANCE
-from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
+from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.mesh_energy import MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.sparsity import BlockSparsity
-from hexmend.kernels import conjugate_gradients
+from hexmend.kernels import conjugate_gradients, sliding_surface
+from hexmend.kernels.rows import put_rows
 from hexmend.mesh.mesh import Mesh
 
 #: Length of the probing step for directional derivatives, in mean edge lengths.
@@ -114,7 +115,7 @@ class SlidingEnergy(MeshEnergy):
         """Let nodes (k,) slide, ascending."""
         self.sliding, self.sliding_nodes = sliding, nodes
         self.faceted = self._slides = self.ranks.any(nodes.size > 0)  # on any rank: they exchange projectors together
-        self._rows = np.searchsorted(self.nodes, nodes)
+        self._rows, self._sliding_numbers = np.searchsorted(self.nodes, nodes), nodes.astype(np.int32)
         self._sliding_blocks: dict[BlockSparsity, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
         self._differentiated: tuple[tuple, np.ndarray] | None = None
@@ -122,7 +123,7 @@ class SlidingEnergy(MeshEnergy):
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         there = super().moved(x, step, alpha)
-        there[self.sliding_nodes] = self._on_surface(there[self.sliding_nodes])
+        put_rows(self._on_surface(there.take(self.sliding_nodes, axis=0)), self._sliding_numbers, there)
         return there
 
     def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray, x: np.ndarray | None = None) -> SlidingEnergy:
@@ -146,7 +147,7 @@ class SlidingEnergy(MeshEnergy):
             places = self.sliding.project(aims * self.unit, nodes) / self.unit
         else:
             places, new = known[1].copy(), np.flatnonzero(differing_rows(aims, known[0]))
-            places[new] = self.sliding.project(aims[new] * self.unit, nodes[new]) / self.unit
+            places[new] = self.sliding.project(aims.take(new, axis=0) * self.unit, nodes.take(new)) / self.unit
         self._projected = aims, places
         return places
 
@@ -158,15 +159,14 @@ class SlidingEnergy(MeshEnergy):
         """
         gradient = self._gradient_in_space(x, delta)
         rows, nodes, unit = self._rows, self.sliding_nodes, self.unit
-        size = row_norms(step[rows])
+        places, steps, gradients = x.take(nodes, axis=0), step.take(rows, axis=0), gradient.take(rows, axis=0)
         lengths = 1.0 if self.node_lengths is None else np.minimum(self.node_lengths[rows], 1.0)
-        far = _PROBE_LENGTH * lengths / np.maximum(size, np.finfo(float).tiny)[:, None]
-        aims = (x[nodes] + far * step[rows]) * unit
-        leads = (self.sliding.project(aims, nodes) / unit - x[nodes]) / far
-        slopes = np.einsum("ki,ki->k", leads, gradient[rows])
+        far = _PROBE_LENGTH * lengths / np.maximum(row_norms(steps), np.finfo(float).tiny)[:, None]
+        leads = (self.sliding.project((places + far * steps) * unit, nodes) / unit - places) / far
+        slopes = np.einsum("ki,ki->k", leads, gradients)
         kept = slopes < 0
         if self.target is not None:
-            kept |= slopes <= _KEPT_RISE * np.einsum("ki,ki->k", step[rows], gradient[rows])
+            kept |= slopes <= _KEPT_RISE * np.einsum("ki,ki->k", steps, gradients)
         step[rows[~kept]] = 0.0
         inside = ~mask(rows, len(step))
         return self.ranks.sum(float((step[inside] * gradient[inside]).sum() + slopes[kept].sum()))
@@ -205,7 +205,7 @@ class SlidingEnergy(MeshEnergy):
             return super().gradient(x, delta)
         gradient = self._gradient_in_space(x, delta).copy()
         along = self.projectors(x)[: self._rows.size]
-        gradient[self._rows] = np.einsum("kij,kj->ki", along, gradient[self._rows])
+        gradient[self._rows] = np.einsum("kij,kj->ki", along, gradient.take(self._rows, axis=0))
         return gradient
 
     def _gradient_in_space(self, x: np.ndarray, delta: float) -> np.ndarray:
@@ -229,8 +229,11 @@ class SlidingEnergy(MeshEnergy):
         """
         seen = self._seen  # one read, as another thread may replace it
         if seen is None or seen[0] is not x:
-            bases = self.sliding.tangent_bases(x[self.sliding_nodes] * self.unit, self.sliding_nodes)
-            seen = self._seen = x, self._with_ghosts(bases @ bases.transpose(0, 2, 1))
+            nodes = self.sliding_nodes
+            bases = self.sliding.tangent_bases(x.take(nodes, axis=0) * self.unit, nodes)
+            along = np.empty_like(bases)
+            sliding_surface.tangent_projectors(bases.reshape(-1, 9), along.reshape(-1, 9))
+            seen = self._seen = x, self._with_ghosts(along)
         return seen[1]
 
     def _with_ghosts(self, projectors: np.ndarray) -> np.ndarray:
@@ -280,9 +283,5 @@ class SlidingHessian(Hessian):
         at, row, column = energy.sliding_blocks
         conjugate_gradients.turn_blocks(of_slot.reshape(-1, 9), at, row, column, matrix.off_diagonal)
         slots, along = matrix.order[energy._rows], along[: energy._rows.size]
-        own = along @ unpack_symmetric(matrix.diagonal[slots]) @ along
-        size = np.abs(np.trace(own, axis1=1, axis2=2) / np.maximum(np.trace(along, axis1=1, axis2=2), 1))
-        size = np.where(size > 0, size, 1)[:, None, None]  # a scale between the extreme eigenvalues
-        own += size * (np.eye(3, dtype=dtype) - along)
-        matrix.diagonal[slots] = own.reshape(-1, 9)[:, [0, 1, 2, 4, 5, 8]]
+        conjugate_gradients.project_diagonal(along.reshape(-1, 9), slots, matrix.diagonal)
         return matrix

@@ -146,3 +146,26 @@ def turn_blocks(turn: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), or
 
     turn (k, 9): the matrix T of each slot; off_diagonal (blocks + 1, 9). Numbers must exist.
     """
+
+@overload
+def turn_diagonal(turn: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu')]) -> None: ...
+
+@overload
+def turn_diagonal(turn: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu')]) -> None:
+    """
+    Replace the diagonal blocks D of `slots` (k,) int32, each once, by T^T D T.
+
+    turn (k, 9): T of each; diagonal (s, 6): xx xy xz yy yz zz of each slot. Numbers must exist.
+    """
+
+@overload
+def project_diagonal(projectors: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu')]) -> None: ...
+
+@overload
+def project_diagonal(projectors: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu')]) -> None:
+    """
+    Replace the diagonal blocks D of `slots` (k,) int32, each once, by P D P + size (I - P).
+
+    projectors (k, 9): the symmetric P of each; size lies between the extreme eigenvalues of P D P. diagonal
+    (s, 6): xx xy xz yy yz zz of each slot. Numbers must exist.
+    """

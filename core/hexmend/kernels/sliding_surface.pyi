@@ -56,6 +56,11 @@ def tangent_bases(number: Annotated[NDArray[numpy.int64], dict(shape=(None,), or
     of triangles and segments, and of their three corners; numbers must exist.
     """
 
+def tangent_projectors(bases: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], projectors: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu')]) -> None:
+    """
+    Write the projectors B B^T (k, 9) onto directions, orthonormal or 0, in the columns of bases B (k, 9).
+    """
+
 def flipped_quads(before: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], after: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], quads: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], outward: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], flipped: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
     Write flipped (f,) bool: True for a quad that is flipped at the points after and was not before.

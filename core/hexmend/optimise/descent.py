@@ -11,7 +11,7 @@ from hexmend.energy import MeshEnergy
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten, shorten_by_rings
-from hexmend.optimise.search_direction import DirectionMethod, SearchDirection, steepest_descent
+from hexmend.optimise.search_direction import DirectionMethod, SearchDirection, TruncatedNewton, steepest_descent
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def descend(
     search: LineSearch,
     max_step: float = np.inf,
 ) -> Descent | None:
-    """Take one step; a direction that does not descend is replaced by steepest descent.
+    """Take one step; a direction that does not descend is damped where it can be, or replaced by steepest descent.
 
     Parameters
     ----------
@@ -130,6 +130,8 @@ def descend(
     if energy.ranks.any(~np.isfinite(found.vector)):
         found = steepest_descent(value, gradient, hessian)
     slope = _limit(energy, x, delta, found.vector, gradient, max_step)
+    while not slope < 0 and (damped := _damped(energy, delta, direction, gradient)):
+        found, slope = damped, _limit(energy, x, delta, damped.vector, gradient, max_step)
     if not slope < 0:
         found = steepest_descent(value, gradient, hessian)
         slope = _limit(energy, x, delta, found.vector, gradient, max_step, by_edges=False)
@@ -144,6 +146,19 @@ def descend(
         found.vector[infeasible[energy.nodes]] *= 0.5 if trial < DESCENT.searches // 2 else 0.0
         slope, search = energy.directional_derivative(x, delta, found.vector, gradient), search.with_initial_step(alpha)
     return Descent(x, value, slope, length, found, 0.0, backtracks)
+
+
+def _damped(
+    energy: MeshEnergy, delta: float, direction: DirectionMethod, gradient: np.ndarray
+) -> SearchDirection | None:
+    """Return a direction that is damped more than the last; None where nothing speaks for it.
+
+    It is tried where only the shape of the hexes counts. A surface or floors shorten steps for other reasons, and while
+    hexes are inverted no wave is smooth: there steepest descent leads on as well.
+    """
+    if delta > 0 or energy.limits_moves or energy.barrier is not None or not isinstance(direction, TruncatedNewton):
+        return None
+    return direction.damped(gradient)
 
 
 class _Line:
@@ -224,13 +239,14 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
         infeasible = energy.infeasible_nodes(x, moved, changed)
         halved = np.zeros(len(x), dtype=bool) if infeasible is None else infeasible.copy()
         share[halved & (share <= DESCENT.stay_below)] = 0.0
-        halved[hexes[worsened]] = True
+        halved[hexes.take(np.flatnonzero(worsened), axis=0)] = True
         halved = energy.with_masters(halved)
         if not energy.ranks.any(halved):
             break
         share[halved] *= 0.5
-        step[halved[energy.nodes]] *= 0.5
-        step[share[energy.nodes] == 0] = 0.0
+        rows = np.flatnonzero(halved.take(energy.nodes))
+        step[rows] *= 0.5
+        step[rows[share.take(energy.nodes[rows]) == 0]] = 0.0
     else:
         if infeasible is not None:
             step[infeasible[energy.nodes]] = 0.0  # in many steps they would leave their band all the same

@@ -116,6 +116,7 @@ class TruncatedNewton:
         self.config = config or TruncatedNewtonConfig()
         self._first = self._last = np.inf
         self._damping, self._is_definite = 0.0, False
+        self._increases, self._used_damping = 0, 0.0  # in this step
         self._matrix: AssembledHessian | None = None
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
@@ -123,21 +124,48 @@ class TruncatedNewton:
         self._matrix = matrix
         tolerance = self._tolerance(hessian.energy.ranks.norm(gradient))
         solved = self._solve(matrix, gradient.ravel(), tolerance, self._damping)
-        count, damping = solved.iterations, self._damping
-        for _ in range(config.max_damping_increases):
-            if not solved.negative_curvature:
-                break
-            damping = max(config.damping_growth * damping, config.min_damping)
+        count, damping, self._increases = solved.iterations, self._damping, 0
+        while solved.negative_curvature and self._increases < config.max_damping_increases:
+            damping, self._increases = self._increased(damping), self._increases + 1
             del solved  # large meshes have no memory for two solutions
             solved = self._solve(matrix, gradient.ravel(), tolerance, damping)
             count += solved.iterations
         matrix.lend_memory()  # to the next gradient
-        self._is_definite = damping == 0
+        self._is_definite, self._used_damping = damping == 0, damping
         self._damping = damping if damping > self._damping else damping / config.damping_decay
         if self._damping < config.min_damping:
             self._damping = 0.0
         np.negative(solved.x, out=solved.x)
         return SearchDirection(solved.x.reshape(-1, 3), count, damping)
+
+    def damped(self, gradient: np.ndarray) -> SearchDirection | None:
+        """Return the direction at the same points with more damping, where the last one was of no use.
+
+        A long wave moves small hexes by many of their edges; damping shortens it most, and leaves the direction one of
+        descent, which a limit of the step of each node does not.
+
+        Parameters
+        ----------
+        gradient : (k, 3) float64
+            As in the last call.
+
+        Returns
+        -------
+        SearchDirection or None
+            None after `max_damping_increases`, and where the matrix has lent its memory.
+        """
+        matrix, count = self._matrix, 0
+        while self._increases < self.config.max_damping_increases and matrix is not None and len(matrix.off_diagonal):
+            self._used_damping, self._increases = self._increased(self._used_damping), self._increases + 1
+            solved = self._solve(matrix, gradient.ravel(), self.config.loosest, self._used_damping)
+            count += solved.iterations
+            if not solved.negative_curvature:
+                self._damping, self._is_definite = self._used_damping, False
+                return SearchDirection(-solved.x.reshape(-1, 3), count, self._used_damping)
+        return None
+
+    def _increased(self, damping: float) -> float:
+        return max(self.config.damping_growth * damping, self.config.min_damping)
 
     def _solve(self, matrix: AssembledHessian, right: np.ndarray, tolerance: float, damping: float) -> CGResult:
         config = self.config

@@ -220,6 +220,8 @@ void bind_sliding_surface(nb::module_ m) {
         "normal or tangent is that of the piece where all weights exceed `interior`, or else interpolated between\n"
         "its corners. number (p,) int64 of each piece of the trees in flat (t, 3) and smooth (t, 9), unit vectors\n"
         "of triangles and segments, and of their three corners; numbers must exist.");
+    m.def("tangent_projectors", &tangent_projectors, "bases"_a, "projectors"_a, ReleaseGil(),
+          "Write the projectors B B^T (k, 9) onto directions, orthonormal or 0, in the columns of bases B (k, 9).");
     m.def("flipped_quads", &flipped_quads, "before"_a, "after"_a, "quads"_a, "outward"_a, "flipped"_a, ReleaseGil(),
           "Write flipped (f,) bool: True for a quad that is flipped at the points after and was not before.");
 }

@@ -4,6 +4,7 @@
 #include "mesh/incidence.hpp"
 #include "mesh/metrics.hpp"
 #include "mesh/refinement.hpp"
+#include "mesh/rows.hpp"
 #include "mesh/sheets.hpp"
 
 namespace hexmend {
@@ -69,6 +70,22 @@ void bind_hex_mesh(nb::module_ m) {
             "hexes"_a, "start"_a, "corners"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
             "hexes (m, 8) int32; start (n + 1,) and corners (8 m,) int32: `incidence.node_corners`. Arrays are not\n"
             "copied.");
+}
+
+void bind_rows(nb::module_ m) {
+    m.doc() = "Rows of arrays that others name by their numbers, which must exist.";
+    auto def_any_marked = [&](auto any_marked) {
+        m.def(
+            "any_marked", any_marked, "marks"_a, "rows"_a, "found"_a, ReleaseGil(),
+            "Write found (k,) bool: True where one at least of the numbers in a row of rows, (k, 4) or (k, 8) int32,\n"
+            "is marked in marks (n,) bool.");
+    };
+    def_any_marked(&any_marked<4>);
+    def_any_marked(&any_marked<8>);
+    m.def("put_rows", &put_rows, "values"_a, "numbers"_a, "points"_a, ReleaseGil(),
+          "Write rows `numbers` (k,) int32 of points (n, 3): values (k, 3).");
+    m.def("scale_rows", &scale_rows, "factors"_a, "numbers"_a, "vectors"_a, ReleaseGil(),
+          "Multiply rows `numbers` (k,) int32 of vectors (n, 3) by factors (k, 3), component by component.");
 }
 
 void bind_incidence(nb::module_ m) {

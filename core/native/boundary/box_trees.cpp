@@ -8,6 +8,7 @@ namespace {
 
 // Trees of at least as many pieces are divided into parts that threads build; the result does not depend on them.
 constexpr std::int32_t PART = 8192;
+constexpr std::int64_t REFIT_PER_CHUNK = 512;  // nodes whose leaves a thread bounds at a time
 
 using Box = std::array<double, SIDES>;
 constexpr Box EMPTY{INF, INF, INF, -INF, -INF, -INF};
@@ -163,20 +164,26 @@ std::tuple<IntArray, TreeBoxes, TreeLinks, IntArray> build_trees(Points points, 
 void refit(Points points, std::span<const Piece> pieces, std::span<const ChildLinks> links,
            std::span<ChildSide> boxes) {
     expect(boxes.size() == SIDES * links.size(), "boxes: six rows for each of the links are expected");
-    for (std::size_t node = links.size(); node-- > 0;) {  // children follow their parents
+    auto set = [&](std::size_t node, int i, const Box &box) {
+        for (int k = 0; k < SIDES; ++k) boxes[SIDES * node + k][i] = box[k];
+    };
+    parallel_for(links.size(), REFIT_PER_CHUNK, [&](std::int64_t node) {
         for (int i = 0; i < CHILDREN; ++i) {
-            Box box = EMPTY;
             std::int32_t child = links[node][i];
-            if (child >= 0) {
-                box = box_of_children(&boxes[std::size_t{SIDES} * child]);
-            } else if (child != NO_CHILD) {
+            if (child >= 0) continue;
+            Box box = EMPTY;
+            if (child != NO_CHILD) {
                 auto [first, count] = pieces_of(child);
                 for (std::int32_t piece = first; piece < first + count; ++piece)
                     for (Node corner : pieces[piece]) include(box, points[corner]);
             }
-            for (int k = 0; k < SIDES; ++k) boxes[SIDES * node + k][i] = box[k];
+            set(node, i, box);
         }
-    }
+    });
+    for (std::size_t node = links.size(); node-- > 0;)  // children follow their parents
+        for (int i = 0; i < CHILDREN; ++i)
+            if (std::int32_t child = links[node][i]; child >= 0)
+                set(node, i, box_of_children(&boxes[std::size_t{SIDES} * child]));
 }
 
 }  // namespace hexmend

@@ -50,6 +50,13 @@ inline FourPieces gather_leaf(const BoxTrees &trees, std::int32_t first, std::in
 // Return the squared distances of all four. It is not inlined: a piece has the same distance among any others.
 Four improve(ClosestPoint &best, const FourPieces &four, const V3<Four> &x);
 
+// The point of one piece closest to x, which is finite.
+inline ClosestPoint closest_on_piece(const BoxTrees &trees, const Point &x, std::int32_t piece) {
+    ClosestPoint found;
+    improve(found, gather_leaf(trees, piece, 1), broadcast_point(x));
+    return found;
+}
+
 // Squared distances of x from the boxes of children.
 inline Four squares_to(const ChildSide *boxes, const V3<Four> &x) {
     Four side[SIDES];

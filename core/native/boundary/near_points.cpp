@@ -1,5 +1,7 @@
 #include "boundary/near_points.hpp"
 
+#include "boundary/four_pieces.hpp"
+
 #include <cmath>
 #include <vector>
 
@@ -44,16 +46,27 @@ IntArray samples_beyond(const MovingTrees &trees, Points x, std::span<const bool
                  !(distance_from(trees.points, trees.pieces, x[i], near.piece[i], near.weights[i]) <= limits[i]);
     });
     std::vector<std::int32_t> doubtful, beyond;
-    for (std::size_t i = 0; i < far.size(); ++i)
-        if (far[i]) doubtful.push_back(static_cast<std::int32_t>(i));
-    if (doubtful.empty()) return {};
-    refit(trees.points, trees.pieces, trees.links, trees.boxes);
+    auto collect = [&] {
+        doubtful.clear();
+        for (std::size_t i = 0; i < far.size(); ++i)
+            if (far[i]) doubtful.push_back(static_cast<std::int32_t>(i));
+        return !doubtful.empty();
+    };
     const BoxTrees fitted{trees.points, trees.pieces, trees.boxes, trees.links};
+    auto store = [&](std::int32_t i, const ClosestPoint &found) {
+        far[i] = !(std::sqrt(found.square) <= limits[i]);
+        near.piece[i] = found.piece, near.weights[i] = found.weights;
+    };
+    if (!collect()) return {};
+    parallel_for(doubtful.size(), SEARCHES_PER_CHUNK, [&](std::int64_t k) {  // another point of the same piece
+        const std::int32_t i = doubtful[k];
+        if (near.piece[i] >= 0 && is_finite(x[i])) store(i, closest_on_piece(fitted, x[i], near.piece[i]));
+    });
+    if (!collect()) return {};
+    refit(trees.points, trees.pieces, trees.links, trees.boxes);
     parallel_for(doubtful.size(), SEARCHES_PER_CHUNK, [&](std::int64_t k) {
         const std::int32_t i = doubtful[k];
-        const ClosestPoint found = fitted.closest(x[i], near.roots[i], limits[i] * limits[i], near.piece[i]);
-        near.piece[i] = found.piece, near.weights[i] = found.weights;
-        far[i] = !(std::sqrt(found.square) <= limits[i]);
+        store(i, fitted.closest(x[i], near.roots[i], limits[i] * limits[i], near.piece[i]));
     });
     for (std::int32_t i : doubtful)
         if (far[i]) beyond.push_back(i);

@@ -65,4 +65,17 @@ void tangent_bases(const SurfaceDirections &surface, Indices pieces, std::span<c
     });
 }
 
+void tangent_projectors(ArrayView<const double, 9> bases, ArrayView<double, 9> projectors) {
+    expect(projectors.size() == bases.size(), "projectors: a row for each of bases is expected");
+    parallel_for(bases.size(), NODES_PER_CHUNK, [&](std::int64_t i) {
+        const std::array<double, 9> &b = bases[i];
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column <= row; ++column) {
+                double sum = uncontracted(b[3 * row] * b[3 * column]);
+                for (int k = 1; k < 3; ++k) sum += b[3 * row + k] * b[3 * column + k];
+                projectors[i][3 * row + column] = projectors[i][3 * column + row] = sum;
+            }
+    });
+}
+
 }  // namespace hexmend

@@ -19,4 +19,7 @@ struct SurfaceDirections {
 void tangent_bases(const SurfaceDirections &surface, Indices pieces, std::span<const Barycentric> weights,
                    std::span<const bool> of_curve, double interior, ArrayView<double, 9> bases);
 
+// Write the projectors B B^T (k, 3, 3) onto directions B (k, 3, 3), orthonormal or 0 in columns.
+void tangent_projectors(ArrayView<const double, 9> bases, ArrayView<double, 9> projectors);
+
 }  // namespace hexmend

@@ -15,6 +15,16 @@ void scale_blocks(Indices at, std::span<const std::array<Real, 9>> factors, std:
     });
 }
 
+// Replace the diagonal blocks D of `slots` (k,), none of them twice, by T^T D T, with turn T (k, 9).
+template <class Real>
+void turn_diagonal(std::span<const std::array<Real, 9>> turn, Indices slots, std::span<std::array<Real, 6>> diagonal);
+
+// Replace the diagonal blocks D of `slots` (k,), none of them twice, by P D P + size (I - P), with the projectors P
+// (k, 9), symmetric, and a size between the extreme eigenvalues of P D P.
+template <class Real>
+void project_diagonal(std::span<const std::array<Real, 9>> projectors, Indices slots,
+                      std::span<std::array<Real, 6>> diagonal);
+
 // Replace the blocks `at` (j,), which stand in rows and columns (j,), by T_row^T B T_column; turn holds T of each slot.
 template <class Real>
 void turn_blocks(std::span<const std::array<Real, 9>> turn, Indices at, Indices rows, Indices columns,

@@ -98,13 +98,15 @@ template <class To, class From> inline To bit_cast(From x) {
 
 // Return x such that the compiler cannot contract the product x with a sum to a fused multiply-add: the sum then has
 // the same bits in every kernel, on every processor and in NumPy.
-inline double uncontracted(double x) {
+template <class Real>
+    requires std::is_floating_point_v<Real>
+inline Real uncontracted(Real x) {
 #if defined(__SSE2__)
     asm("" : "+x"(x));
 #elif defined(__ARM_NEON)
     asm("" : "+w"(x));
 #else
-    volatile double y = x;
+    volatile Real y = x;
     x = y;
 #endif
     return x;

@@ -6,10 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
+from hexmend.energy.floor_barrier import FloorBarrier
 from hexmend.kernels import step_limits
 from hexmend.kernels.line_search import LineSearch
 from hexmend.optimise.descent import DESCENT, descend, is_perfect, shorten_to_range
-from hexmend.optimise.search_direction import SearchDirection, steepest_descent
+from hexmend.optimise.search_direction import SearchDirection, TruncatedNewton, steepest_descent
 from tests.core.grids import grid, scrambled
 
 seeds = st.integers(0, 2**32 - 1)
@@ -109,3 +110,29 @@ def test_a_step_out_of_the_range_of_numbers_is_shortened_and_keeps_its_direction
     again = within.copy()
     shorten_to_range(again, unit)
     np.testing.assert_array_equal(again, within)
+
+
+class Ascending(TruncatedNewton):
+    """Goes up, and down where it is damped: asked twice."""
+
+    asked = 0
+
+    def __call__(self, value, gradient, hessian):
+        return SearchDirection(1e-3 * gradient, 7)
+
+    def damped(self, gradient):
+        self.asked += 1
+        return SearchDirection((-1e-3 if self.asked > 1 else 1e-3) * gradient, 3, 0.002)
+
+
+@pytest.mark.parametrize("floors", [False, True])
+def test_a_direction_that_does_not_descend_is_damped_unless_floors_hold_the_hexes(floors):
+    mesh, energy, x = problem(1)
+    if floors:
+        least = np.full(mesh.n_hexes, 1e-3)
+        energy = energy.with_barrier(FloorBarrier(least, least, np.zeros(mesh.n_hexes, np.uint8), 0.1, 0.1, 1e-3))
+    find = Ascending()
+    taken = descend(energy, x, 0.0, find, LineSearch())
+    assert find.asked == (0 if floors else 2)
+    assert (taken.direction.shift, taken.direction.solver_iterations) == ((0.0, 0) if floors else (0.002, 3))
+    assert energy.value(taken.x) < taken.value

@@ -21,7 +21,7 @@ class Matrix:
     """Records what it is asked to solve; says that the curvature is negative while the damping is below `needed`."""
 
     def __init__(self, needed=0.0):
-        self.needed, self.asked = needed, []
+        self.needed, self.asked, self.off_diagonal = needed, [], [None]
         self.energy = SimpleNamespace(ranks=ONE_RANK)
 
     def assembled(self, reuse=None):
@@ -94,6 +94,35 @@ def test_damping_is_raised_so_often_and_no_oftener():
     shift = FIRST * CONFIG.damping_growth ** (CONFIG.max_damping_increases - 1)
     assert find(1.0, np.ones((1, 3)), matrix).shift == shift
     assert len(matrix.asked) == CONFIG.max_damping_increases + 1
+
+
+def test_a_direction_that_was_of_no_use_is_damped_more_and_the_next_begins_there():
+    find, matrix, gradient = TruncatedNewton(), Matrix(), np.array([[1.0, -2.0, 3.0]])
+    find(1.0, gradient, matrix)
+    dampings = [find.damped(gradient).shift for _ in range(2)]
+    assert dampings == [FIRST, SECOND]
+    np.testing.assert_array_equal(find.damped(gradient).vector, -gradient / 2)
+    find(1.0, gradient, matrix)
+    assert matrix.asked[-1][-1] == CONFIG.damping_growth * SECOND
+
+
+def test_directions_are_damped_until_the_curvature_is_positive_and_so_often_in_a_step():
+    find, matrix, gradient = TruncatedNewton(), Matrix(), np.ones((1, 3))
+    find(1.0, gradient, matrix)
+    matrix.needed = SECOND
+    found = find.damped(gradient)
+    assert (found.shift, found.solver_iterations) == (SECOND, 6)
+    matrix.needed = np.inf
+    assert find.damped(gradient) is None
+    assert len(matrix.asked) == CONFIG.max_damping_increases + 1
+
+
+def test_a_matrix_that_has_lent_its_memory_is_not_solved_again():
+    find, matrix = TruncatedNewton(), Matrix()
+    find(1.0, np.ones((1, 3)), matrix)
+    matrix.off_diagonal = []
+    assert find.damped(np.ones((1, 3))) is None
+    assert TruncatedNewton().damped(np.ones((1, 3))) is None
 
 
 class Shifted:

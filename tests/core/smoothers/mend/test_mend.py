@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
+from hexmend.io import read
 from hexmend.iteration import Outcome
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.quality import corner_determinants, measure, summarise
@@ -170,3 +171,12 @@ def test_which_tetrahedra_are_held_is_what_the_bits_say():
     (tetrahedron,) = np.flatnonzero(np.unpackbits(bits[:1], bitorder="little"))
     assert set(mesh.hexes[0, CORNER_TETRAHEDRA[tetrahedron]]) == {0, 1, 3, 9}
     assert list(itertools.islice(bits, 1, None)) == [0] * 7
+
+
+@pytest.mark.slow
+def test_hexes_of_very_different_sizes_reach_their_optimum(real_mesh):
+    """The small ones move by many of their edges: without damping limits of steps end the run at an objective of 13."""
+    result = smooth(read(real_mesh("sphere_r9.msh")), SHAPE)
+    assert result.outcome is Outcome.CONVERGED
+    assert result.after.objective < 10.2
+    assert result.iterations < 100
