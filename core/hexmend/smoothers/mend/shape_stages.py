@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator, Sequence
 from dataclasses import replace
 from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,6 +25,24 @@ from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
 from hexmend.smoothers.mend.surface.starts import while_promising
 from hexmend.smoothers.mend.untangling import Untangled, UntanglingConfig, untangle
+
+
+class SlidingStarts(NamedTuple):
+    """Starts of a boundary that slides.
+
+    Parameters
+    ----------
+    points : list of (n, 3) float64
+        With the boundary fixed, and on the surface.
+    shape : ShapeOptimum or None
+        The last of them; None where its least is lower than at the others, or it was not looked for.
+    passed_over : bool
+        It was not, as nodes have to leave the surface anyway.
+    """
+
+    points: list[np.ndarray]
+    shape: ShapeOptimum | None
+    passed_over: bool = False
 
 
 class ShapeStages:
@@ -114,21 +133,20 @@ class ShapeStages:
 
     def start_sliding(
         self, sliding: SlidingBoundary, candidates: Sequence[np.ndarray], is_untangled: bool
-    ) -> Generator[Step, None, tuple[list[np.ndarray], ShapeOptimum | None]]:
+    ) -> Generator[Step, None, SlidingStarts]:
         """Slide from the last of some points (n, 3): by linear programs, then to the optimum of shape.
 
-        Returns the points with those of both, and the optimum; None where its least is lower than at the others, or
-        nodes have to leave the surface anyway. `is_untangled` says that no hex is inverted with the boundary fixed.
+        `is_untangled` says that no hex is inverted with the boundary fixed.
         """
         optimiser = MaxMinOptimiser(sliding.mesh, candidates[-1], sliding)
         steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
         yield from islice(steps, MAXMIN.untangling_iterations)
         candidates = [*candidates, optimiser.points]
         if self.settings.maximises_jacobian and not is_untangled and self._has_to_leave(sliding, optimiser.points):
-            return candidates, None
+            return SlidingStarts(candidates, None, passed_over=True)
         others = candidates if is_untangled and self.settings.maximises_jacobian else []
         shape = yield from self._start_at_shape(sliding, candidates[-1], others)
-        return candidates if shape is None else [*candidates, shape.points], shape
+        return SlidingStarts(candidates if shape is None else [*candidates, shape.points], shape)
 
     def _has_to_leave(self, sliding: SlidingBoundary, points: np.ndarray) -> bool:
         """Return True if hexes stay inverted unless nodes leave the surface, and nodes of each of them may."""

@@ -45,19 +45,17 @@ class Stages(MaxMinStages):
             return shape.outcome
         sliding = None
         kept = None  # quality of the result with the boundary fixed, which is that of the run until sliding is better
-        at_rest = candidates = [mesh.points, shape.points]  # with the boundary fixed
+        at_rest = [mesh.points, shape.points]  # with the boundary fixed
         if slides:
-            fixed, given, kept = yield from self._raise_fixed(mesh, candidates, given)
+            fixed, given, kept = yield from self._raise_fixed(mesh, at_rest, given)
             sliding = self.sliding_boundary(mesh)
             mesh = sliding.mesh
-            start = self.start_sliding(sliding, candidates, fixed is not None)
-            candidates, slid = yield from keeping(kept, mesh.hexes, start)
-            shape = slid or shape
-        if sliding is None:
-            leaving, result = None, (yield from self._maxmin_stage(mesh, candidates, None))
+            starts = yield from keeping(kept, mesh.hexes, self.start_sliding(sliding, at_rest, fixed is not None))
+            shape, candidates = starts.shape or shape, starts.points
+            leaving, result = yield from self._raise_within_tolerances(sliding, at_rest, starts, fixed)
         else:
-            steps = self._raise_within_tolerances(sliding, at_rest, candidates, fixed)
-            leaving, result = yield from steps
+            candidates, leaving = at_rest, None
+            result = yield from self._maxmin_stage(mesh, candidates, None)
         if self.settings.maximises_jacobian and result.least > 0:
             result = yield from self._improve_shape(mesh, leaving, result)
         if self.goal == "time-step":

@@ -332,13 +332,13 @@ def test_sliding_is_passed_over_where_a_hex_is_mended_off_the_surface_only(monke
     mesh, starts, start_sliding = grid(3), [], Stages.start_sliding
 
     def start(*arguments):
-        candidates, shape = yield from start_sliding(*arguments)
-        starts.append(shape)
-        return candidates, shape
+        found = yield from start_sliding(*arguments)
+        starts.append(found)
+        return found
 
     monkeypatch.setattr(Stages, "start_sliding", start)
     edge = (mesh.points[:, 0] == 0) & (mesh.points[:, 1] == 0)
     points = np.where(edge[:, None], mesh.points + [0.5, 0.5, 0], mesh.points)
     result = smooth(mesh.with_points(points), Mend(**{"goal": "scaled-jacobian", "boundary": "slide"} | settings))
-    assert [shape is None for shape in starts] == [passed_over]
+    assert [(found.passed_over, found.shape is None) for found in starts] == [(passed_over, passed_over)]
     assert (result.after.inverted == 0) == (settings.get("surface_tolerance") != 0.0)

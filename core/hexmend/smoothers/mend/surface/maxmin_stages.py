@@ -18,7 +18,7 @@ from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from hexmend.parameters import AUTO
 from hexmend.smoothers.mend.balance import improve_above_least, raise_jacobian
 from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
-from hexmend.smoothers.mend.shape_stages import ShapeStages
+from hexmend.smoothers.mend.shape_stages import ShapeStages, SlidingStarts
 from hexmend.smoothers.mend.surface.detours import MaxMinResult, raise_to_the_end
 from hexmend.smoothers.mend.surface.leaving_surface import LeavingSurface
 from hexmend.smoothers.mend.surface.release import infeasible
@@ -44,7 +44,7 @@ class MaxMinStages(ShapeStages):
         self,
         sliding: SlidingBoundary,
         at_rest: Sequence[np.ndarray],
-        candidates: Sequence[np.ndarray],
+        starts: SlidingStarts,
         fixed: MaxMinResult | None,
     ) -> Generator[Step, None, tuple[LeavingSurface, MaxMinResult | None]]:
         """Raise the least within the tolerance, then within smaller ones where it may come higher.
@@ -54,8 +54,7 @@ class MaxMinStages(ShapeStages):
         sliding : SlidingBoundary
         at_rest : sequence of (n, 3) float64
             Points with the boundary fixed, the optimum of shape last.
-        candidates : sequence of (n, 3) float64
-            Those, and points on the surface.
+        starts : SlidingStarts
         fixed : MaxMinResult, optional
             With the boundary fixed.
 
@@ -65,13 +64,13 @@ class MaxMinStages(ShapeStages):
             The best result, see `_raise_sliding`, and the boundary that it was reached with.
         """
         leaving = LeavingSurface(self.settings, sliding, self._untangled, self._sliding_shape)
-        result, near = (yield from self._raise_sliding(leaving, at_rest, candidates, fixed)), leaving
+        result, near = (yield from self._raise_sliding(leaving, at_rest, starts, fixed)), leaving
         while self.settings.maximises_jacobian and (smaller := near.smaller_tolerance(result)):
             settings = replace(self.settings, surface_tolerance=smaller)
             band = self._bands(sliding.mesh, settings.absolute_tolerance(sliding.mesh))[0]
             near = LeavingSurface(settings, sliding.with_band(band), self._untangled, self._sliding_shape, result)
-            candidates, _ = yield from self.start_sliding(near.sliding, at_rest, fixed is not None)
-            nearer = yield from self._raise_sliding(near, at_rest, candidates, fixed)
+            starts = yield from self.start_sliding(near.sliding, at_rest, fixed is not None)
+            nearer = yield from self._raise_sliding(near, at_rest, starts, fixed)
             if nearer is not None and (result is None or nearer.is_better_than(result)):
                 leaving, result = near, nearer
         return leaving, result
@@ -80,15 +79,15 @@ class MaxMinStages(ShapeStages):
         self,
         leaving: LeavingSurface,
         at_rest: Sequence[np.ndarray],
-        candidates: Sequence[np.ndarray],
+        starts: SlidingStarts,
         fixed: MaxMinResult | None,
     ) -> Generator[Step, None, MaxMinResult | None]:
-        """Raise the least on the surface from the best of some points (n, 3), then with nodes that leave it.
+        """Raise the least on the surface from the best of some starts, then with nodes that leave it.
 
         Nodes leave it from the last points of `at_rest` on. The result is no lower than `fixed`, that with the boundary
         fixed; None where nothing is to be raised, or the best result within other tolerances is out of reach.
         """
-        optimum = at_rest[-1]
+        optimum, candidates = at_rest[-1], starts.points
         result = yield from leaving.untangle(optimum, candidates)
         if result is None:
             wanted, to_reach = MAXMIN.acceptable if leaving.may_leave else -np.inf, leaving.least_to_reach
@@ -101,8 +100,7 @@ class MaxMinStages(ShapeStages):
         if was_left and not result.optimiser.envelope.released.any():
             result = yield from self._maxmin_stage(leaving.mesh, [result.optimiser.points], leaving.sliding)
             result = yield from self._raise_on_and_off(leaving, optimum, result)
-        passed_over = fixed is None and len(candidates) == len(at_rest) + 1  # the optimum of shape that slides
-        if passed_over and not result.least > 0:
+        if starts.passed_over and not result.least > 0:
             shape = yield from self._sliding_shape(leaving.sliding, candidates[-1])
             slid = yield from self._maxmin_stage(leaving.mesh, [*candidates, shape.points], leaving.sliding)
             result = slid if slid is not None and slid.is_better_than(result) else result
