@@ -7,12 +7,14 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.boundary import freed_by_sliding
 from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set
 from hexmend.mesh.rules.resolution import with_rules
+from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.quality import ElementQuality, measure, objective
 from hexmend.quality.measure import locked_hexes
 from hexmend.smoothers import METHODS, Smoother
@@ -144,11 +146,20 @@ class Situation:
 
     @cached_property
     def pinned_nodes(self) -> np.ndarray:
-        """Nodes of resisting hexes that only a pin of the mesh fixes: their numbers in ascending order, (j,) int."""
+        """Nodes of resisting hexes that only a pin of the mesh fixes: their numbers in ascending order, (j,) int.
+
+        Nodes of higher order are among them if corners that could move stay because of them.
+        """
         if self.mesh.pinned is None:
             return np.zeros(0, dtype=np.int64)
+        pinned, inner = self.mesh.pinned & ~self._outside, ~self.mesh.topology.boundary
         nodes = np.unique(self.mesh.hexes[self.resisting])
-        return nodes[(self.mesh.pinned & ~self._outside & ~self.mesh.topology.boundary)[nodes]]
+        nodes = nodes[inner[nodes]]
+        if self.mesh.mid_nodes is None:
+            return nodes[pinned[nodes]]
+        moving = mask(nodes, self.mesh.n_nodes)[self.mesh.hexes] @ (MID_NODE_WEIGHTS > 0).T
+        mid_nodes = self.mesh.mid_nodes[moving & (self.mesh.mid_nodes >= 0)]
+        return np.union1d(nodes[pinned[nodes]], mid_nodes[pinned[mid_nodes]])
 
     @cached_property
     def outside_nodes(self) -> np.ndarray:

@@ -124,8 +124,8 @@ class NodeDetails:
     number : int
     point : (3,) float64
         Position.
-    kind : {"free", "boundary", "pinned", "unused"}
-        Reason why smoothing moves the node or does not.
+    kind : {"free", "boundary", "interface", "pinned", "fixed", "unused"}
+        Reason why smoothing moves the node or does not; fixed: by a rule of motion, or by a node of higher order.
     ring : (k,) int32
         Hexes that have the node as a corner.
     energy : float
@@ -191,11 +191,11 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
         xx, xy, xz, yy, yz, zz = at.hessian
         position = x[hexes.ravel()[star[0]]]
         downhill = descent(np.array(at.gradient), np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), position)
+    pinned = mesh.pinned is not None and bool(mesh.pinned[number])
     kind = "boundary" if mesh.topology.boundary[number] else "free"
     if mesh.fixed[number] and kind == "free":
         between = mesh.interfaces is not None and mesh.interfaces.interface_nodes[number]
-        kind = "interface" if between and not mesh.immovable[number] else "pinned"
-    pinned = mesh.pinned is not None and bool(mesh.pinned[number])
+        kind = "interface" if between and not mesh.immovable[number] else "pinned" if pinned else "fixed"
     return NodeDetails(number, mesh.points[number], kind, ring, energy, downhill, pinned, file_id)
 
 

@@ -7,6 +7,8 @@ from hexmend.advice import advise
 from hexmend.advice.situation import Situation
 from hexmend.gallery import make
 from hexmend.iteration import Outcome, StoppingCriteria
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_EDGES
 from hexmend.quality import measure, objective
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
@@ -166,6 +168,23 @@ def test_a_pin_that_holds_hexes_inverted_is_named_and_unpinning_helps():
     assert first.unpin.tolist() == np.flatnonzero(mesh.pinned).tolist()
     assert "Unpin the node" in first.text
     assert result.after.inverted > 0
+    assert followed(mesh, result, first).after.inverted == 0
+
+
+def test_a_pinned_node_of_higher_order_that_holds_hexes_inverted_is_named():
+    """The midpoint of an edge of the tangled node: its corners stay because it does."""
+    tangled = pinned_tangle()
+    (node,) = np.flatnonzero(tangled.pinned)
+    row, corner = np.argwhere(tangled.hexes == node)[0]
+    column = np.flatnonzero((corner == MID_EDGES).any(axis=1))[0]
+    mid_nodes, middle = np.full((tangled.n_hexes, 19), -1, dtype=np.int32), tangled.n_nodes
+    mid_nodes[row, column] = middle
+    points = np.vstack([tangled.points, tangled.points[tangled.hexes[row, MID_EDGES[column]]].mean(axis=0)])
+    mesh = Mesh(points, tangled.hexes, mid_nodes=mid_nodes).replace(pinned=np.arange(middle + 1) == middle)
+    result = smooth(mesh, "mend")
+    assert result.after.inverted > 0
+    first = advise(result).suggestions[0]
+    assert first.unpin.tolist() == [middle]
     assert followed(mesh, result, first).after.inverted == 0
 
 

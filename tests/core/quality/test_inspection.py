@@ -66,6 +66,8 @@ def test_a_node_says_what_the_mesh_says_of_it():
         assert one.energy == pytest.approx(np.square(measure(mesh.points, mesh.hexes).eta[one.ring]).sum())
     assert describe_node(mesh, int(inner[3])).kind == "pinned"
     assert describe_node(mesh, int(inner[3])).pinned
+    by_rule = mesh.replace(pinned=None, node_sets={"some": inner[3:4]}).with_rules(fix=("some",))
+    assert describe_node(by_rule, int(inner[3])).kind == "fixed"
     assert (
         describe_node(mesh, 0).kind == describe_node(mesh.replace(pinned=mesh.topology.boundary), 0).kind == "boundary"
     )

@@ -54,8 +54,13 @@ def reason_for_no_step(session: Session, smoother: Smoother | None) -> str:
         reason = tr("Node {node:,} is on the boundary: no method moves it.", node=node)
     elif mesh.interfaces is not None and mesh.interfaces.interface_nodes[node] and not mesh.immovable[node]:
         reason = tr("Node {node:,} is on an interface between materials, which is kept: no method moves it.", node=node)
-    else:
+    elif mesh.pinned is not None and mesh.pinned[node]:
         reason = tr("Node {node:,} is pinned: no method moves it.", node=node)
+    else:
+        reason = tr(
+            "Node {node:,} is fixed, by a rule of motion or by a fixed node of higher order: no method moves it.",
+            node=node,
+        )
     return f"{reason} {remedy}"
 
 
