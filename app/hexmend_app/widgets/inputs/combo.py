@@ -8,10 +8,18 @@ from PySide6.QtWidgets import QComboBox, QStyle, QStyleOptionComboBox, QStylePai
 
 #: Pixels between the icon and the text of a combo box.
 _ICON_GAP = 4
+#: Pixels that a list is wider than its texts.
+_LIST_MARGIN = 8
 
 
 class ComboBox(QComboBox):
-    """Combo box whose text is elided if the box is too narrow; Qt would clip it."""
+    """Combo box whose text is elided if the box is too narrow, where Qt would clip it, but not the texts of its list."""
+
+    def showPopup(self) -> None:
+        """Open the list, as wide as its texts."""
+        view = self.view()
+        view.setMinimumWidth(view.sizeHintForColumn(self.modelColumn()) + 2 * view.frameWidth() + _LIST_MARGIN)
+        super().showPopup()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the box with the elided text."""

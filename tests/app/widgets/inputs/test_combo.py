@@ -32,3 +32,14 @@ def test_a_long_text_is_elided(qtbot):
 
 def test_a_short_text_is_drawn_whole(qtbot):
     assert not np.array_equal(drawn(qtbot, "short"), drawn(qtbot, "shor…"))
+
+
+def test_the_list_is_as_wide_as_its_texts(qtbot):
+    box = ComboBox()
+    qtbot.addWidget(box)
+    box.addItems([TEXT, "short"])
+    box.setFixedSize(140, 24)
+    box.show()
+    box.showPopup()
+    assert box.view().viewport().width() >= box.view().sizeHintForColumn(0) > 140
+    box.hidePopup()
