@@ -8,7 +8,7 @@ from hexmend.kernels import rows as kernels
 
 #: Rows of large arrays that are worked on at a time, so that temporary arrays stay small.
 BLOCK = 65_536
-#: Numbers in a row of which a kernel tells whether one is marked: those of quads and of hexes.
+#: Lengths of rows for which there is a kernel: those of quads and of hexes.
 _KERNEL_WIDTHS = 4, 8
 
 
@@ -141,6 +141,8 @@ def cross_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 def any_of_rows(marks: np.ndarray, rows: np.ndarray) -> np.ndarray:
     """Mark rows (k, w) of numbers of which one at least is marked in `marks` (n,) bool, (k,) bool.
+
+    Marks are contiguous, and numbers not negative.
 
     >>> any_of_rows(np.array([True, False, False]), np.array([[1, 2], [2, 0]])).tolist()
     [False, True]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_EDGES
 
 
 def grid(nx: int, ny: int | None = None, nz: int | None = None) -> Mesh:
@@ -25,3 +26,11 @@ def scrambled(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
     """Displace free nodes at random by up to `amplitude` in each direction."""
     shift = np.random.default_rng(seed).uniform(-amplitude, amplitude, mesh.points.shape)
     return mesh.with_points(mesh.points + shift * mesh.free[:, None])
+
+
+def with_edge_midpoints(mesh: Mesh) -> Mesh:
+    """Return a mesh of second order, of hexes with 20 nodes and straight edges."""
+    edges, at = np.unique(np.sort(mesh.hexes[:, MID_EDGES].reshape(-1, 2), axis=1), axis=0, return_inverse=True)
+    mid_nodes = np.full((mesh.n_hexes, 19), -1, dtype=np.int32)
+    mid_nodes[:, :12] = (mesh.n_nodes + at).reshape(-1, 12)
+    return Mesh(np.concatenate([mesh.points, mesh.points[edges].mean(axis=1)]), mesh.hexes, mid_nodes=mid_nodes)

@@ -146,20 +146,22 @@ class Situation:
 
     @cached_property
     def pinned_nodes(self) -> np.ndarray:
-        """Nodes of resisting hexes that only a pin of the mesh fixes: their numbers in ascending order, (j,) int.
+        """Pins without which nodes of resisting hexes can move: their numbers in ascending order, (j,) int.
 
-        Nodes of higher order are among them if corners that could move stay because of them.
+        They are pins of these nodes, and of nodes of higher order that would move with them.
         """
-        if self.mesh.pinned is None:
+        mesh = self.mesh
+        if mesh.pinned is None:
             return np.zeros(0, dtype=np.int64)
-        pinned, inner = self.mesh.pinned & ~self._outside, ~self.mesh.topology.boundary
-        nodes = np.unique(self.mesh.hexes[self.resisting])
-        nodes = nodes[inner[nodes]]
-        if self.mesh.mid_nodes is None:
-            return nodes[pinned[nodes]]
-        moving = mask(nodes, self.mesh.n_nodes)[self.mesh.hexes] @ (MID_NODE_WEIGHTS > 0).T
-        mid_nodes = self.mesh.mid_nodes[moving & (self.mesh.mid_nodes >= 0)]
-        return np.union1d(nodes[pinned[nodes]], mid_nodes[pinned[mid_nodes]])
+        pinned, nodes = mesh.pinned & ~self._outside, np.unique(mesh.hexes[self.resisting])
+        released = mesh.replace(pinned=mesh.pinned & self._outside).free & ~mesh.free
+        nodes = nodes[released[nodes]]
+        pins = nodes[pinned[nodes]]
+        if mesh.mid_nodes is None:
+            return pins
+        moving = mask(nodes, mesh.n_nodes)[mesh.hexes] @ (MID_NODE_WEIGHTS > 0).T
+        mid_nodes = mesh.mid_nodes[moving & (mesh.mid_nodes >= 0)]
+        return np.union1d(pins, mid_nodes[pinned[mid_nodes]])
 
     @cached_property
     def outside_nodes(self) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hexmend.arrays import any_of_rows, extent, mask, row_norms
-from hexmend.boundary.boundary_samples import samples_and_groups
+from hexmend.boundary.boundary_samples import samples_of_faces
 from hexmend.boundary.cell_extremes import extremes_in_cells
 from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
 from hexmend.boundary.deviations import Deviations, InitialDistances, deviations_above
@@ -49,8 +49,8 @@ class Band:
     max_deviation : float
         Largest distance allowed, in the mesh's unit; 0 allows rounding only.
     inner : (k,) bool, optional
-        Faces of interfaces; none by default. Distances of the others are those from each other, and so are theirs, so
-        that one is never near because of the other.
+        Faces of interfaces; none by default. The outer boundary is compared with the outer boundary alone, interfaces
+        with interfaces alone. On another surface interfaces stay and are not compared.
     """
 
     def __init__(
@@ -93,13 +93,17 @@ class Band:
 
     @cached_property
     def _samples_and_groups(self) -> tuple[np.ndarray, np.ndarray]:
-        return samples_and_groups(self._faces, self.skin.edges.nodes, len(self.points), self._inner)
+        """The samples, and the group of faces of the surface that is searched for each, (s,) int64."""
+        if self._inner is None:
+            samples = samples_of_faces(self._faces, len(self.points), self.skin.edges.nodes)
+            return samples, np.zeros(len(samples), dtype=np.int64)
+        kinds = (~self._inner, self._inner) if self._given is None else (~self._inner,)
+        parts = [samples_of_faces(self._faces[which], len(self.points)) for which in kinds]
+        return np.concatenate(parts), np.repeat(np.arange(len(parts)), [len(samples) for samples in parts])
 
-    @cached_property
+    @property
     def _groups_on_target(self) -> np.ndarray:
-        """The group of faces of the surface that is searched for each sample of the boundary, (s,) int64."""
-        groups = self._samples_and_groups[1]
-        return groups if self._given is None else np.zeros_like(groups)
+        return self._samples_and_groups[1]
 
     @cached_property
     def _groups_on_boundary(self) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Samples of a boundary: edge midpoints, face centres and nodes, those of its interfaces apart."""
+"""Samples of a boundary: edge midpoints, face centres and nodes."""
 
 from __future__ import annotations
 
@@ -27,32 +27,3 @@ def samples_of_faces(faces: np.ndarray, n: int, edges: np.ndarray | None = None)
     edges = SurfaceEdges(faces, n).nodes if edges is None else edges
     nodes = np.tile(np.flatnonzero(mask(faces, n))[:, None], 4)
     return np.ascontiguousarray(np.concatenate([np.tile(edges, 2), faces, nodes]), dtype=np.int32)
-
-
-def samples_and_groups(
-    faces: np.ndarray, edges: np.ndarray, n: int, inner: np.ndarray | None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the samples of a boundary, then those of its interfaces, and the group of each.
-
-    Parameters
-    ----------
-    faces : (k, 4) int32
-    edges : (e, 2) int32
-        Edges of the faces.
-    n : int
-        Number of nodes of the mesh.
-    inner : (k,) bool or None
-        Faces of interfaces; None where there are none. Edges and nodes at which they end are sampled twice.
-
-    Returns
-    -------
-    samples : (s, 4) int32
-        See `samples_of_faces`.
-    groups : (s,) int64
-        0 for the boundary, 1 for interfaces.
-    """
-    if inner is None:
-        samples = samples_of_faces(faces, n, edges)
-        return samples, np.zeros(len(samples), dtype=np.int64)
-    parts = [samples_of_faces(faces[which], n) for which in (~inner, inner)]
-    return np.concatenate(parts), np.repeat(np.arange(2), [len(samples) for samples in parts])

@@ -55,6 +55,8 @@ class SkinSurface:
     def __init__(self, points: np.ndarray, faces: np.ndarray, name: str = "", group: np.ndarray | None = None):
         points = as_points(points)
         faces = as_faces(faces, len(points))
+        if group is not None and len(group) != len(faces):
+            raise MeshError(f"there are {len(group)} groups: expected one for each of {len(faces)} faces")
         self.points, self.faces, self.name = points, faces, name
         self.derived: dict[float | str, PartitionedSurface] = {}
         self.nodes, self.edges = np.flatnonzero(mask(faces, len(points))), SurfaceEdges(faces, len(points))

@@ -166,6 +166,6 @@ def project_diagonal(projectors: Annotated[NDArray[numpy.float64], dict(shape=(N
     """
     Replace the diagonal blocks D of `slots` (k,) int32, each once, by P D P + size (I - P).
 
-    projectors (k, 9): the symmetric P of each; size lies between the extreme eigenvalues of P D P. diagonal
-    (s, 6): xx xy xz yy yz zz of each slot. Numbers must exist.
+    projectors (k, 9): the symmetric P of each; size is the absolute mean of the eigenvalues along P, or 1 where
+    it is 0 or not a number. diagonal (s, 6): xx xy xz yy yz zz of each slot. Numbers must exist.
     """

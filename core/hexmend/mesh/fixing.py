@@ -139,6 +139,8 @@ def _numbers(mesh: Mesh, nodes: str | int | Sequence[str] | Sequence[int] | np.n
 def fix_outside(mesh: Mesh, hexes: Sequence[int] | np.ndarray, rings: int = 0) -> Mesh:
     """Return the mesh with all nodes fixed but those of some hexes and of rings of hexes around them.
 
+    Nodes of higher order are not fixed: they follow their corners.
+
     Parameters
     ----------
     mesh : Mesh
@@ -159,6 +161,8 @@ def fix_outside(mesh: Mesh, hexes: Sequence[int] | np.ndarray, rings: int = 0) -
     region = np.zeros(mesh.n_nodes, dtype=bool)
     inside = as_numbers(hexes, "hexes", mesh.n_hexes)
     region[mesh.hexes[mesh.topology.hexes_around(inside, rings)]] = True
+    if mesh.mid_nodes is not None:
+        region[mesh.mid_nodes[mesh.mid_nodes >= 0]] = True
     rules = mesh.node_rules
     if rules.free is not None:  # a rule frees no node outside the region
         mesh = mesh.with_node_rules(replace(rules, free=rules.free & region))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -131,7 +131,9 @@ def descend(
         found = steepest_descent(value, gradient, hessian)
     slope = _limit(energy, x, delta, found.vector, gradient, max_step)
     while not slope < 0 and (damped := _damped(energy, delta, direction, gradient)):
-        found, slope = damped, _limit(energy, x, delta, damped.vector, gradient, max_step)
+        found = replace(damped, solver_iterations=found.solver_iterations + damped.solver_iterations)
+        if not energy.ranks.any(~np.isfinite(found.vector)):
+            slope = _limit(energy, x, delta, found.vector, gradient, max_step)
     if not slope < 0:
         found = steepest_descent(value, gradient, hessian)
         slope = _limit(energy, x, delta, found.vector, gradient, max_step, by_edges=False)
@@ -151,10 +153,10 @@ def descend(
 def _damped(
     energy: MeshEnergy, delta: float, direction: DirectionMethod, gradient: np.ndarray
 ) -> SearchDirection | None:
-    """Return a direction that is damped more than the last; None where nothing speaks for it.
+    """Return a direction that is damped more than the last.
 
-    It is tried where only the shape of the hexes counts. A surface or floors shorten steps for other reasons, and while
-    hexes are inverted no wave is smooth: there steepest descent leads on as well.
+    None with a barrier for inverted hexes (delta > 0), with floors and where nodes slide: there other limits shorten
+    the step, and steepest descent follows.
     """
     if delta > 0 or energy.limits_moves or energy.barrier is not None or not isinstance(direction, TruncatedNewton):
         return None

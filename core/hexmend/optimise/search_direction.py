@@ -116,7 +116,7 @@ class TruncatedNewton:
         self.config = config or TruncatedNewtonConfig()
         self._first = self._last = np.inf
         self._damping, self._is_definite = 0.0, False
-        self._increases, self._used_damping = 0, 0.0  # in this step
+        self._increases, self._used_damping, self._next_damping = 0, 0.0, 0.0  # of this step
         self._matrix: AssembledHessian | None = None
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
@@ -135,14 +135,15 @@ class TruncatedNewton:
         self._damping = damping if damping > self._damping else damping / config.damping_decay
         if self._damping < config.min_damping:
             self._damping = 0.0
+        self._next_damping = self._damping
         np.negative(solved.x, out=solved.x)
         return SearchDirection(solved.x.reshape(-1, 3), count, damping)
 
     def damped(self, gradient: np.ndarray) -> SearchDirection | None:
-        """Return the direction at the same points with more damping, where the last one was of no use.
+        """Return the direction at the same points with more damping, where the limits of a step spoil the last one.
 
-        A long wave moves small hexes by many of their edges; damping shortens it most, and leaves the direction one of
-        descent, which a limit of the step of each node does not.
+        A long wave moves small hexes by many of their edges. Damping shortens it as a whole; a limit of the step of
+        each node may leave a direction that does not descend. The next step begins with this damping.
 
         Parameters
         ----------
@@ -152,7 +153,8 @@ class TruncatedNewton:
         Returns
         -------
         SearchDirection or None
-            None after `max_damping_increases`, and where the matrix has lent its memory.
+            None after `max_damping_increases`, and where the matrix has lent its memory: the next step begins as if
+            none had been asked for.
         """
         matrix, count = self._matrix, 0
         while self._increases < self.config.max_damping_increases and matrix is not None and len(matrix.off_diagonal):
@@ -162,6 +164,7 @@ class TruncatedNewton:
             if not solved.negative_curvature:
                 self._damping, self._is_definite = self._used_damping, False
                 return SearchDirection(-solved.x.reshape(-1, 3), count, self._used_damping)
+        self._damping = self._next_damping
         return None
 
     def _increased(self, damping: float) -> float:

@@ -77,10 +77,11 @@ template <class Real> void bind_vectors(nb::module_ m) {
     m.def("turn_diagonal", &turn_diagonal<Real>, "turn"_a, "slots"_a, "diagonal"_a, ReleaseGil(),
           "Replace the diagonal blocks D of `slots` (k,) int32, each once, by T^T D T.\n\n"
           "turn (k, 9): T of each; diagonal (s, 6): xx xy xz yy yz zz of each slot. Numbers must exist.");
-    m.def("project_diagonal", &project_diagonal<Real>, "projectors"_a, "slots"_a, "diagonal"_a, ReleaseGil(),
-          "Replace the diagonal blocks D of `slots` (k,) int32, each once, by P D P + size (I - P).\n\n"
-          "projectors (k, 9): the symmetric P of each; size lies between the extreme eigenvalues of P D P. diagonal\n"
-          "(s, 6): xx xy xz yy yz zz of each slot. Numbers must exist.");
+    m.def(
+        "project_diagonal", &project_diagonal<Real>, "projectors"_a, "slots"_a, "diagonal"_a, ReleaseGil(),
+        "Replace the diagonal blocks D of `slots` (k,) int32, each once, by P D P + size (I - P).\n\n"
+        "projectors (k, 9): the symmetric P of each; size is the absolute mean of the eigenvalues along P, or 1 where\n"
+        "it is 0 or not a number. diagonal (s, 6): xx xy xz yy yz zz of each slot. Numbers must exist.");
 }
 
 void bind_packed(nb::module_ m) {

@@ -66,6 +66,11 @@ void expect_known(std::span<const std::int32_t> known, std::size_t pieces) {
     for (std::int32_t piece : known) expect(piece < count, "piece: a number is out of range");
 }
 
+void expect_roots(Indices roots, std::size_t nodes) {
+    auto count = static_cast<std::int64_t>(nodes);
+    for (std::int32_t root : roots) expect(root >= 0 && root < count, "roots: a number is out of range");
+}
+
 ClosestPoint BoxTrees::closest(const Point &at, std::int32_t root, double enough, std::int32_t known) const {
     ClosestPoint best;
     if (!is_finite(at)) return best;
@@ -85,6 +90,7 @@ void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std:
         roots.size() == x.size() && piece.size() == x.size() && places.size() == x.size() && weights.size() == x.size(),
         "x, roots, piece, places and weights have different lengths: expected a row a point");
     expect_known(piece, trees.pieces.size());
+    expect_roots(roots, trees.links.size());
     parallel_chunks(x.size(), POINTS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
             // The point before it is often near.
@@ -102,6 +108,7 @@ void near(const BoxTrees &trees, Points x, Indices roots, Numbers limits, std::s
                places.size() == x.size() && weights.size() == x.size() && distances.size() == x.size(),
            "x, roots, limits, piece, places, weights and distances have different lengths: expected a row a point");
     expect_known(piece, trees.pieces.size());
+    expect_roots(roots, trees.links.size());
     parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
         ClosestPoint found = trees.closest(x[i], roots[i], limits[i] * limits[i], piece[i]);
         piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;

@@ -53,6 +53,9 @@ struct BoxTrees {
 // Throw std::invalid_argument for a piece that does not exist; -1 is none.
 void expect_known(std::span<const std::int32_t> known, std::size_t pieces);
 
+// Throw std::invalid_argument for a root that is none of so many nodes of trees.
+void expect_roots(Indices roots, std::size_t nodes);
+
 using TreeBoxes = OwnedArray<double, CHILDREN>;
 using TreeLinks = OwnedArray<std::int32_t, CHILDREN>;
 

@@ -41,11 +41,8 @@ template <int most> struct NearestPieces {
 
 ClosestPointCache::ClosestPointCache(const BoxTrees &trees, Indices roots)
     : trees_(trees), slots_(roots.size()), fours_(new FourPieces[FOURS * roots.size()]) {
-    for (std::size_t s = 0; s < roots.size(); ++s) {
-        expect(roots[s] >= 0 && roots[s] < static_cast<std::int64_t>(trees.links.size()),
-               "roots: a number is out of range");
-        slots_[s] = {{}, {}, roots[s], -1, 0, false, false, 0, 0};
-    }
+    expect_roots(roots, trees.links.size());
+    for (std::size_t s = 0; s < roots.size(); ++s) slots_[s] = {{}, {}, roots[s], -1, 0, false, false, 0, 0};
 }
 
 ClosestPointCache::~ClosestPointCache() = default;

@@ -24,6 +24,7 @@ void means_beyond(const BoxTrees &trees, Points points, std::span<const std::arr
     expect_rows(samples.size(), examined, limits, near);
     expect(beyond.size() == samples.size(), "beyond: one for each of samples is expected");
     expect_known(near.piece, trees.pieces.size());
+    expect_roots(near.roots, trees.links.size());
     parallel_for(samples.size(), SAMPLES_PER_CHUNK, [&](std::int64_t i) {
         beyond[i] = false;
         if (!examined[i]) return;
@@ -41,6 +42,7 @@ IntArray samples_beyond(const MovingTrees &trees, Points x, std::span<const bool
     expect_rows(x.size(), examined, limits, near);
     std::vector<std::uint8_t> far(x.size());
     expect_known(near.piece, trees.pieces.size());
+    expect_roots(near.roots, trees.links.size());
     parallel_for(x.size(), SAMPLES_PER_CHUNK, [&](std::int64_t i) {
         far[i] = examined[i] &&
                  !(distance_from(trees.points, trees.pieces, x[i], near.piece[i], near.weights[i]) <= limits[i]);

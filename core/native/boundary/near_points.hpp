@@ -46,8 +46,8 @@ void means_beyond(const BoxTrees &trees, Points points, std::span<const std::arr
                   std::span<const bool> examined, Numbers limits, const NearPoints &near, std::span<bool> beyond);
 
 // The numbers of the examined samples x that are further than their limits from their trees, whose points have moved:
-// the boxes are refitted where one is further from the point of its piece with its weights. Points that are found are
-// stored, but for their places.
+// the boxes are refitted where one is further from the piece near it. Points that are found are stored, but for their
+// places.
 IntArray samples_beyond(const MovingTrees &trees, Points x, std::span<const bool> examined, Numbers limits,
                         const NearPoints &near);
 

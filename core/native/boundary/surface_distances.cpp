@@ -48,6 +48,7 @@ void find_distances(const MovingTrees &trees, Points start, std::span<const Face
     expect_rows(samples, now);
     expect(trees.points.size() == start.size() + faces.size(), "points: the nodes and a centre a face are expected");
     expect_known(samples.pieces, trees.pieces.size());
+    expect_roots(samples.roots, trees.links.size());
     std::vector<std::int64_t> searched;
     for (std::int64_t i : which) {
         if (samples.distances[i] > 0 || has_moved(trees.points, start, samples.nodes[i], samples.weights[i])) {

@@ -20,7 +20,7 @@ template <class Real>
 void turn_diagonal(std::span<const std::array<Real, 9>> turn, Indices slots, std::span<std::array<Real, 6>> diagonal);
 
 // Replace the diagonal blocks D of `slots` (k,), none of them twice, by P D P + size (I - P), with the projectors P
-// (k, 9), symmetric, and a size between the extreme eigenvalues of P D P.
+// (k, 9), symmetric. size is the absolute mean of the eigenvalues along P, or 1 where it is 0 or not a number.
 template <class Real>
 void project_diagonal(std::span<const std::array<Real, 9>> projectors, Indices slots,
                       std::span<std::array<Real, 6>> diagonal);

@@ -7,14 +7,13 @@ from hexmend.advice import advise
 from hexmend.advice.situation import Situation
 from hexmend.gallery import make
 from hexmend.iteration import Outcome, StoppingCriteria
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES
 from hexmend.quality import measure, objective
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, slid
-from tests.core.grids import grid
+from tests.core.grids import grid, with_edge_midpoints
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 
 MESHES = {
@@ -161,6 +160,16 @@ def pinned_tangle():
     return mesh.with_points(points).replace(pinned=pinned)
 
 
+def quadratic_tangle():
+    """Such a mesh of second order, in which the midpoint of an edge of that node is pinned instead; their numbers."""
+    tangled = pinned_tangle()
+    (node,) = np.flatnonzero(tangled.pinned)
+    row, corner = np.argwhere(tangled.hexes == node)[0]
+    mesh = with_edge_midpoints(tangled.replace(pinned=None))
+    middle = int(mesh.mid_nodes[row, np.flatnonzero((corner == MID_EDGES).any(axis=1))[0]])
+    return mesh.replace(pinned=np.arange(mesh.n_nodes) == middle), int(node), middle
+
+
 def test_a_pin_that_holds_hexes_inverted_is_named_and_unpinning_helps():
     mesh = pinned_tangle()
     result = smooth(mesh, "mend")
@@ -173,19 +182,18 @@ def test_a_pin_that_holds_hexes_inverted_is_named_and_unpinning_helps():
 
 def test_a_pinned_node_of_higher_order_that_holds_hexes_inverted_is_named():
     """The midpoint of an edge of the tangled node: its corners stay because it does."""
-    tangled = pinned_tangle()
-    (node,) = np.flatnonzero(tangled.pinned)
-    row, corner = np.argwhere(tangled.hexes == node)[0]
-    column = np.flatnonzero((corner == MID_EDGES).any(axis=1))[0]
-    mid_nodes, middle = np.full((tangled.n_hexes, 19), -1, dtype=np.int32), tangled.n_nodes
-    mid_nodes[row, column] = middle
-    points = np.vstack([tangled.points, tangled.points[tangled.hexes[row, MID_EDGES[column]]].mean(axis=0)])
-    mesh = Mesh(points, tangled.hexes, mid_nodes=mid_nodes).replace(pinned=np.arange(middle + 1) == middle)
+    mesh, _, middle = quadratic_tangle()
     result = smooth(mesh, "mend")
     assert result.after.inverted > 0
     first = advise(result).suggestions[0]
     assert first.unpin.tolist() == [middle]
     assert followed(mesh, result, first).after.inverted == 0
+
+
+def test_a_pin_is_not_named_where_a_rule_fixes_the_node_as_well():
+    mesh, node, _ = quadratic_tangle()
+    mesh = mesh.replace(node_sets={"some": np.array([node])}).with_rules(fix=("some",))
+    assert Situation(smooth(mesh, "mend")).pinned_nodes.tolist() == []
 
 
 def test_the_guard_keeps_what_would_fall():

@@ -129,6 +129,17 @@ def test_an_interface_that_comes_near_to_the_boundary_is_as_far_from_where_it_wa
     np.testing.assert_allclose(found[0][far.indices], far.distances, atol=1e-12)
 
 
+def test_on_another_surface_interfaces_are_not_compared():
+    mesh, faces, inner = halves()
+    target = SkinSurface(mesh.points, faces[~inner])
+    band = Band(mesh.points, faces, mesh.points, target, 0.5, inner=inner)
+    np.testing.assert_array_equal(band.samples, Band(mesh.points, faces[~inner], mesh.points, target, 0.5).samples)
+    assert not band.initial_surface_deviation.distances.any()
+    end = mesh.points[:, 0] == 0
+    points = mesh.points + 1.9 * end[:, None] * [1, 0, 0]  # near the interface
+    assert {*np.flatnonzero(end)} <= {*band.nodes_outside_band(points)}
+
+
 def test_samples_of_interfaces_follow_those_of_the_boundary():
     mesh, faces, inner = halves()
     apart = Band(mesh.points, faces, mesh.points, None, 0.5, inner=inner).samples

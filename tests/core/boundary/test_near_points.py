@@ -114,6 +114,11 @@ def test_rows_of_different_numbers_and_pieces_that_do_not_exist_are_rejected():
     near = NearPoints(np.zeros(2, np.int32))
     with pytest.raises(ValueError, match="expected a row a sample"):
         near.beyond_moving(trees, PLANE, np.zeros((3, 3)), np.ones(3, bool), np.ones(3))
+    for root in -1, len(trees.links):
+        with pytest.raises(ValueError, match="roots: a number is out of range"):
+            NearPoints(np.full(2, root, np.int32)).beyond_moving(
+                trees, PLANE, np.zeros((2, 3)), np.ones(2, bool), np.ones(2)
+            )
     near.pieces[0] = len(TRIANGLES)
     with pytest.raises(ValueError, match="out of range"):
         near.beyond_moving(trees, PLANE, np.zeros((2, 3)), np.ones(2, bool), np.ones(2))

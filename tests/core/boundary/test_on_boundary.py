@@ -5,6 +5,7 @@ import pytest
 
 from hexmend.boundary import SkinSurface, SlidingBoundary
 from hexmend.gallery import make
+from tests.core.grids import grid
 
 
 def on_itself():
@@ -44,3 +45,19 @@ def test_only_nodes_of_the_boundary_are_kept(sliding):
     assert numbers.size < sliding.mesh.n_nodes
     assert set(numbers) == set(sliding.boundary.faces.ravel()) | set(sliding.boundary.segments.ravel())
     assert alone.max_deviation == sliding.max_deviation
+
+
+def test_interfaces_are_apart_too_where_nodes_have_left_the_surface():
+    mesh = grid(4, 3, 3)
+    halves = mesh.points[mesh.hexes].mean(axis=1)[:, 0] > 2
+    whole = SlidingBoundary(mesh.replace(hex_data={"material": halves.astype(int)}), max_deviation=0.1)
+    on_face = int(np.flatnonzero((mesh.points == [0, 1, 1]).all(axis=1))[0])
+    sliding = whole.without_nodes(np.array([on_face]), 0.1)
+    alone, numbers = sliding.on_boundary()
+    inner = np.flatnonzero((mesh.points == [2, 1, 1]).all(axis=1))
+    points = mesh.points.copy()
+    points[inner] -= [1.95, 0, 0]  # near the end of the boundary, far from the interface
+    outside = sliding.nodes_outside_band(points)
+    assert {*inner} <= {*outside}
+    assert (mesh.points[outside][:, 0] == 2).all()
+    np.testing.assert_array_equal(numbers[alone.nodes_outside_band(points[numbers])], outside)

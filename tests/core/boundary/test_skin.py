@@ -5,6 +5,7 @@ import pytest
 
 from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SkinSurface
+from hexmend.errors import MeshError
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
 
@@ -81,3 +82,8 @@ def test_a_sample_that_is_nowhere_is_beyond_its_limit_before_and_after_one_is_kn
         x[0] = first
         expected = [not np.isfinite(first).all(), False, False]
         np.testing.assert_array_equal(skin.beyond(x, near, np.full(3, 1e-6)), expected)
+
+
+def test_each_face_has_a_group(skin):
+    with pytest.raises(MeshError, match="2 groups: expected one for each of"):
+        SkinSurface(skin.points, skin.faces, group=np.zeros(2, dtype=np.int64))

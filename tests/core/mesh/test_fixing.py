@@ -11,7 +11,8 @@ from hexmend.errors import MeshError
 from hexmend.mesh.fixing import fix, fix_outside, unfix
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.rules.named_sets import nodes_in_set
-from tests.core.grids import grid, scrambled
+from hexmend.run import smooth
+from tests.core.grids import grid, scrambled, with_edge_midpoints
 
 MESH = scrambled(grid(5), 0.4).replace(
     node_sets={"some": np.array([100, 101])}, hex_sets={"part": np.array([62])}, side_sets={"side": np.array([[62, 3]])}
@@ -57,6 +58,14 @@ def test_of_a_region_and_its_rings_alone_nodes_are_free(rings):
     expected = np.zeros(MESH.n_nodes, dtype=bool)
     expected[MESH.hexes[MESH.topology.hexes_around([62], rings)]] = True
     np.testing.assert_array_equal(free, expected & MESH.free)
+
+
+def test_of_a_region_of_second_order_the_same_corners_are_free():
+    quadratic = with_edge_midpoints(MESH)
+    part = fix_outside(quadratic, [62])
+    np.testing.assert_array_equal(part.free[: MESH.n_nodes], fix_outside(MESH, [62]).free)
+    after = smooth(part, "laplacian", max_iterations=2).mesh.points
+    assert (after[: MESH.n_nodes] != MESH.points).any()
 
 
 def test_the_command_keeps_sets_and_moves_regions(tmp_path, capsys):

@@ -117,6 +117,15 @@ def test_directions_are_damped_until_the_curvature_is_positive_and_so_often_in_a
     assert len(matrix.asked) == CONFIG.max_damping_increases + 1
 
 
+def test_damping_that_led_to_no_direction_is_not_kept():
+    find, matrix, gradient = TruncatedNewton(), Matrix(), np.ones((1, 3))
+    find(1.0, gradient, matrix)
+    while find.damped(gradient):
+        pass
+    find(1.0, gradient, matrix)
+    assert matrix.asked[-1][-1] == 0.0
+
+
 def test_a_matrix_that_has_lent_its_memory_is_not_solved_again():
     find, matrix = TruncatedNewton(), Matrix()
     find(1.0, np.ones((1, 3)), matrix)

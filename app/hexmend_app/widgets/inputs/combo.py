@@ -13,7 +13,7 @@ _LIST_MARGIN = 8
 
 
 class ComboBox(QComboBox):
-    """Combo box whose text is elided if the box is too narrow, where Qt would clip it, but not the texts of its list."""
+    """Combo box whose text is elided if the box is too narrow; Qt would clip it. The list is as wide as its texts."""
 
     def showPopup(self) -> None:
         """Open the list, as wide as its texts."""

@@ -121,6 +121,7 @@ class SlidingBoundary(SlidingNodes):
         judged = ~freed[self.boundary.faces].any(axis=1)
         other.boundary, other.node_class = self.boundary.without_nodes(nodes).with_faces(judged), self.node_class.copy()
         vars(other)["outward"], other.max_deviation = self.outward[judged], max_deviation
+        other._inner_of_boundary = self._inner_of_boundary[judged]
         other.node_class[nodes] = NodeClass.INSIDE
         stays = ~freed[self.nodes]
         other.nodes, other._group = self.nodes[stays], self._group[stays]

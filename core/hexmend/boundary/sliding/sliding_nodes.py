@@ -62,6 +62,7 @@ class SlidingNodes(Band):
         self._cache = ClosestPointCache(surface.trees, self._group)
         start = points if target is None else self.projected(points)
         super().__init__(points, boundary.faces, start, target, max_deviation, inner)
+        self._inner_of_boundary = inner  # of those of its faces that are left, see `SlidingBoundary.without_nodes`
 
     def on_boundary(self) -> tuple[SlidingNodes, np.ndarray]:
         """Return the sliding nodes of the boundary alone, and the numbers (b,) int64 of all its nodes, ascending."""
@@ -72,7 +73,8 @@ class SlidingNodes(Band):
         number = index_of(at, has.size)
         boundary, surface = self.boundary.on_nodes(at), self.surface.on_nodes(at)
         nodes, points = number[self.nodes].astype(np.int64), self.points[at]
-        return SlidingNodes(boundary, surface, nodes, points, self._given, self.max_deviation, self._inner), at
+        options = self._given, self.max_deviation, self._inner_of_boundary
+        return SlidingNodes(boundary, surface, nodes, points, *options), at
 
     def with_band(self, max_deviation: float) -> Self:
         """Return the sliding boundary with another width of the band, in the mesh's unit."""

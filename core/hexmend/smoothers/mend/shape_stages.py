@@ -35,9 +35,9 @@ class SlidingStarts(NamedTuple):
     points : list of (n, 3) float64
         With the boundary fixed, and on the surface.
     shape : ShapeOptimum or None
-        The last of them; None where its least is lower than at the others, or it was not looked for.
+        The last of them; None if its least is lower than at the others, or it was not computed.
     passed_over : bool
-        It was not, as nodes have to leave the surface anyway.
+        True if it was not computed, because nodes have to leave the surface anyway.
     """
 
     points: list[np.ndarray]

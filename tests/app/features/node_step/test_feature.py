@@ -9,6 +9,8 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QLabel, QTabBar
 
+from hexmend.io import write
+from hexmend.mesh.second_order import MID_EDGES
 from hexmend.node_step import explain
 from hexmend.smoothers import METHODS
 from hexmend_app.picture.cut import Cut
@@ -19,7 +21,7 @@ from hexmend_app.state.tasks.task import running
 from hexmend_app.theme import theme_choice
 from hexmend_app.theme.palette import DESCENT, SEARCH
 from hexmend_app.theme.theme_choice import ThemeChoice
-from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, phase, pixels, press, tick
+from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, open_and_wait, phase, pixels, press, tick
 from tests.app.features.node_step.step_display import (
     button,
     count_pixels,
@@ -31,6 +33,7 @@ from tests.app.features.node_step.step_display import (
     wait_for_step,
     wait_for_text,
 )
+from tests.core.grids import grid, scrambled, with_edge_midpoints
 from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
@@ -119,6 +122,19 @@ def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
     wait_for_step(window, qtbot, "local-sd", inner)
     window.session.commands.pin(inner, True)
     wait_for_text(window, qtbot, "is pinned: no method moves it")
+    assert shown_step(window) is None
+
+
+def test_a_node_that_a_pinned_higher_order_node_fixes_is_not_called_pinned(node_window, qtbot, tmp_path):
+    window, mesh = node_window, with_edge_midpoints(scrambled(grid(3), 0.1))
+    write(tmp_path / "quadratic.vtu", mesh)
+    open_and_wait(qtbot, window, tmp_path / "quadratic.vtu")
+    mesh = window.session.document.now.mesh
+    inner = int(np.flatnonzero(mesh.free)[0])
+    row, corner = np.argwhere(mesh.hexes == inner)[0]
+    window.session.commands.pin(int(mesh.mid_nodes[row, np.flatnonzero((corner == MID_EDGES).any(axis=1))[0]]), True)
+    window.session.selection.choose(int(row), inner)
+    wait_for_text(window, qtbot, "is fixed, by a rule of motion or by a fixed node of higher order")
     assert shown_step(window) is None
 
 
