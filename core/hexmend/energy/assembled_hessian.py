@@ -78,6 +78,11 @@ class AssembledHessian(SymmetricOperator):
             self.sparsity.workspace.give(self.off_diagonal)
             self.off_diagonal = self.off_diagonal[:0].copy()
 
+    @property
+    def has_lent_memory(self) -> bool:
+        """True after `lend_memory` has made the matrix invalid."""
+        return self.packed and not len(self.off_diagonal)
+
     @classmethod
     def zero(cls, sparsity: BlockSparsity, dtype: type, packed: bool = False) -> AssembledHessian:
         """Make a zero matrix of a sparsity pattern; `packed`: with blocks of 24 bytes for single precision."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hexmend.arrays import any_of_rows, differing_rows
-from hexmend.energy import MeshEnergy
+from hexmend.energy import Hessian, MeshEnergy
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten, shorten_by_rings
@@ -33,6 +33,8 @@ class DescentConfig:
         Share of its step from which on an infeasible node stays: it has come to the end of its band.
     cube_rounding : float
         Rounding errors by which the eta of a cube may differ from 0.
+    short, negligible : float
+        Step length below which a direction is damped more, unless its slope is no more than that share of the energy.
     """
 
     max_coordinate: float = 1e100
@@ -42,6 +44,8 @@ class DescentConfig:
     halvings: int = 8
     stay_below: float = 0.25
     cube_rounding: float = 8
+    short: float = 1 / 64
+    negligible: float = 1e-6
 
 
 DESCENT = DescentConfig()
@@ -126,32 +130,56 @@ def descend(
     if is_perfect(energy, value, delta):
         return Descent(x, value, 0.0, length, SearchDirection(np.zeros_like(gradient)), 0.0, 0)
     hessian = energy.hessian(x, delta)
+
+    def along(found: SearchDirection, is_last: bool = False) -> Descent | None:
+        """Take a step; None where the limits leave no descent, unless there is no other direction."""
+        slope = _limit(energy, x, delta, found.vector, gradient, max_step, by_edges=not is_last)
+        if not (slope < 0 or is_last):
+            return None
+        return _search(energy, x, delta, Descent(x, value, slope, length, found, 0.0, 0), gradient, search)
+
     found = direction(value, gradient, hessian)  # A.2, A.3, A.4
     if energy.ranks.any(~np.isfinite(found.vector)):
         found = steepest_descent(value, gradient, hessian)
-    slope = _limit(energy, x, delta, found.vector, gradient, max_step)
-    while not slope < 0 and (damped := _damped(energy, delta, direction, gradient)):
+    taken = along(found)
+    while _is_poor(taken) and (damped := _damped(energy, delta, direction, gradient, hessian)):
         found = replace(damped, solver_iterations=found.solver_iterations + damped.solver_iterations)
         if not energy.ranks.any(~np.isfinite(found.vector)):
-            slope = _limit(energy, x, delta, found.vector, gradient, max_step)
-    if not slope < 0:
-        found = steepest_descent(value, gradient, hessian)
-        slope = _limit(energy, x, delta, found.vector, gradient, max_step, by_edges=False)
+            taken = _lower(energy, delta, taken, along(found))
+    return taken or along(steepest_descent(value, gradient, hessian), is_last=True)
 
+
+def _search(
+    energy: MeshEnergy, x: np.ndarray, delta: float, start: Descent, gradient: np.ndarray, search: LineSearch
+) -> Descent:
+    """Search along the direction of `start`, whose steps are shortened at nodes that they take where they may not."""
+    found, slope = start.direction, start.slope
     for trial in range(DESCENT.searches):
         line = _Line(energy, x, delta, found.vector)
-        alpha, backtracks = search(line.value, value, slope)  # A.5
+        alpha, backtracks = search(line.value, start.value, slope)  # A.5
         moved = line.points(alpha)
         infeasible = energy.infeasible_nodes(x, moved)
         if infeasible is None:
-            return Descent(moved, value, slope, length, found, alpha, backtracks)
+            return replace(start, x=moved, slope=slope, alpha=alpha, backtracks=backtracks)
         found.vector[infeasible[energy.nodes]] *= 0.5 if trial < DESCENT.searches // 2 else 0.0
         slope, search = energy.directional_derivative(x, delta, found.vector, gradient), search.with_initial_step(alpha)
-    return Descent(x, value, slope, length, found, 0.0, backtracks)
+    return replace(start, slope=slope, backtracks=backtracks)
+
+
+def _is_poor(taken: Descent | None) -> bool:
+    """Return True if there is no step, or one that is short although the energy falls along it."""
+    return taken is None or (taken.alpha < DESCENT.short and -taken.slope > DESCENT.negligible * taken.value)
+
+
+def _lower(energy: MeshEnergy, delta: float, one: Descent | None, other: Descent | None) -> Descent | None:
+    """Return the step that ends lower."""
+    if one is None or other is None:
+        return one or other
+    return other if energy.value(other.x, delta) < energy.value(one.x, delta) else one
 
 
 def _damped(
-    energy: MeshEnergy, delta: float, direction: DirectionMethod, gradient: np.ndarray
+    energy: MeshEnergy, delta: float, direction: DirectionMethod, gradient: np.ndarray, hessian: Hessian
 ) -> SearchDirection | None:
     """Return a direction that is damped more than the last.
 
@@ -160,7 +188,7 @@ def _damped(
     """
     if delta > 0 or energy.limits_moves or energy.barrier is not None or not isinstance(direction, TruncatedNewton):
         return None
-    return direction.damped(gradient)
+    return direction.damped(gradient, hessian)
 
 
 class _Line:

@@ -139,7 +139,7 @@ class TruncatedNewton:
         np.negative(solved.x, out=solved.x)
         return SearchDirection(solved.x.reshape(-1, 3), count, damping)
 
-    def damped(self, gradient: np.ndarray) -> SearchDirection | None:
+    def damped(self, gradient: np.ndarray, hessian: Hessian) -> SearchDirection | None:
         """Return the direction at the same points with more damping, where the limits of a step spoil the last one.
 
         A long wave moves small hexes by many of their edges. Damping shortens it as a whole; a limit of the step of
@@ -148,24 +148,32 @@ class TruncatedNewton:
         Parameters
         ----------
         gradient : (k, 3) float64
-            As in the last call.
+        hessian : Hessian
+            Both as in the last call.
 
         Returns
         -------
         SearchDirection or None
-            None after `max_damping_increases`, and where the matrix has lent its memory: the next step begins as if
-            none had been asked for.
+            None after `max_damping_increases`: the next step begins as if none had been asked for.
         """
         matrix, count = self._matrix, 0
-        while self._increases < self.config.max_damping_increases and matrix is not None and len(matrix.off_diagonal):
+        if matrix is None or self._increases >= self.config.max_damping_increases:
+            self._damping = self._next_damping
+            return None
+        if matrix.has_lent_memory:
+            matrix = self._matrix = hessian.assembled(reuse=matrix)
+        while self._increases < self.config.max_damping_increases:
             self._used_damping, self._increases = self._increased(self._used_damping), self._increases + 1
             solved = self._solve(matrix, gradient.ravel(), self.config.loosest, self._used_damping)
             count += solved.iterations
             if not solved.negative_curvature:
-                self._damping, self._is_definite = self._used_damping, False
-                return SearchDirection(-solved.x.reshape(-1, 3), count, self._used_damping)
-        self._damping = self._next_damping
-        return None
+                break
+        matrix.lend_memory()
+        if solved.negative_curvature:
+            self._damping = self._next_damping
+            return None
+        self._damping, self._is_definite = self._used_damping, False
+        return SearchDirection(-solved.x.reshape(-1, 3), count, self._used_damping)
 
     def _increased(self, damping: float) -> float:
         return max(self.config.damping_growth * damping, self.config.min_damping)

@@ -120,7 +120,7 @@ class Ascending(TruncatedNewton):
     def __call__(self, value, gradient, hessian):
         return SearchDirection(1e-3 * gradient, 7)
 
-    def damped(self, gradient):
+    def damped(self, gradient, hessian):
         self.asked += 1
         return SearchDirection((-1e-3 if self.asked > 1 else 1e-3) * gradient, 3, 0.002)
 

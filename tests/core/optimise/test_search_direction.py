@@ -21,10 +21,11 @@ class Matrix:
     """Records what it is asked to solve; says that the curvature is negative while the damping is below `needed`."""
 
     def __init__(self, needed=0.0):
-        self.needed, self.asked, self.off_diagonal = needed, [], [None]
+        self.needed, self.asked, self.assemblies, self.has_lent_memory = needed, [], 0, False
         self.energy = SimpleNamespace(ranks=ONE_RANK)
 
     def assembled(self, reuse=None):
+        self.assemblies, self.has_lent_memory = self.assemblies + 1, False
         return self
 
     def solve(self, right, tolerance, iterations, damping, deflated):
@@ -99,9 +100,9 @@ def test_damping_is_raised_so_often_and_no_oftener():
 def test_a_direction_that_was_of_no_use_is_damped_more_and_the_next_begins_there():
     find, matrix, gradient = TruncatedNewton(), Matrix(), np.array([[1.0, -2.0, 3.0]])
     find(1.0, gradient, matrix)
-    dampings = [find.damped(gradient).shift for _ in range(2)]
+    dampings = [find.damped(gradient, matrix).shift for _ in range(2)]
     assert dampings == [FIRST, SECOND]
-    np.testing.assert_array_equal(find.damped(gradient).vector, -gradient / 2)
+    np.testing.assert_array_equal(find.damped(gradient, matrix).vector, -gradient / 2)
     find(1.0, gradient, matrix)
     assert matrix.asked[-1][-1] == CONFIG.damping_growth * SECOND
 
@@ -110,28 +111,31 @@ def test_directions_are_damped_until_the_curvature_is_positive_and_so_often_in_a
     find, matrix, gradient = TruncatedNewton(), Matrix(), np.ones((1, 3))
     find(1.0, gradient, matrix)
     matrix.needed = SECOND
-    found = find.damped(gradient)
+    found = find.damped(gradient, matrix)
     assert (found.shift, found.solver_iterations) == (SECOND, 6)
     matrix.needed = np.inf
-    assert find.damped(gradient) is None
+    assert find.damped(gradient, matrix) is None
     assert len(matrix.asked) == CONFIG.max_damping_increases + 1
 
 
 def test_damping_that_led_to_no_direction_is_not_kept():
     find, matrix, gradient = TruncatedNewton(), Matrix(), np.ones((1, 3))
     find(1.0, gradient, matrix)
-    while find.damped(gradient):
+    while find.damped(gradient, matrix):
         pass
     find(1.0, gradient, matrix)
     assert matrix.asked[-1][-1] == 0.0
 
 
-def test_a_matrix_that_has_lent_its_memory_is_not_solved_again():
+def test_a_matrix_that_has_lent_its_memory_is_assembled_again():
     find, matrix = TruncatedNewton(), Matrix()
     find(1.0, np.ones((1, 3)), matrix)
-    matrix.off_diagonal = []
-    assert find.damped(np.ones((1, 3))) is None
-    assert TruncatedNewton().damped(np.ones((1, 3))) is None
+    assert matrix.assemblies == 1
+    find.damped(np.ones((1, 3)), matrix)
+    assert matrix.assemblies == 1
+    matrix.has_lent_memory = True
+    assert find.damped(np.ones((1, 3)), matrix).shift == SECOND
+    assert matrix.assemblies == 2
 
 
 class Shifted:
