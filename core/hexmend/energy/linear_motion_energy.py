@@ -74,8 +74,10 @@ class LinearMotionEnergy(MeshEnergy):
             return super().on_part(part, hexes, nodes, x)
         motion = self.mesh.linear_motion.renumbered(index_of(nodes, self.mesh.n_nodes))
         part = part.with_linear_motion(motion).with_fixed(part.fixed)
-        energy = LinearMotionEnergy(self.energy.on_part(part, hexes, nodes, x))
-        return energy.with_barrier(energy.energy.barrier)
+        energy = self.energy.on_part(part, hexes, nodes, x)
+        if part.linear_motion is None:  # none of its nodes moves in a plane or along a line
+            return energy
+        return LinearMotionEnergy(energy).with_barrier(energy.barrier)
 
     def with_objective(self, norm: ObjectiveNorm, omitted: np.ndarray) -> LinearMotionEnergy:
         other = super().with_objective(norm, omitted)

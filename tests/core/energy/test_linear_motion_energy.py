@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import LinearMotionEnergy, MeshEnergy, ObjectiveNorm, SlidingEnergy, energy_of
 from hexmend.mesh.linear_motion import LinearMotion
+from hexmend.optimise.floors.region import Region
 from tests.core.boundary.solids import cylinder
 from tests.core.grids import grid, scrambled
 from tests.core.linear_motions import face, planes, turn
@@ -103,3 +104,17 @@ def test_nodes_on_flat_parts_of_a_sliding_boundary_move_linearly_and_others_are_
     gradient = whole.gradient(x)
     np.testing.assert_allclose(mixed.gradient(x), gradient, atol=1e-9 * np.abs(gradient).max())
     np.testing.assert_array_equal(mixed.nodes, whole.nodes)
+
+
+def test_a_part_none_of_whose_nodes_moves_in_a_plane_has_the_energy_of_its_hexes():
+    """The middle of a long cylinder: its ends alone are flat."""
+    mesh = cylinder(16, 9)
+    energy = energy_of(mesh, sliding=SlidingBoundary(mesh))
+    assert isinstance(energy, LinearMotionEnergy)
+    middle = np.flatnonzero(np.abs(mesh.points[mesh.hexes].mean(axis=1)[:, 2] - 0.5) < 0.05)
+    x = energy.to_edge_units(mesh.points)
+    region = Region(energy, middle, x)
+    assert region.energy.value(region.inside(x)) == pytest.approx(np.square(energy.hex_energies(x)[region.hexes]).sum())
+    step = np.random.default_rng(1).uniform(-0.1, 0.1, (region.energy.nodes.size, 3))
+    merged = region.merged(x, region.energy.moved(region.inside(x), step))
+    assert set(np.flatnonzero((merged != x).any(axis=1))) <= set(mesh.hexes[region.hexes].ravel())
