@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.kernels import rows as kernels
-
 #: Rows of large arrays that are worked on at a time, so that temporary arrays stay small.
 BLOCK = 65_536
-#: Lengths of rows for which there is a kernel: those of quads and of hexes.
-_KERNEL_WIDTHS = 4, 8
 
 
 class _Memory:
@@ -137,24 +133,6 @@ def cross_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
         np.multiply(a[..., one], b[..., other], out=product[..., axis])
         product[..., axis] -= a[..., other] * b[..., one]
     return product
-
-
-def any_of_rows(marks: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Mark rows (k, w) of numbers of which one at least is marked in `marks` (n,) bool, (k,) bool.
-
-    Marks are contiguous, and numbers not negative.
-
-    >>> any_of_rows(np.array([True, False, False]), np.array([[1, 2], [2, 0]])).tolist()
-    [False, True]
-    """
-    if rows.shape[1] in _KERNEL_WIDTHS and rows.dtype == np.int32 and rows.flags.c_contiguous:
-        found = np.empty(len(rows), dtype=bool)
-        kernels.any_marked(marks, rows, found)
-        return found
-    found = marks.take(rows[:, 0])  # in half the time of marks[...]
-    for column in range(1, rows.shape[1]):
-        found |= marks.take(rows[:, column])
-    return found
 
 
 def largest_of_rows(values: np.ndarray, rows: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.arrays import any_of_rows, extent, mask, row_norms
+from hexmend.arrays import extent, mask, row_norms
 from hexmend.boundary.boundary_samples import samples_of_faces
 from hexmend.boundary.cell_extremes import extremes_in_cells
 from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
@@ -15,6 +15,7 @@ from hexmend.boundary.deviations import Deviations, InitialDistances, deviations
 from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
 from hexmend.kernels import closest_point
+from hexmend.mesh.topology.marked_rows import any_of_rows
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
 _ROUNDING = 1e-9

@@ -6,11 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hexmend.arrays import any_of_rows, differing_rows
+from hexmend.arrays import differing_rows
 from hexmend.energy import Hessian, MeshEnergy
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten, shorten_by_rings
+from hexmend.mesh.topology.marked_rows import any_of_rows
 from hexmend.optimise.search_direction import DirectionMethod, SearchDirection, TruncatedNewton, steepest_descent
 
 

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pymetis
 
-from hexmend.arrays import any_of_rows, index_of, mask
+from hexmend.arrays import index_of, mask
 from hexmend.errors import ParameterError
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology.marked_rows import any_of_rows
 from hexmend.ranks.mpi_ranks import MPIRanks
 
 if TYPE_CHECKING:

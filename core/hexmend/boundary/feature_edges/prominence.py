@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.arrays import any_of_rows, mask
+from hexmend.arrays import mask
 from hexmend.boundary.edges import SurfaceEdges, segment_pairs
 from hexmend.kernels import incidence
+from hexmend.mesh.topology.marked_rows import any_of_rows
 
 #: Dihedral angle, in degrees, above which an edge may stand out, and turn above which a node of a curve may.
 LEAST_ANGLE = 40.0

@@ -6,8 +6,9 @@ import copy
 
 import numpy as np
 
-from hexmend.arrays import any_of_rows, largest_of_rows, mask
+from hexmend.arrays import largest_of_rows, mask
 from hexmend.boundary import SlidingBoundary
+from hexmend.mesh.topology.marked_rows import any_of_rows
 from hexmend.optimise.maxmin.linear_program import LinearConstraints, lower_bounds
 
 

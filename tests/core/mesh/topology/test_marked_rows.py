@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.arrays import BLOCK, any_of_rows
+from hexmend.arrays import BLOCK
+from hexmend.mesh.topology.marked_rows import any_of_rows
 
 
 @pytest.mark.parametrize("width", range(1, 10))
