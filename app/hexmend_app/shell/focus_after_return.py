@@ -6,8 +6,10 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLineEdit, QWidget
+from shiboken6 import isValid
 
 from hexmend_app.shell.floating import is_floating
+from hexmend_app.shell.focus_changes import follow_focus
 
 
 class FocusAfterReturn(QObject):
@@ -26,11 +28,11 @@ class FocusAfterReturn(QObject):
         self._window = window
         self._view = view
         window.installEventFilter(self)
-        QApplication.instance().focusChanged.connect(self._on_focus)
+        follow_focus(self)
 
-    def _on_focus(self, before: QWidget | None, now: QWidget | None) -> None:
+    def focus_moved(self, now: QWidget | None) -> None:
         """Watch a floating panel that receives the focus: its keys do not reach the window."""
-        if now is not None and is_floating(self._window, now.window()):
+        if now is not None and isValid(self._window) and is_floating(self._window, now.window()):
             now.window().installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

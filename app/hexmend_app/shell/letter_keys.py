@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QAbstractItemView, QApplication, QComboBox, QWidget
+from PySide6.QtWidgets import QAbstractItemView, QComboBox, QWidget
+from shiboken6 import isValid
 
 from hexmend_app.shell.floating import is_in
+from hexmend_app.shell.focus_changes import follow_focus
 
 #: Modifiers with which a key still types a letter.
 _TYPING = Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier
@@ -27,10 +29,11 @@ class LetterKeys(QObject):
     def __init__(self, window: QWidget):
         super().__init__(window)
         self._window = window
-        QApplication.instance().focusChanged.connect(self._on_focus)
+        follow_focus(self)
 
-    def _on_focus(self, before: QWidget | None, now: QWidget | None) -> None:
-        if isinstance(now, (QComboBox, QAbstractItemView)) and is_in(self._window, now):
+    def focus_moved(self, now: QWidget | None) -> None:
+        """Watch a list of the window that receives the focus."""
+        if isinstance(now, (QComboBox, QAbstractItemView)) and isValid(self._window) and is_in(self._window, now):
             now.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

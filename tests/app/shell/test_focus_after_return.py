@@ -1,5 +1,7 @@
 """After Return in a field, the keys of the view work."""
 
+import gc
+
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDockWidget, QLineEdit, QMainWindow, QSpinBox, QVBoxLayout, QWidget
@@ -60,3 +62,20 @@ def test_return_in_a_floating_panel_ends_typing(shown, qtbot):
     qtbot.waitUntil(lambda: QApplication.focusWidget() is view)
     assert field.text() == "7"
     dock.setFloating(False)
+
+
+def test_a_window_that_is_collected_hears_of_no_focus(qtbot):
+    """Its filter may be there still while the window, which is part of a cycle, moves the focus."""
+    for number in range(30):
+        fields = Fields()
+        fields.itself = fields
+        fields.show()
+        fields.activateWindow()
+        fields.line.setFocus()
+        QApplication.processEvents()
+        del fields
+        if number % 3 == 0:
+            gc.collect()
+        QApplication.processEvents()
+    gc.collect()
+    QApplication.processEvents()  # what a slot raises fails the test

@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QScrollArea, QVBoxLayout, QWidget
 
 from hexmend_app.feature import Panel
+from hexmend_app.shell.focus_changes import follow_focus
 from hexmend_app.widgets.section import Section
 
 #: Extra width in pixels, for texts whose numbers grow.
@@ -22,9 +23,10 @@ class _StackArea(QScrollArea):
 
     def __init__(self) -> None:
         super().__init__()
-        QApplication.instance().focusChanged.connect(self._on_focus)
+        follow_focus(self)
 
-    def _on_focus(self, before: QWidget | None, now: QWidget | None) -> None:
+    def focus_moved(self, now: QWidget | None) -> None:
+        """Scroll to a widget of the area that receives the focus."""
         if now is not None and self.isAncestorOf(now) and not QApplication.mouseButtons():
             self.ensureWidgetVisible(now)
 
