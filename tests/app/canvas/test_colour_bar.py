@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QImage
@@ -59,6 +59,7 @@ def test_a_wrong_table_is_refused(qapp):
 
 
 @given(st.floats(-1e6, 1e6), st.floats(-1e6, 1e6), st.integers(2, 12))
+@example(0.0, 2.166795691389619e-09, 9)
 def test_ticks_are_evenly_spaced_within_the_range(low, high, most):
     assume(high - low > 1e-6 * max(abs(low), abs(high), 1e-3))
     ticks = nice_ticks(low, high, most)

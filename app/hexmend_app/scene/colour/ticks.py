@@ -12,6 +12,8 @@ def nice_ticks(low: float, high: float, most: int) -> list[float]:
     [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
     >>> nice_ticks(0.31, 0.44, 4)
     [0.35, 0.4]
+    >>> nice_ticks(0, 1e-9, 5)
+    [0.0, 2.5e-10, 5e-10, 7.5e-10, 1e-09]
     """
     if not high > low or most < 1:
         return []
@@ -19,7 +21,7 @@ def nice_ticks(low: float, high: float, most: int) -> list[float]:
     for step in (round(m * 10.0**e, 12 - e) for e in (power, power + 1, power + 2) for m in (1, 2, 2.5, 5)):
         first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
         if last - first + 1 <= most:
-            return [round(k * step, 10) for k in range(first, last + 1)]
+            return [round(k * step, 12 - power) for k in range(first, last + 1)]
     return []
 
 
