@@ -104,6 +104,7 @@ class Band:
 
     @property
     def _groups_on_target(self) -> np.ndarray:
+        """The group of faces of `target` that is searched for each sample of the boundary, (s,) int64."""
         return self._samples_and_groups[1]
 
     @cached_property

@@ -80,8 +80,8 @@ class NearPoints:
     def __init__(self, piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
         The piece (s,) int32 on which each lies, -1 for none, its barycentric weights there (s, 3), and its
-        position (s, 3), infinite for none; the root (s,) int32 of the tree that is searched for each. Arrays are
-        not copied; all but the roots are written.
+        position (s, 3), infinite for none; the root (s,) int32 of the tree that is searched for each. Arrays
+        are not copied; all but the roots are written.
         """
 
 def means_beyond(trees: BoxTrees, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], samples: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], examined: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], near: NearPoints, beyond: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:

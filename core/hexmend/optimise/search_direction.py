@@ -123,13 +123,8 @@ class TruncatedNewton:
         config, matrix = self.config, hessian.assembled(reuse=self._matrix)
         self._matrix = matrix
         tolerance = self._tolerance(hessian.energy.ranks.norm(gradient))
-        solved = self._solve(matrix, gradient.ravel(), tolerance, self._damping)
-        count, damping, self._increases = solved.iterations, self._damping, 0
-        while solved.negative_curvature and self._increases < config.max_damping_increases:
-            damping, self._increases = self._increased(damping), self._increases + 1
-            del solved  # large meshes have no memory for two solutions
-            solved = self._solve(matrix, gradient.ravel(), tolerance, damping)
-            count += solved.iterations
+        self._increases = 0
+        solved, damping, count = self._solve_definite(matrix, gradient, tolerance, self._damping)
         matrix.lend_memory()  # to the next gradient
         self._is_definite, self._used_damping = damping == 0, damping
         self._damping = damping if damping > self._damping else damping / config.damping_decay
@@ -156,24 +151,37 @@ class TruncatedNewton:
         SearchDirection or None
             None after `max_damping_increases`: the next step begins as if none had been asked for.
         """
-        matrix, count = self._matrix, 0
+        matrix = self._matrix
         if matrix is None or self._increases >= self.config.max_damping_increases:
             self._damping = self._next_damping
             return None
         if matrix.has_lent_memory:
             matrix = self._matrix = hessian.assembled(reuse=matrix)
-        while self._increases < self.config.max_damping_increases:
-            self._used_damping, self._increases = self._increased(self._used_damping), self._increases + 1
-            solved = self._solve(matrix, gradient.ravel(), self.config.loosest, self._used_damping)
-            count += solved.iterations
-            if not solved.negative_curvature:
-                break
+        self._increases, damping = self._increases + 1, self._increased(self._used_damping)
+        solved, damping, count = self._solve_definite(matrix, gradient, self.config.loosest, damping)
         matrix.lend_memory()
+        self._used_damping = damping
         if solved.negative_curvature:
             self._damping = self._next_damping
             return None
-        self._damping, self._is_definite = self._used_damping, False
-        return SearchDirection(-solved.x.reshape(-1, 3), count, self._used_damping)
+        self._damping, self._is_definite = damping, False
+        return SearchDirection(-solved.x.reshape(-1, 3), count, damping)
+
+    def _solve_definite(
+        self, matrix: AssembledHessian, gradient: np.ndarray, tolerance: float, damping: float
+    ) -> tuple[CGResult, float, int]:
+        """Solve with a damping, or with the next higher one that makes the matrix positive definite.
+
+        Returns the solution, the damping, and the number of iterations of all solutions.
+        """
+        solved = self._solve(matrix, gradient.ravel(), tolerance, damping)
+        count = solved.iterations
+        while solved.negative_curvature and self._increases < self.config.max_damping_increases:
+            damping, self._increases = self._increased(damping), self._increases + 1
+            del solved  # large meshes have no memory for two solutions
+            solved = self._solve(matrix, gradient.ravel(), tolerance, damping)
+            count += solved.iterations
+        return solved, damping, count
 
     def _increased(self, damping: float) -> float:
         return max(self.config.damping_growth * damping, self.config.min_damping)

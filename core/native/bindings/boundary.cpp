@@ -72,9 +72,8 @@ void bind_closest_point(nb::module_ m) {
             "piece"_a, "weights"_a, "places"_a, "roots"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
             nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
             "The piece (s,) int32 on which each lies, -1 for none, its barycentric weights there (s, 3), and its\n"
-            "position (s, 3), infinite for none; the root (s,) int32 of the tree that is searched for each. Arrays "
-            "are\n"
-            "not copied; all but the roots are written.");
+            "position (s, 3), infinite for none; the root (s,) int32 of the tree that is searched for each. Arrays\n"
+            "are not copied; all but the roots are written.");
     m.def("means_beyond", &means_beyond, "trees"_a, "points"_a, "samples"_a, "examined"_a, "limits"_a, "near"_a,
           "beyond"_a, ReleaseGil(),
           "Write beyond (s,) bool: True where the mean of the four points of a row of samples (s, 4) int32, which\n"

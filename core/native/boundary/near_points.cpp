@@ -1,10 +1,9 @@
 #include "boundary/near_points.hpp"
 
-#include "boundary/four_pieces.hpp"
-
 #include <cmath>
 #include <vector>
 
+#include "boundary/four_pieces.hpp"
 #include "simd/threads.hpp"
 
 namespace hexmend {
