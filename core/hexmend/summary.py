@@ -23,7 +23,7 @@ class Summary:
 
     `nodes` counts nodes used by a hex; `locked_inverted` inverted hexes that fixed nodes alone keep inverted; `q_norm`
     is 1/sqrt(mean(1/q^2)), 0 if any q is 0; `objective` is the sum of eta(H)^2 at delta = 0, None if any hex is
-    inverted.
+    inverted; `min_jacobian` is a lower bound.
     """
 
     hexes: int = _figure("hexes", "Number of hexahedral elements.", format_count)
@@ -36,7 +36,7 @@ class Summary:
     inverted: int = _figure(
         "inverted",
         "Elements turned inside out at a corner: one of their eight corner tetrahedra has a determinant σ ≤ 0 (2.9). "
-        "A solver cannot use them.",
+        "A solver cannot use them. They are among the invalid ones.",
         format_count,
         -1,
     )
@@ -47,6 +47,20 @@ class Summary:
         format_count,
         -1,
         part_of="inverted",
+    )
+    invalid: int = _figure(
+        "invalid",
+        "Elements whose Jacobian determinant is not positive everywhere: the inverted ones, and those that are folded "
+        "between their corners. Certified by bounds; elements of second order by their own curved map.",
+        format_count,
+        -1,
+    )
+    min_jacobian: float = _figure(
+        "Jacobian min / max",
+        "Certified lower bound of the least Jacobian determinant in an element over the greatest in the same element: "
+        "1 for a parallelepiped, 0 or less for an invalid element.",
+        format_quality,
+        1,
     )
     q_min: float = _figure(
         "q min",
@@ -85,7 +99,7 @@ class Summary:
         hexes, nodes = count_phrase(self.hexes, "hex", "hexes"), count_phrase(self.nodes, "node")
         keys = ("q_min", "q_mean", "scaled_jacobian_min")
         qualities = ", ".join(f"{SUMMARY_QUANTITIES[key].label} {format_quality(getattr(self, key))}" for key in keys)
-        return f"<Summary: {hexes}, {nodes}, {self.inverted:,} inverted; {qualities}>"
+        return f"<Summary: {hexes}, {nodes}, {self.inverted:,} inverted, {self.invalid:,} invalid; {qualities}>"
 
     def to_dict(self) -> dict[str, float | int | None]:
         """Return the values by name."""

@@ -60,7 +60,7 @@ class Situation:
         self._outside = np.zeros(self.mesh.n_nodes, dtype=bool) if outside is None else outside
         self.smoother: Smoother = METHODS[last.method](**last.parameters)
         self.stop: StoppingCriteria = last.stop
-        self.quality: ElementQuality = measure(self.mesh.points, self.mesh.hexes)
+        self.quality: ElementQuality = measure(self.mesh.points, self.mesh.hexes, self.mesh.mid_nodes)
         is_locked = locked_hexes(self.mesh.points, self.mesh.hexes, self.mesh.fixed, self.quality.inverted)
         self.locked = np.flatnonzero(is_locked)
         self.unlocked = np.flatnonzero(self.quality.inverted & ~is_locked)

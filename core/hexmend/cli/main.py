@@ -1,7 +1,7 @@
 """The program `hexmend`: finds the command, runs it, and prints errors in one line.
 
 Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used, or memory does not suffice; 4 done, and
-hexes are still inverted, at their corners or between them; 128 plus the signal's number (130 for Ctrl-C) after an
+hexes are still invalid; 128 plus the signal's number (130 for Ctrl-C) after an
 interruption.
 
 Imports inside functions keep `hexmend --version` and `--help` quick. lazy_loader is not used: it gives modules but no

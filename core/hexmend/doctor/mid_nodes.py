@@ -1,4 +1,4 @@
-"""Problem of second-order hexes: mid-nodes that bend edges so far that the hex is inverted between sound corners."""
+"""Problem of second-order hexes: mid-nodes that bend edges so far that the hex is invalid between sound corners."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ import numpy as np
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_EDGES, MID_NODE_WEIGHTS, scaled_jacobians
+from hexmend.mesh.second_order import MID_EDGES, MID_NODE_WEIGHTS
 from hexmend.quality import corner_determinants
+from hexmend.quality.validity import Validity, certify
 from hexmend.terminal_text import count_phrase
 
 #: Columns of `mid_nodes` on each of the six faces: its four edges and its centre, (6, 5).
@@ -19,7 +20,7 @@ _ON_FACE = np.array(
 
 @register_problem
 class BentEdges(Problem):
-    """Second-order hexes whose corners are sound, and whose Jacobian is not positive at a node or Gauss point."""
+    """Second-order hexes whose corners are sound, and whose Jacobian is not positive everywhere."""
 
     name, title = "mid-nodes", "Mid-nodes"
     rank = 10
@@ -33,7 +34,7 @@ class BentEdges(Problem):
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         hexes = count_phrase(where.size, "hex of second order has", "hexes of second order have")
-        text = f"{hexes} sound corners, but a Jacobian that is not positive at a node or Gauss point."
+        text = f"{hexes} sound corners, but a Jacobian that is not positive everywhere."
         return self.finding(where, text, mendable=self.mend(mesh) is not mesh)
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -50,11 +51,10 @@ class BentEdges(Problem):
 
 
 def _bad_between_corners(mesh: Mesh, points: np.ndarray) -> np.ndarray:
-    """Mark second-order hexes that are inverted or flat at a node or Gauss point, but not at a corner, (m,) bool."""
+    """Mark second-order hexes that are invalid between corners that are not inverted, (m,) bool."""
     assert mesh.mid_nodes is not None
-    sound = (corner_determinants(points, mesh.hexes) > 0).all(axis=1)
-    least = scaled_jacobians(points, mesh.hexes, mesh.mid_nodes)
-    return sound & (np.nan_to_num(least, nan=1.0) <= 0)
+    sound = (corner_determinants(points, mesh.hexes) > 0).all(axis=1) & (mesh.mid_nodes >= 0).any(axis=1)
+    return sound & (certify(points, mesh.hexes, mesh.mid_nodes) != Validity.VALID)
 
 
 def _kept_mid_nodes(mesh: Mesh) -> np.ndarray:

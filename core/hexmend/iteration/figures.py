@@ -20,7 +20,7 @@ _HISTORY = (
         format_objective,
         -1,
     ),
-    *(SUMMARY_QUANTITIES[key] for key in ("q_min", "q_mean", "scaled_jacobian_min", "inverted")),
+    *(SUMMARY_QUANTITIES[key] for key in ("q_min", "q_mean", "scaled_jacobian_min", "inverted", "invalid")),
     Quantity(
         "largest_move",
         "largest move",

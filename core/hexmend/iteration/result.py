@@ -88,6 +88,11 @@ class Iteration:
         return self.quality.n_inverted
 
     @property
+    def invalid(self) -> int:
+        """Number of hexes whose det J is not certified as positive everywhere, the inverted ones among them."""
+        return self.quality.n_invalid
+
+    @property
     def q_min(self) -> float:
         """Least q(H)."""
         return float(self.quality.q.min())
@@ -104,10 +109,13 @@ class Iteration:
 
     def __repr__(self) -> str:
         qualities = f"q min {format_quality(self.q_min)}, q mean {format_quality(self.q_mean)}"
-        return f"<Iteration {self.number}: {self.inverted:,} inverted; {qualities}; move {self.largest_move:.2g}>"
+        counts = f"{self.inverted:,} inverted, {self.invalid:,} invalid"
+        return f"<Iteration {self.number}: {counts}; {qualities}; move {self.largest_move:.2g}>"
 
     def row(self) -> dict[str, float | int | str | None]:
-        """Row of the history: `iteration seconds objective q_min q_mean scaled_jacobian_min inverted largest_move`.
+        """Return the row of the history.
+
+        Its keys: `iteration seconds objective q_min q_mean scaled_jacobian_min inverted invalid largest_move`.
 
         `objective_formula` names the objective: stages of a recipe, and steps of a method that raises p, differ in it.
         """
@@ -120,6 +128,7 @@ class Iteration:
             "q_mean": self.q_mean,
             "scaled_jacobian_min": self.scaled_jacobian_min,
             "inverted": self.inverted,
+            "invalid": self.invalid,
             "largest_move": self.largest_move,
         }
 
@@ -241,7 +250,9 @@ class Result:
         before, after = self.before, self.after
         q = f"q min {format_quality(before.q_min)} -> {format_quality(after.q_min)}"
         count = count_phrase(self.iterations, "iteration")
-        inverted = f"{before.inverted:,} -> {after.inverted:,} inverted"
+        inverted = (
+            f"{before.inverted:,} -> {after.inverted:,} inverted, {before.invalid:,} -> {after.invalid:,} invalid"
+        )
         return f"<Result of {self.method}: {inverted}, {q}; {count}, {self.outcome.key}>"
 
     def _repr_html_(self) -> str:

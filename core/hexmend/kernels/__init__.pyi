@@ -32,6 +32,7 @@ from hexmend.kernels import sparsity as sparsity
 from hexmend.kernels import step_limits as step_limits
 from hexmend.kernels import structure as structure
 from hexmend.kernels import target as target
+from hexmend.kernels import validity as validity
 from hexmend.kernels import wavefronts as wavefronts
 from hexmend.kernels import worst_first as worst_first
 

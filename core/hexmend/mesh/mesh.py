@@ -123,7 +123,7 @@ class Mesh(MeshMotion):
         Parameters
         ----------
         *names : str
-            Names of materials and of sets, or "inverted"; the hexes of all of them together.
+            Names of materials and of sets, "inverted" or "invalid"; the hexes of all of them together.
         hexes : (k,) int or (m,) bool, optional
             Only hexes among these.
         box : ((x, y, z), (x, y, z)), optional

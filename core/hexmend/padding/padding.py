@@ -180,7 +180,7 @@ def _sheet(mesh: Mesh, name: str | None, around: str | None, rings: int) -> Shee
         return set_sheet(mesh, name)
     if around is None:
         return whole_sheet(mesh)
-    quality = measure(mesh.points, mesh.hexes)
+    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
     chosen = quality.inverted
     if around == "locked":
         chosen = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, chosen)

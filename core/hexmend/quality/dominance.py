@@ -8,7 +8,7 @@ from typing import Any
 from hexmend.quality.summary import SUMMARY_QUANTITIES
 
 #: Figures that are compared.
-KEY_FIGURES = ("inverted", "q_min", "q_mean", "scaled_jacobian_min")
+KEY_FIGURES = ("inverted", "invalid", "q_min", "q_mean", "scaled_jacobian_min")
 
 #: Largest difference by rounding alone.
 _ROUNDING = 1e-12
@@ -24,7 +24,7 @@ def dominates(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
 
     Examples
     --------
-    >>> given = {"inverted": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
+    >>> given = {"inverted": 0, "invalid": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
     >>> dominates(given | {"q_min": 0.5}, given), dominates(given | {"q_min": 0.5, "q_mean": 0.8}, given)
     (True, False)
     """
@@ -35,7 +35,7 @@ def dominates(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
 def dominating(results: Sequence[Mapping[str, Any]]) -> list[list[int]]:
     """Return for each result the positions of those that dominate it.
 
-    >>> figures = {"inverted": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
+    >>> figures = {"inverted": 0, "invalid": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
     >>> dominating([figures, figures | {"inverted": 2}, figures | {"q_min": 0.5, "q_mean": 0.8}])
     [[], [0], []]
     """

@@ -12,11 +12,12 @@ from hexmend.kernels import elements
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.validation import as_bools, as_hexes, as_points
+from hexmend.quality.validity import Validity, certify
 from hexmend.quantity import format_quality
 from hexmend.terminal_text import count_phrase
 
 #: Values of an `ElementQuality`.
-_VALUES = ("q", "sigma", "scaled_jacobian", "eta")
+_VALUES = ("q", "sigma", "scaled_jacobian", "eta", "validity")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -33,6 +34,8 @@ class ElementQuality:
         Scaled Jacobian, in [-1, 1].
     eta : (m,) float64
         Energy eta(H) at delta = 0, (B.20): 0 for a cube, +inf for an inverted hex.
+    validity : (m,) uint8
+        Numbers of `Validity`: whether det J is positive everywhere in the hex.
     against_target : bool
         True if q and eta are measured against the target of the mesh; see `measure_against_target`.
     """
@@ -41,6 +44,7 @@ class ElementQuality:
     sigma: np.ndarray
     scaled_jacobian: np.ndarray
     eta: np.ndarray
+    validity: np.ndarray
     against_target: bool = False
 
     @cached_property
@@ -53,16 +57,29 @@ class ElementQuality:
         """Number of hexes that are marked in `inverted`; the figure `inverted` of summaries and iterations."""
         return int(np.count_nonzero(self.inverted))
 
+    @cached_property
+    def invalid(self) -> np.ndarray:
+        """True for hexes whose det J is not certified as positive everywhere, also the inverted ones, (m,) bool."""
+        return self.inverted | (self.validity != Validity.VALID)
+
+    @cached_property
+    def n_invalid(self) -> int:
+        """Number of hexes that are marked in `invalid`; the figure `invalid` of summaries and iterations."""
+        return int(np.count_nonzero(self.invalid))
+
+    @property
+    def n_undecided(self) -> int:
+        """Number of hexes whose det J is within rounding of 0; they count as invalid."""
+        return int(np.count_nonzero(self.validity == Validity.UNDECIDED))
+
     def of(self, which: np.ndarray) -> ElementQuality:
         """Return the quality of some hexes, (m,) bool or (k,) int."""
-        return ElementQuality(
-            self.q[which], self.sigma[which], self.scaled_jacobian[which], self.eta[which], self.against_target
-        )
+        return ElementQuality(*(getattr(self, name)[which] for name in _VALUES), self.against_target)
 
-    def made_from(self, points: np.ndarray, hexes: np.ndarray) -> None:
-        """Note the points (n, 3) and hexes (m, 8) that were measured, if they are immutable: see `release`."""
+    def made_from(self, points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None = None) -> None:
+        """Note the arguments of `measure`, if they are immutable: see `release`."""
         if not (points.flags.writeable or hexes.flags.writeable):
-            self.__dict__["_source"] = points, hexes
+            self.__dict__["_source"] = points, hexes, mid_nodes
 
     def release(self) -> None:
         """Free the memory of the values; whoever reads one measures the hexes again.
@@ -70,7 +87,7 @@ class ElementQuality:
         Without effect where the points are not known, or may have changed.
         """
         if "_source" in self.__dict__:
-            for name in (*_VALUES, "inverted"):
+            for name in (*_VALUES, "inverted", "invalid"):
                 self.__dict__.pop(name, None)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -88,16 +105,18 @@ class ElementQuality:
     def __repr__(self) -> str:
         least = f"q min {format_quality(self.q.min())}" if len(self.q) else "no values"
         hexes = count_phrase(len(self.q), "hex", "hexes")
-        return f"<ElementQuality of {hexes}: {self.n_inverted:,} inverted; {least}>"
+        return f"<ElementQuality of {hexes}: {self.n_inverted:,} inverted, {self.n_invalid:,} invalid; {least}>"
 
 
-def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
+def measure(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None = None) -> ElementQuality:
     """Measure the quality of every hex.
 
     Parameters
     ----------
     points : (n, 3) float64
     hexes : (m, 8) int32
+    mid_nodes : (m, 19) int32, optional
+        As `Mesh.mid_nodes`: the validity of second-order hexes is that of their curved map; all else is of the corners.
 
     Returns
     -------
@@ -118,8 +137,8 @@ def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
     hexes = as_hexes(hexes, len(points))
     q, sigma, jacobian, eta = np.empty((4, len(hexes)))
     elements.measure(points, hexes, q, sigma, jacobian, eta)
-    quality = ElementQuality(q, sigma, jacobian, eta)
-    quality.made_from(points, hexes)
+    quality = ElementQuality(q, sigma, jacobian, eta, certify(points, hexes, mid_nodes))
+    quality.made_from(points, hexes, mid_nodes)
     return quality
 
 

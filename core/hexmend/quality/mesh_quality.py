@@ -85,7 +85,7 @@ def find_metric(name: str) -> Metric:
 
 def measure_mesh(mesh: Mesh) -> ElementQuality:
     """Measure the quality of every hex; the mesh remembers the number of inverted hexes for its representation."""
-    quality = measure(mesh.points, mesh.hexes)
+    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
     mesh._set(_inverted=quality.n_inverted)
     return quality
 

@@ -5,7 +5,12 @@ from __future__ import annotations
 from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary
 
 #: Quantities that must not become worse: name in reports, and key in `Summary`.
-REGRESSION_KEYS = {"inverted": "inverted", "q_min": "q_min", "scaled_jacobian": "scaled_jacobian_min"}
+REGRESSION_KEYS = {
+    "inverted": "inverted",
+    "invalid": "invalid",
+    "q_min": "q_min",
+    "scaled_jacobian": "scaled_jacobian_min",
+}
 
 #: Difference of q and scaled Jacobian, whose range is 1, from which on a value counts as worse: the last digits of a
 #: result depend on the tolerance of the run and on rounding.

@@ -15,11 +15,14 @@ from hexmend.mesh.validation import as_reals
 from hexmend.parameters import Parameter
 from hexmend.quality.mesh_quality import measure_mesh
 
+#: Names of sets of hexes that the quality determines.
+_BY_QUALITY = ("inverted", "invalid")
+
 _RINGS = Parameter("rings", int, 0, 0, None, None, "", "")
 
 
 def hexes_in_set(mesh: Mesh, name: str) -> np.ndarray:
-    """Return the hexes of an element set, or, for the name "inverted", the inverted hexes.
+    """Return the hexes of an element set, or, for the names "inverted" and "invalid", these hexes.
 
     Parameters
     ----------
@@ -38,9 +41,9 @@ def hexes_in_set(mesh: Mesh, name: str) -> np.ndarray:
     """
     if name in mesh.hex_sets:
         return np.asarray(mesh.hex_sets[name])
-    if name == "inverted":
-        return np.flatnonzero(measure_mesh(mesh).inverted)
-    raise unknown_set(name, [*mesh.hex_sets, "inverted"], "element set")
+    if name in _BY_QUALITY:
+        return np.flatnonzero(getattr(measure_mesh(mesh), name))
+    raise unknown_set(name, [*mesh.hex_sets, *_BY_QUALITY], "element set")
 
 
 def region(
@@ -56,8 +59,9 @@ def region(
     ----------
     mesh : Mesh
     *names : str
-        Names of element sets, materials, and sets of sides, nodes or quads, or "inverted"; the hexes of all of them
-        together. A set of sides has the hexes of its faces, another set those with a node in it. All hexes by default.
+        Names of element sets, materials, and sets of sides, nodes or quads, "inverted" or "invalid"; the hexes of all
+        of them together. A set of sides has the hexes of its faces, another set those with a node in it. All hexes by
+        default.
     hexes : (k,) int or (m,) bool, optional
         Only hexes among these, by number or as marks.
     box : ((x, y, z), (x, y, z)), optional
@@ -105,13 +109,13 @@ def region(
 def _hexes_of(mesh: Mesh, name: str) -> np.ndarray:
     """Return the hexes of a name of `region`."""
     materials = mesh.materials
-    if name in mesh.hex_sets or name == "inverted":
+    if name in mesh.hex_sets or name in _BY_QUALITY:
         return hexes_in_set(mesh, name)
     if materials is not None and name in materials.names:
         return np.flatnonzero(materials.of_hex == materials.names.index(name))
     if name in mesh.side_sets:
         return np.unique(np.asarray(mesh.side_sets[name])[:, 0])
-    known = [*dict.fromkeys([*set_names(mesh), *(materials.names if materials is not None else ())]), "inverted"]
+    known = [*dict.fromkeys([*set_names(mesh), *(materials.names if materials is not None else ())]), *_BY_QUALITY]
     if name not in known:
         raise unknown_set(name, known, "set or material")
     return np.flatnonzero(mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.hexes].any(axis=1))

@@ -64,5 +64,5 @@ def metric_statistics(mesh: Mesh, quality: ElementQuality | None = None) -> dict
     >>> metric_statistics(Mesh(UNIT_CUBE, [range(8)]))["max-angle"]
     MetricStatistics(min=90.0, mean=90.0, max=90.0, infinite=0, unacceptable=0)
     """
-    quality = measure(mesh.points, mesh.hexes) if quality is None else quality
+    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes) if quality is None else quality
     return {name: MetricStatistics.over(metric, metric.values(mesh, quality)) for name, metric in METRICS.items()}

@@ -7,6 +7,7 @@ import numpy as np
 from hexmend.aliases import old_keywords
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.measure import ElementQuality, locked_hexes, measure
+from hexmend.quality.validity import least_jacobian
 from hexmend.summary import SUMMARY_QUANTITIES, Summary
 
 __all__ = ["SUMMARY_QUANTITIES", "Summary", "objective", "summarise"]
@@ -32,7 +33,7 @@ def summarise(mesh: Mesh, quality: ElementQuality | None = None) -> Summary:
     >>> summarise(Mesh(UNIT_CUBE, [range(8)])).q_norm
     1.0
     """
-    quality = quality or measure(mesh.points, mesh.hexes)
+    quality = quality or measure(mesh.points, mesh.hexes, mesh.mid_nodes)
     mesh._set(_inverted=quality.n_inverted)  # for its representation
     q = quality.q
     return Summary(
@@ -41,6 +42,8 @@ def summarise(mesh: Mesh, quality: ElementQuality | None = None) -> Summary:
         free_nodes=int(np.count_nonzero(mesh.free)),
         inverted=quality.n_inverted,
         locked_inverted=int(np.count_nonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted))),
+        invalid=quality.n_invalid,
+        min_jacobian=least_jacobian(mesh.points, mesh.hexes, mesh.mid_nodes),
         q_min=float(q.min()),
         q_mean=float(q.mean()),
         q_max=float(q.max()),

@@ -58,7 +58,17 @@ def ended(outcome: str) -> str:
 LINES: tuple[Quantity, ...] = (
     *(
         SUMMARY_QUANTITIES[key]
-        for key in ("inverted", "q_min", "q_mean", "q_std", "q_max", "q_norm", "scaled_jacobian_min", "objective")
+        for key in (
+            "inverted",
+            "invalid",
+            "q_min",
+            "q_mean",
+            "q_std",
+            "q_max",
+            "q_norm",
+            "scaled_jacobian_min",
+            "objective",
+        )
     ),
     Quantity(
         "seconds",

@@ -7,6 +7,7 @@ from typing import Any
 
 from hexmend.parameters import declared
 from hexmend.run.recipe import Stage
+from hexmend.terminal_text import count_phrase
 
 
 def describe_change(old: Stage, new: Stage) -> str:
@@ -26,6 +27,21 @@ def describe_change(old: Stage, new: Stage) -> str:
     own = [f"{name} = {_format(value)}" for name, value in new.smoother.values().items() if value != defaults[name]]
     named = f" ({', '.join(own)})" if own else ""
     return ", ".join([f"{new.smoother.title}{named} takes over from {old.smoother.title}", *limits])
+
+
+def invalid_phrase(inverted: int, invalid: int) -> str:
+    """Say how many hexes of a result are inverted, and how many more are invalid between their corners.
+
+    >>> invalid_phrase(0, 0), invalid_phrase(2, 3), invalid_phrase(0, 1)
+    ('no hex is invalid', '2 hexes still inverted and 1 invalid inside', '1 hex still invalid inside')
+    """
+    if not invalid:
+        return "no hex is invalid"
+    between = invalid - inverted
+    if not inverted:
+        return f"{count_phrase(between, 'hex', 'hexes')} still invalid inside"
+    more = f" and {between:,} invalid inside" if between else ""
+    return f"{count_phrase(inverted, 'hex', 'hexes')} still inverted{more}"
 
 
 def kept_message(number: int) -> str:

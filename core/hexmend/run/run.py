@@ -17,7 +17,7 @@ from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
 from hexmend.quality.material_volumes import MaterialVolume, volume_changes
 from hexmend.run.interface_messages import interface_message
-from hexmend.run.messages import describe_change, kept_message
+from hexmend.run.messages import describe_change, invalid_phrase, kept_message
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.shape_watch import ShapeWatch
 from hexmend.run.stage_run import StageRun
@@ -68,7 +68,7 @@ class Run(Iterator[Iteration]):
             mesh = with_more_rules(mesh, MotionRules(periodic=mesh.periodic_pairs))
         self.mesh = mesh
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
-        quality = measure(mesh.points, mesh.hexes)
+        quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
         self._shapes = ShapeWatch(mesh, quality)
         smoother = self._stages[0].smoother
         judged = measure_against_target(self._shapes.with_target(smoother), mesh.points, quality)
@@ -198,9 +198,9 @@ class Run(Iterator[Iteration]):
     def _message(
         self, before: Summary, after: Summary, volumes: Mapping[str, MaterialVolume], walls: tuple[LayerReport, ...]
     ) -> str:
-        at, inverted = self.last, self.best.quality.n_inverted
+        at, inverted, invalid = self.last, self.best.quality.n_inverted, self.best.quality.n_invalid
         text = self.outcome.value if self.outcome is not None else "Running."
-        left = f"{count_phrase(inverted, 'hex', 'hexes')} still inverted" if inverted else "no hex is inverted"
+        left = invalid_phrase(inverted, invalid)
         longest = at.largest_move if at.number else 0.0
         move = f"the last one moved nodes by up to {longest:.2g} mean edge lengths; " if longest else ""
         decided = self.decisions
@@ -212,7 +212,7 @@ class Run(Iterator[Iteration]):
         words.append(interface_message(self.mesh, self.mesh.with_points(self.best.points), volumes))
         target_q = self._target_q
         words.append(describe_regressions(before, after, target_q))
-        if not inverted:
+        if not invalid:
             words.append(self.stage.smoother.regression_hint(regressions(before, after, target_q)))
         result = None if self.outcome is None else self._result_mesh
         words.append(self._shapes.message(self.stage.smoother, walls, result))

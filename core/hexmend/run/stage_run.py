@@ -141,8 +141,10 @@ class StageRun:
         if not np.isfinite(move):
             self.end(Outcome.NOT_FINITE)
             return None
-        quality = step.quality if step.quality is not None else measure(points, self._mesh.hexes)
-        quality.made_from(points, self._mesh.hexes)
+        quality = step.quality
+        if quality is None or self._mesh.mid_nodes is not None:  # methods measure the corners alone
+            quality = measure(points, self._mesh.hexes, self._mesh.mid_nodes)
+        quality.made_from(points, self._mesh.hexes, self._mesh.mid_nodes)
         diagnostics = {**step.diagnostics, "stage": self.number, "method": self.smoother.name}
         judged = measure_against_target(self._mesh, points, quality)
         number, norm = self.last.number + 1, step.norm or self.smoother.norm

@@ -173,9 +173,10 @@ class Smoother(Parametrised, ABC):
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
-        Inverted hexes come first, then the least q(H). Of an optimiser it counts only whether that is visibly lower
-        than at the start: its iterates improve by the objective, not by the least q(H). With a target, q(H) is that
-        against the target; of an optimiser it counts then whether the objective is higher than at the start.
+        Invalid hexes come first, then inverted ones, then the least q(H). Of an optimiser it counts only whether that
+        is visibly lower than at the start: its iterates improve by the objective, not by the least q(H). With a target,
+        q(H) is that against the target; of an optimiser it counts then whether the objective is higher than at the
+        start.
 
         Parameters
         ----------
@@ -186,10 +187,10 @@ class Smoother(Parametrised, ABC):
         -------
         tuple of float
         """
-        least = float(now.q.min())
+        least, counts = float(now.q.min()), (now.n_invalid, now.n_inverted)
         if self.optimises and now.against_target:
-            return now.n_inverted, objective_of_sound(now, self.norm) > objective_of_sound(start, self.norm)
-        return now.n_inverted, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least
+            return *counts, objective_of_sound(now, self.norm) > objective_of_sound(start, self.norm)
+        return *counts, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least
 
     def rank_by_points(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
         """Sort keys of an iterate after those of `rank`, which its quality alone does not determine; none by default.

@@ -13,6 +13,10 @@ _ANGLE = "of two adjacent edges over the 24 corners of the faces"
 ABAQUS = Solver(
     name="abaqus",
     title="Abaqus",
+    tests_validity=(
+        "Abaqus tests volumes and angles, and the Jacobian at integration points during the analysis: it may run with "
+        "hexes that are inverted at a corner, or invalid inside."
+    ),
     own_checks=(
         Check(
             "volume", lambda measures: measures.volumes, "hexes", 1, 0.0, Level.ERROR,

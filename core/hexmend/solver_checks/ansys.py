@@ -63,6 +63,10 @@ _SECOND = "hexes with mid-nodes"
 ANSYS = Solver(
     name="ansys",
     title="ANSYS",
+    tests_validity=(
+        "ANSYS tests the Jacobian at the corners, of second order at the nodes: it refuses inverted hexes, and does "
+        "not see those that are invalid inside."
+    ),
     own_checks=(
         *_pair("aspect ratio", lambda measures: measures.quads.aspect_ratio, 20.0, 1e6, _ASPECT),
         *_pair("parallel deviation", _of("parallel_deviation", second_order=False), 70.0, 150.0, _PARALLEL, "degrees"),

@@ -13,6 +13,10 @@ _THEORY = "LS-DYNA Theory Manual, time step calculations for solid elements"
 LSDYNA = Solver(
     name="lsdyna",
     title="LS-DYNA",
+    tests_validity=(
+        "LS-DYNA tests the volume of an element, at its integration points: it may run with hexes that are inverted at "
+        "a corner, or invalid inside."
+    ),
     own_checks=(
         Check(
             "volume", lambda measures: measures.volumes, "hexes", 1, 0.0, Level.ERROR,

@@ -27,7 +27,7 @@ class Measures:
 
     def __init__(self, mesh: Mesh, quality: ElementQuality | None = None):
         self.mesh = mesh
-        self.quality = measure(mesh.points, mesh.hexes) if quality is None else quality
+        self.quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes) if quality is None else quality
 
     @cached_property
     def cells(self) -> CellGeometry:

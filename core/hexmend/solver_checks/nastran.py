@@ -46,6 +46,10 @@ def _gradients(place: np.ndarray) -> np.ndarray:
 NASTRAN = Solver(
     name="nastran",
     title="MSC Nastran",
+    tests_validity=(
+        "MSC Nastran tests the Jacobian at the Gauss points: it may run with hexes that are inverted at a corner, or "
+        "invalid inside."
+    ),
     own_checks=(
         Check(
             "aspect ratio (HEX_AR)", lambda measures: measures.edge_ratios, "hexes", -1, 100.0, Level.WARNING,

@@ -59,6 +59,10 @@ def aspect_ratios(measures: Measures) -> np.ndarray:
 OPENFOAM = Solver(
     name="openfoam",
     title="OpenFOAM",
+    tests_validity=(
+        "OpenFOAM tests volumes and the pyramids over the faces of a cell, not the Jacobian: it may run with hexes "
+        "that are inverted at a corner, or invalid inside."
+    ),
     own_checks=(
         Check(
             "non-orthogonality", _internal("non_orthogonality"), "internal faces", -1, 70.0, Level.WARNING, _ANGLE,

@@ -8,8 +8,8 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality.measure import ElementQuality
 from hexmend.registry import Registry
 from hexmend.solver_checks.check import Check, CheckResult
-from hexmend.solver_checks.inversion import INVERSION
 from hexmend.solver_checks.measures import Measures
+from hexmend.solver_checks.validity import VALIDITY
 from hexmend.terminal_text import count_phrase
 
 #: Reservation on limits whose document was not at hand: the values are quoted from others.
@@ -23,6 +23,8 @@ class Solver:
     Parameters
     ----------
     name, title : str
+    tests_validity : str
+        Where the solver itself tests the Jacobian of a hex, as a sentence: which invalid hexes it refuses.
     own_checks : tuple of Check
         Those of the solver itself.
     omitted : str
@@ -33,14 +35,15 @@ class Solver:
 
     name: str
     title: str
+    tests_validity: str
     own_checks: tuple[Check, ...]
     omitted: str
     reservation: str = ""
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Its own checks, and that for inverted hexes, which every solver has."""
-        return *self.own_checks, INVERSION
+        """Its own checks, and that for invalid hexes, which every solver has."""
+        return *self.own_checks, VALIDITY
 
     def register(self) -> Solver:
         """Add the solver to `SOLVERS` under its name and return it; raises `ValueError` if the name is taken."""

@@ -6,6 +6,7 @@
 #include "mesh/refinement.hpp"
 #include "mesh/rows.hpp"
 #include "mesh/sheets.hpp"
+#include "mesh/validity.hpp"
 
 namespace hexmend {
 
@@ -54,6 +55,29 @@ void bind_faces(nb::module_ m) {
           "out.\n\n"
           "Of a face a, b, c, d it is (a + b + c + d) . (c - a) x (d - b) / 24, in the cube of the mesh's unit of\n"
           "length.");
+}
+
+void bind_validity(nb::module_ m) {
+    m.doc() =
+        "Validity of hexes: bounds of det J, the determinant of the map from the unit cube, everywhere in them.\n\n"
+        "Second-order hexes are given by their 27 nodes each, x slowest and z fastest: nodes (m, 81) float64.";
+    m.def(
+        "certify", &certify, "points"_a, "hexes"_a, "validity"_a, ReleaseGil(),
+        "Write the validity (m,) uint8 of hexes: 0 where det J is positive everywhere, 1 where it is not at a corner,\n"
+        "2 where it is not elsewhere, 3 where that is undecided: within rounding of 0.");
+    m.def("certify_quadratic", &certify_quadratic, "nodes"_a, "validity"_a, ReleaseGil(),
+          "The same of second-order hexes.");
+    m.def("jacobian_bounds", &jacobian_bounds, "points"_a, "hexes"_a, "bounds"_a, ReleaseGil(),
+          "Write a lower bound of the least det J of each hex, and an upper bound of the greatest, (m, 2) float64.\n\n"
+          "They differ from the extremes by at most a hundredth of these, or 1e-7 of the greatest coefficient.");
+    m.def("jacobian_bounds_quadratic", &jacobian_bounds_quadratic, "nodes"_a, "bounds"_a, ReleaseGil(),
+          "The same of second-order hexes.");
+    m.def("least_jacobian", &least_jacobian, "points"_a, "hexes"_a, ReleaseGil(),
+          "A lower bound, from -1 to 1, of the least det J over the greatest of the same hex, of all hexes.");
+    m.def("least_jacobian_quadratic", &least_jacobian_quadratic, "nodes"_a, ReleaseGil(),
+          "The same of second-order hexes.");
+    m.def("jacobian_coefficients", &jacobian_coefficients, "points"_a, "hexes"_a, "coefficients"_a, ReleaseGil(),
+          "Write the Bernstein coefficients of det J of each hex, (m, 27) float64, x slowest and z fastest.");
 }
 
 void bind_hex_mesh(nb::module_ m) {

@@ -34,7 +34,7 @@ def test_the_worst_are_the_first_of_all_in_order(seed, count, better):
     random = np.random.default_rng(seed)
     values, jacobian = random.integers(0, 6, (2, 30)) / 5.0
     sigma = random.choice([-1.0, 1.0], 30, p=[0.3, 0.7])
-    figures = ElementQuality(values, sigma, jacobian, values)
+    figures = ElementQuality(values, sigma, jacobian, values, (sigma <= 0).astype(np.uint8))
     got = rank_worst(values, figures, count, better)
     everything = sorted(range(30), key=lambda h: (better * values[h], jacobian[h], h))
     assert got.tolist() == everything[:count]
@@ -42,7 +42,7 @@ def test_the_worst_are_the_first_of_all_in_order(seed, count, better):
 
 def test_what_has_no_value_is_the_worst_whichever_way_is_better():
     values = np.array([0.5, np.nan, 3.0, np.inf])
-    figures = ElementQuality(values, np.ones(4), np.zeros(4), values)
+    figures = ElementQuality(values, np.ones(4), np.zeros(4), values, np.zeros(4, np.uint8))
     assert rank_worst(values, figures, 4).tolist() == [1, 0, 2, 3]
     assert rank_worst(values, figures, 3, better=-1).tolist() == [1, 3, 2]
     assert np.isnan(values[1])  # not written into

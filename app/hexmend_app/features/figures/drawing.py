@@ -113,7 +113,7 @@ def _row(record: RunRecord, number: int, mesh: Mesh) -> Row:
     """Return an iteration of a run as a row of a comparison."""
     seconds = float(record.rows[number]["seconds"])
     outcome = "" if number == record.result else "stopped"
-    summary = summarise(mesh, measure(mesh.points, mesh.hexes))
+    summary = summarise(mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes))
     work = record.work
     parameters = {} if work is None or isinstance(work, Recipe) else work.values()
     return Row(record.title, parameters, outcome, record.message, mesh, summary, number, seconds)

@@ -29,7 +29,7 @@ def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
         If the suffix is not .csv or the file cannot be written; an existing file is left unchanged.
     """
     suffix_for(Path(path), "a list", (".csv",))
-    worst, out = WorstHexes.of(mesh, measure(mesh.points, mesh.hexes), metric), io.StringIO()
+    worst, out = WorstHexes.of(mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes), metric), io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["hex", metric, "scaled-jacobian", "state", *(["id"] if worst.ids is not None else [])])
     columns = [worst.hexes.tolist(), worst.values.tolist(), worst.jacobians.tolist(), worst.states]

@@ -172,7 +172,7 @@ class FeatureHistogram(Feature):
         if known is not None and known[0] == self.metric and known[1] is snapshot.points:
             return known
         mesh = self._document.now.mesh.with_points(snapshot.points)
-        values = metric_values(self.metric, mesh, measure(mesh.points, mesh.hexes))
+        values = metric_values(self.metric, mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes))
         return self.metric, snapshot.points, values
 
     # Files

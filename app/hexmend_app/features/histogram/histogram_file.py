@@ -112,7 +112,7 @@ def _count(metric: str, drawn: Sequence[tuple[str, str, bool, Mesh]], bins: int,
     """Count the hexes of the meshes on the axis that fits the first."""
     axis, lines = None, []
     for name, colour, filled, mesh in drawn:
-        figures = measure(mesh.points, mesh.hexes)
+        figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
         values = metric_values(metric, mesh, figures)
         axis = axis or Axis.fitted(metric, values, figures.inverted)
         distribution = distribute(values, figures.inverted, axis, bins)

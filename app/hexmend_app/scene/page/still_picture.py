@@ -61,7 +61,7 @@ def write_picture(
     prepare_off_screen()
     path, first = Path(path), meshes[0]
     named = zip(names or [mesh.name for mesh in meshes], meshes, strict=True)
-    page_meshes = [PageMesh(name, mesh, measure(mesh.points, mesh.hexes)) for name, mesh in named]
+    page_meshes = [PageMesh(name, mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes)) for name, mesh in named]
     page_meshes[0] = replace(
         page_meshes[0],
         movement=_movement(scene, page_meshes, opened or first, since, since_name),
@@ -84,7 +84,7 @@ def moving(scene: Scene) -> bool:
 def movement_since(since: Mesh, name: str, mesh: Mesh, opened: Mesh) -> Displacement:
     """Return the movement of a mesh since an earlier state, in edge lengths of the mesh as opened."""
     reference = ReferenceState(since.points, measure(since.points, since.hexes), name)
-    return Displacement(opened, reference, mesh.points, measure(mesh.points, mesh.hexes))
+    return Displacement(opened, reference, mesh.points, measure(mesh.points, mesh.hexes, mesh.mid_nodes))
 
 
 def _movement(

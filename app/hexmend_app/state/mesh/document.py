@@ -37,7 +37,7 @@ class State:
     @classmethod
     def of(cls, mesh: Mesh) -> State:
         """Measure a mesh and return its state."""
-        figures = measure(mesh.points, mesh.hexes)
+        figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
         return cls(mesh, figures, summarise(mesh, figures))
 
 

@@ -117,7 +117,7 @@ def _result_of(row: Row, initial: Mesh) -> MethodResult:
     if row.mesh is None:
         return MethodResult(row, None)
     mesh = initial.with_points(row.mesh.points)
-    figures = measure(mesh.points, mesh.hexes)
+    figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
     return MethodResult(replace(row, mesh=mesh), State(mesh, figures, summarise(mesh, figures)))
 
 

@@ -198,7 +198,7 @@ class _States:
             mesh = self._meshes[number]
             key = id(mesh.points), id(mesh.hexes)
             if key not in self._figures:
-                self._figures[key] = measure(mesh.points, mesh.hexes)
+                self._figures[key] = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
             self._states[number] = State(mesh, self._figures[key], summarise(mesh, self._figures[key]))
         return self._states[number]
 

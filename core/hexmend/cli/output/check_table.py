@@ -20,6 +20,7 @@ def print_checks(report: Report) -> None:
         rows.append([result.check.name, value, result.check.limit_text, result.check.unit or "–", counted, verdict])
     print_columns(["Check", "Worst", "Limit", "Unit", "Beyond", "Verdict"], rows)
     print(report.sentence)
+    print(f"note: {report.solver.tests_validity}")
     print(f"note: {report.solver.omitted}")
     if report.solver.reservation:
         print(f"note: Limits and factors are {report.solver.reservation}.")

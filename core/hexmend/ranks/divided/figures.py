@@ -8,6 +8,7 @@ from hexmend.kernels import elements
 from hexmend.mesh.edge_length import edge_lengths, robust_mean, sample_stride
 from hexmend.quality import measure
 from hexmend.quality.measure import locked_hexes
+from hexmend.quality.validity import least_jacobian
 from hexmend.ranks.rank_part import RankPart
 from hexmend.summary import Summary
 
@@ -35,12 +36,15 @@ def summarise_part(part: RankPart, points: np.ndarray) -> Summary:
     inverted = ranks.sum(int(np.count_nonzero(quality.inverted & own)))
     least = ranks.least(float(q.min(initial=np.inf)))
     squares = ranks.sum(float(np.sum(1 / np.square(q[q > 0]))))
+    lowest = least_jacobian(points, np.ascontiguousarray(hexes[own])) if own.any() else 1.0
     total = ranks.sum(float(np.square(quality.eta[own]).sum())) if not inverted else np.inf
     return Summary(
         hexes=m,
         nodes=ranks.sum(int(np.count_nonzero(part.owned))),
         free_nodes=ranks.sum(int(np.count_nonzero(part.mesh.free & part.owned))),
         inverted=inverted,
+        invalid=ranks.sum(int(np.count_nonzero(quality.invalid & own))),
+        min_jacobian=ranks.least(lowest),
         locked_inverted=ranks.sum(int(np.count_nonzero(locked & own))),
         q_min=least,
         q_mean=mean,

@@ -43,11 +43,11 @@ class Mend(MendSettings):
     def rank_on(self, ranks: Ranks, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
-        Inverted hexes come first, then whether a guarded figure is lower than at the start, then whether the objective
-        of the sound hexes, with the highest p that was asked for, is higher. With a target a fall counts from
-        `BalanceConfig.target_fall` on: as given, a mesh may have better corners than hexes of the lengths that are
-        asked for. The goal balanced guards the figures of all hexes but those that are inverted at the start and still
-        are.
+        Invalid hexes come first, then inverted ones, then whether a guarded figure is lower than at the start, then
+        whether the objective of the sound hexes, with the highest p that was asked for, is higher. With a target a fall
+        counts from `BalanceConfig.target_fall` on: as given, a mesh may have better corners than hexes of the lengths
+        that are asked for. The goal balanced guards the figures of all hexes but those that are inverted at the start
+        and still are.
 
         Parameters
         ----------
@@ -61,9 +61,9 @@ class Mend(MendSettings):
         tuple of float
             The same on all ranks.
         """
-        inverted = ranks.sum(now.n_inverted)
+        counts = ranks.sum(now.n_invalid), ranks.sum(now.n_inverted)
         if self.balances:
-            return inverted, self._lowers(ranks, start, now)
+            return *counts, self._lowers(ranks, start, now)
         share = 1 - BALANCE.target_fall if now.against_target and not self.guard else 1.0
         least = ranks.least(_least(now.scaled_jacobian))
         fallen = (
@@ -72,11 +72,11 @@ class Mend(MendSettings):
         )
         harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
-            return inverted, harmed, -round(least, _LEAST_DIGITS)
+            return *counts, harmed, -round(least, _LEAST_DIGITS)
         if self.goal == "time-step":  # the time step itself comes last, see `rank_by_points`
-            return inverted, harmed if self.guard else False
+            return *counts, harmed if self.guard else False
         before, after = (ranks.sum(objective_of_sound(of, self.norm)) for of in (start, now))
-        return inverted, harmed, after > before
+        return *counts, harmed, after > before
 
     def _lowers(self, ranks: Ranks, start: ElementQuality, now: ElementQuality) -> bool:
         """Return True if q min, the minimum scaled Jacobian or, of a sound mesh, q mean is lower than at the start."""
@@ -100,7 +100,7 @@ class Mend(MendSettings):
         return (-least_heights(points, hexes).min(),) if self.goal == "time-step" else ()
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
-        if self.balances or self.maximises_minimum or "inverted" in worse:
+        if self.balances or self.maximises_minimum or {"inverted", "invalid"} & set(worse):
             return ""
         if "scaled_jacobian" in worse:
             return "With goal=scaled-jacobian the minimum scaled Jacobian rises instead; with guard=true neither falls."

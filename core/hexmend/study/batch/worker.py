@@ -133,7 +133,7 @@ def _run_peer(case: PeerCase, mesh: Mesh, task: Task) -> tuple[Mesh, dict[str, A
 
 def _figures(mesh: Mesh) -> dict[str, Any]:
     """Return the figures of `Summary`, and the objective with p = 1."""
-    quality = measure(mesh.points, mesh.hexes)
+    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
     return summarise(mesh, quality).to_dict() | {"objective_p1": objective(quality, p=1.0)}
 
 

@@ -25,7 +25,7 @@ class Judgement:
     Parameters
     ----------
     fit : bool
-        True if no hex is inverted, at its corners or between them, the doctor finds no problem (separate parts are
+        True if no hex is invalid, at its corners or between them, the doctor finds no problem (separate parts are
         none), and no check of the user's solver fails.
     sentence : str
     command : str
@@ -68,9 +68,14 @@ class Judgement:
             verb = "is" if inverted == 1 else "are"
             sentence = f"Not fit for solving: {inverted:,} of {count_phrase(total, 'hex', 'hexes')} {verb} inverted."
             return cls(False, sentence, _untangling(path, quality, locking))
-        if second_order is not None and second_order.non_positive:
+        if second_order is not None and second_order.invalid:
             sentence = f"Not fit for solving: of the hexes of second order {second_order.phrase}."
             return cls(False, sentence, shlex.join(["hexmend", path]))
+        if invalid := quality.n_invalid:
+            counted = f"{invalid:,} of {count_phrase(total, 'hex', 'hexes')} {'is' if invalid == 1 else 'are'}"
+            undecided = f" ({quality.n_undecided:,} of them undecided)" if quality.n_undecided else ""
+            sentence = f"Not fit for solving: {counted} invalid inside, between positive corners{undecided}."
+            return cls(False, sentence, _command("smooth", path))
         if faults := [finding for finding in findings if finding.kind != "parts"]:
             return cls(False, f"Not fit for solving: {_kinds(faults)}.", shlex.join(["hexmend", path]))
         if checks is not None and checks.verdict == "failed":
@@ -84,7 +89,7 @@ class Judgement:
             sentence = f"Fit for solving, {but}: {counted} a scaled Jacobian below {limit:g}."
             return cls(True, sentence, _command("smooth", path))
         fit = f"Fit for solving, {condition}" if condition else "Fit for solving"
-        sentence = f"{fit}: no hex is inverted or has a scaled Jacobian below {limit:g}."
+        sentence = f"{fit}: no hex is invalid or has a scaled Jacobian below {limit:g}."
         return cls(True, sentence, shlex.join(["hexmend", path]))
 
     @property

@@ -41,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
     solver = None if args.solver is None else _known_solver(args.solver)  # before a long read
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
-    quality = measure(mesh.points, mesh.hexes)
+    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
     summary = summarise(mesh, quality)
     metrics = metric_statistics(mesh, quality) if args.metrics else {}
     second_order = summarise_second_order(mesh)
@@ -108,7 +108,7 @@ def _print_json(
 def _examine(mesh: Mesh, all_searches: bool, second_order: SecondOrderSummary | None) -> tuple[Finding, ...]:
     """Return the doctor's findings; those of mid-nodes also in a quick search where a Jacobian is not positive."""
     findings = examine(mesh, quick=not all_searches)
-    if all_searches or second_order is None or not second_order.non_positive:
+    if all_searches or second_order is None or not second_order.invalid:
         return findings
     bent = PROBLEMS["mid-nodes"].find(mesh)
     return findings if bent is None else (*findings, bent)

@@ -18,7 +18,7 @@ from hexmend.run import iterate
 
 
 def run(args: argparse.Namespace) -> int:
-    """Pad the mesh, mend it, write it and the report; return 4 if hexes are inverted."""
+    """Pad the mesh, mend it, write it and the report; return 4 if hexes are invalid."""
     writer_for(args.output, args.mesh)  # raises before the run, and not after it
     check_targets(args.mesh, args.output, args.json)
     mesh = read(args.mesh, as_is=args.as_is)
@@ -38,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
         print_summaries(f"{args.mesh}: padding", ["before", "after"], [padding.before, padding.after])
         print(padding.message)
         print(written)
-    return 4 if padding.after.inverted else 0
+    return 4 if padding.after.invalid else 0
 
 
 def _record(padding: Padding) -> dict[str, Any]:

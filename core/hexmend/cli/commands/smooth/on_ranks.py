@@ -39,7 +39,7 @@ _SINGLE = "recipe", "ridges", "only", "rings", "save_recipe", "history"
 
 
 def run(args: argparse.Namespace) -> int:
-    """Smooth a mesh on all ranks of the program. Returns 4 on rank 0 if hexes are still inverted."""
+    """Smooth a mesh on all ranks of the program. Returns 4 on rank 0 if hexes are still invalid."""
     if local_ranks() >= (os.cpu_count() or 1):  # ranks that wait leave the processor to others
         os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
     comm = import_module("mpi4py.MPI").COMM_WORLD  # which begins MPI

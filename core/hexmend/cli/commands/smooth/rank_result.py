@@ -82,9 +82,8 @@ class RankResult:
 
     @property
     def status(self) -> int:
-        """Exit status of the program: 4 if hexes are still inverted, at their corners or between them."""
-        bent = self.second_order is not None and self.second_order.is_bent
-        return 4 if self.summaries[1].inverted or bent else 0
+        """Exit status of the program: 4 if hexes are still invalid."""
+        return 4 if self.summaries[1].invalid else 0
 
     def record(self) -> dict[str, object]:
         """Return the report of --json, with the peak of memory, MiB, and the threads of each rank."""

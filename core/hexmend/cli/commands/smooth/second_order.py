@@ -18,7 +18,7 @@ class SecondOrderChange:
     ----------
     before, after : SecondOrderSummary or None
     advice : str
-        Sentences about hexes that are inverted between sound corners, and the command that repairs them; "" if none is.
+        Sentences about hexes that are invalid between sound corners, and the command that repairs them; "" if none is.
     """
 
     before: SecondOrderSummary | None
@@ -29,12 +29,7 @@ class SecondOrderChange:
     def of(cls, given: Mesh, result: Mesh, path: str) -> SecondOrderChange:
         """Summarise the mesh as given and the result, which is written to `path`."""
         before, after = summarise_second_order(given), summarise_second_order(result)
-        return cls(before, after, _advice(path, result) if after is not None and after.non_positive else "")
-
-    @property
-    def is_bent(self) -> bool:
-        """True if the result has hexes whose Jacobian is not positive."""
-        return self.after is not None and self.after.non_positive > 0
+        return cls(before, after, _advice(path, result) if after is not None and after.invalid else "")
 
     @property
     def lines(self) -> list[str]:

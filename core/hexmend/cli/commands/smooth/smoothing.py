@@ -39,7 +39,7 @@ from hexmend.terminal_text import install_hint
 
 
 def run(args: argparse.Namespace) -> int:
-    """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still inverted, between corners too."""
+    """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still invalid."""
     if _is_one_of_several_ranks():
         return _run_on_ranks(args)
     method, limits = method_and_limits(args)
@@ -82,7 +82,7 @@ def run(args: argparse.Namespace) -> int:
             _print_advice(args, result, _outside(mesh, pinned), kept)
         elif second_order.advice:
             print(second_order.advice)
-    return 4 if result.after.inverted or second_order.is_bent else 0
+    return 4 if result.after.invalid else 0
 
 
 def _is_one_of_several_ranks() -> bool:

@@ -1,0 +1,156 @@
+"""Validity of hexes: whether det J, the determinant of the map from the unit cube, is positive everywhere in them.
+
+A hex may be invalid although all its corners have a positive determinant. det J is a polynomial, whose values lie
+between its least and greatest Bernstein coefficient: a hex counts as valid only where these prove it.
+
+Johnen, Remacle, Geuzaine: Geometrical validity of curvilinear finite elements, J. Comput. Phys. 233 (2013); Johnen,
+Weill, Remacle: Robust and efficient validation of the linear hexahedral element, Proc. Eng. 203 (2017).
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+import numpy as np
+
+from hexmend.kernels import validity as kernels
+from hexmend.mesh.second_order.curved_geometry import hex_nodes
+from hexmend.mesh.second_order.mid_nodes import NODE_POSITIONS
+from hexmend.mesh.second_order.shape_functions import lagrange
+
+#: Row of `NODE_POSITIONS` of each node of a lattice 3 x 3 x 3, x slowest and z fastest, as the kernels take them.
+_LATTICE = np.lexsort(NODE_POSITIONS.T[::-1])
+
+#: Second-order hexes whose nodes are gathered at a time.
+_CHUNK = 1 << 12
+
+
+class Validity(IntEnum):
+    """Validity of a hex; all but VALID count as invalid."""
+
+    VALID = 0
+    #: det J is not positive at a corner.
+    INVERTED = 1
+    #: det J is positive at the corners, and not positive elsewhere.
+    INVALID_INSIDE = 2
+    #: det J is within rounding of 0, so that neither was shown.
+    UNDECIDED = 3
+
+
+def certify(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None = None) -> np.ndarray:
+    """Find the validity of hexes.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    mid_nodes : (m, 19) int32, optional
+        As `Mesh.mid_nodes`: hexes that have some are judged by the map of the second order.
+
+    Returns
+    -------
+    (m,) uint8
+        Numbers of `Validity`.
+
+    Examples
+    --------
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
+    >>> certify(UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
+    array([0], dtype=uint8)
+    """
+    found = np.empty(len(hexes), dtype=np.uint8)
+    kernels.certify(points, hexes, found)
+    for some in _second_order(mid_nodes):
+        part = np.empty(len(some), dtype=np.uint8)
+        kernels.certify_quadratic(_nodes(points, hexes, mid_nodes, some), part)
+        found[some] = part
+    return found
+
+
+def jacobian_bounds(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None = None) -> np.ndarray:
+    """Compute a lower bound of the least det J of each hex and an upper bound of the greatest.
+
+    Parameters are those of `certify`.
+
+    Returns
+    -------
+    (m, 2) float64
+        In the cube of the points' unit of length. Each is within a hundredth of the extreme, or within 1e-7 of the
+        greatest coefficient.
+
+    Examples
+    --------
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
+    >>> jacobian_bounds(2 * UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
+    array([[8., 8.]])
+    """
+    bounds = np.empty((len(hexes), 2))
+    kernels.jacobian_bounds(points, hexes, bounds)
+    for some in _second_order(mid_nodes):
+        part = np.empty((len(some), 2))
+        kernels.jacobian_bounds_quadratic(_nodes(points, hexes, mid_nodes, some), part)
+        bounds[some] = part
+    return bounds
+
+
+def least_jacobian(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None = None) -> float:
+    """Compute a lower bound of the least det J over the greatest of the same hex, of all hexes: from -1 to 1.
+
+    Parameters are those of `certify`. 1 for parallelepipeds; 0 or less if a hex is invalid.
+    """
+    if mid_nodes is None:
+        return kernels.least_jacobian(points, hexes)
+    linear = np.ascontiguousarray(hexes[(mid_nodes < 0).all(axis=1)])
+    curved = (
+        kernels.least_jacobian_quadratic(_nodes(points, hexes, mid_nodes, some)) for some in _second_order(mid_nodes)
+    )
+    return min((kernels.least_jacobian(points, linear), *curved))
+
+
+def jacobian_field(nodes: np.ndarray, divisions: int = 16) -> tuple[np.ndarray, np.ndarray]:
+    """Compute positions and det J on a regular grid of the unit cube, of one hex.
+
+    Parameters
+    ----------
+    nodes : (8, 3) or (27, 3) float64
+        Corners, or all nodes of the second order as `hexmend.mesh.second_order.curved_geometry.hex_nodes` has them.
+    divisions : int
+
+    Returns
+    -------
+    positions : (d + 1, d + 1, d + 1, 3) float64
+        First index along x.
+    determinants : (d + 1, d + 1, d + 1) float64
+        In the cube of the nodes' unit of length.
+    """
+    line = np.linspace(0.0, 1.0, divisions + 1)
+    at = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    if len(nodes) == 27:
+        values, gradients = lagrange(at, NODE_POSITIONS)
+    else:
+        values, gradients = _trilinear(at)
+    determinants = np.linalg.det(np.einsum("gnd,nx->gdx", gradients, nodes))
+    shape = (divisions + 1,) * 3
+    return (values @ nodes).reshape(*shape, 3), determinants.reshape(shape)
+
+
+def _trilinear(at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Shape functions of the eight corners, (k, 8), and their derivatives, (k, 8, 3), at points (k, 3)."""
+    upper = NODE_POSITIONS[:8] > 0
+    factors = np.where(upper, at[:, None], 1 - at[:, None])
+    slopes = np.where(upper, 1.0, -1.0)
+    gradients = [slopes[:, axis] * np.delete(factors, axis, axis=2).prod(axis=2) for axis in range(3)]
+    return factors.prod(axis=2), np.stack(gradients, axis=-1)
+
+
+def _second_order(mid_nodes: np.ndarray | None) -> list[np.ndarray]:
+    """Numbers of the hexes with mid-nodes, in parts."""
+    if mid_nodes is None:
+        return []
+    which = np.flatnonzero((mid_nodes >= 0).any(axis=1))
+    return [which[first : first + _CHUNK] for first in range(0, len(which), _CHUNK)]
+
+
+def _nodes(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray, some: np.ndarray) -> np.ndarray:
+    """Nodes of some second-order hexes (k,) as the kernels take them, (k, 81)."""
+    return hex_nodes(points, hexes[some], mid_nodes[some])[:, _LATTICE].reshape(-1, 81)

@@ -1,0 +1,179 @@
+#include "mesh/validity.hpp"
+
+#include "mesh/jacobian_polynomial.hpp"
+#include "simd/simd_hexes.hpp"
+
+namespace hexmend {
+namespace {
+
+// Halvings of a hex along each axis after which it is undecided, and most boxes that are halved: where det J touches 0
+// along a line or a surface there would be any number of them.
+constexpr int MAX_LEVEL = 12, MAX_BOXES = 4096;
+// Rounding errors of coefficients, as a share of the product of the columns' lengths: some ten roundings.
+constexpr double ROUNDING = 16 * std::numeric_limits<double>::epsilon();
+// Shares of the extreme and of the greatest coefficient by which a bound may differ from the extreme.
+constexpr double BOUND_SHARE = 0.01, BOUND_SCALE = 1e-7;
+
+// The map of a hex by its corners: x slowest, z fastest.
+template <class T> Coefficients<V3<T>, 2, 2, 2> control_points(const Corners<T> &x) {
+    Coefficients<V3<T>, 2, 2, 2> control;
+    for (int c = 0; c < 8; ++c) control.at[UNIT_CUBE[c][0]][UNIT_CUBE[c][1]][UNIT_CUBE[c][2]] = x.at[c];
+    return control;
+}
+
+// det J of a hex; at its corners with the sign that `determinant` has in every other kernel.
+template <class T> JacobianPolynomial<T, 1> jacobian_polynomial(const Corners<T> &x) {
+    JacobianPolynomial<T, 1> jacobian(control_points(x));
+    unroll<8>([&](auto c) {
+        constexpr auto &at = UNIT_CUBE[c];
+        jacobian.coefficients.at[2 * at[0]][2 * at[1]][2 * at[2]] = determinant(x.template edges<c>());
+    });
+    return jacobian;
+}
+
+// det J of a hex of 27 nodes. Bernstein coefficients of a parabola are its ends, and twice its middle less their mean.
+JacobianPolynomial<double, 2> jacobian_polynomial(const std::array<double, 81> &nodes) {
+    Coefficients<V3<double>, 3, 3, 3> control;
+    auto *p = &control.at[0][0][0];
+    for (int i = 0; i < 27; ++i) p[i] = {nodes[3 * i], nodes[3 * i + 1], nodes[3 * i + 2]};
+    for (int step : {9, 3, 1})
+        for (int i = 0; i < 27; ++i)
+            if (i / step % 3 == 1) p[i] = 2.0 * p[i] - 0.5 * (p[i - step] + p[i + step]);
+    return JacobianPolynomial<double, 2>(control);
+}
+
+// The coefficients of hex number `lane` of a block.
+template <int n, class T> Box<n> box(const Coefficients<T, n, n, n> &of, int lane) {
+    Box<n> whole{{}, 0};
+    for (int i = 0; i < n * n * n; ++i) whole.coefficients[i] = hexmend::lane((&of.at[0][0][0])[i], lane);
+    return whole;
+}
+
+// Visit a hex's boxes depth first: accept(box) is true where a box needs no subdivision.
+template <int n, class Accept> void subdivide(const Box<n> &whole, const Accept &accept) {
+    std::vector<Box<n>> open{whole};
+    for (int boxes = 0; !open.empty(); ++boxes) {
+        Box<n> one = open.back();
+        open.pop_back();
+        if (accept(one, boxes >= MAX_BOXES || one.level >= MAX_LEVEL)) continue;
+        ++one.level;
+        for (int part = 0; part < 8; ++part) open.push_back(one.half(0, part & 1).half(1, part & 2).half(2, part & 4));
+    }
+}
+
+template <int n> Validity decide(const Box<n> &whole, double margin) {
+    if (!whole.positive_at_corners()) return INVERTED;
+    if (!whole.finite()) return UNDECIDED;
+    Validity found = VALID;
+    subdivide(whole, [&](const Box<n> &box, bool last) {
+        if (found == INVALID_INSIDE || box.least() > margin) return true;
+        if (!box.positive_at_corners()) found = INVALID_INSIDE;
+        else if (last) found = UNDECIDED;
+        return last || found == INVALID_INSIDE;
+    });
+    return found;
+}
+
+// A lower bound of the least value.
+template <int n> double least_value(const Box<n> &whole) {
+    double scale = 0, bound = INF, value = INF;  // a value that is taken, which the least is no greater than
+    for (double c : whole.coefficients) scale = std::max(scale, std::abs(c));
+    if (!whole.finite()) return -INF;
+    subdivide(whole, [&](const Box<n> &box, bool last) {
+        double least = box.least();
+        value = std::min(value, box.least_at_corners());
+        if (!last && least < value - std::max(BOUND_SHARE * std::abs(value), BOUND_SCALE * scale)) return false;
+        bound = std::min(bound, least);
+        return true;
+    });
+    return bound;
+}
+
+template <int n> std::array<double, 2> bounds_of(Box<n> whole) {
+    double least = least_value(whole);
+    for (double &c : whole.coefficients) c = -c;
+    return {least, -least_value(whole)};
+}
+
+// A bound of the least value over the greatest, or over the least itself where that is larger: from -1 to 1.
+double ratio(double least, double greatest) {
+    double scale = std::max(std::abs(least), std::abs(greatest));
+    return scale < INF && scale > 0 ? least / scale : std::min(least, 0.0) < 0 ? -1.0 : 0.0;
+}
+
+// Lower `lowest` to the ratio of a hex, which is computed only where its coefficients allow it to be lower.
+template <int n> void lower(double &lowest, const Box<n> &whole) {
+    auto [least, greatest] = std::minmax_element(whole.coefficients.begin(), whole.coefficients.end());
+    if (ratio(*least, *greatest) >= lowest) return;
+    auto [low, high] = bounds_of(whole);
+    lowest = std::min(lowest, ratio(low, high));
+}
+
+// Call body(number of the hex, its box, the rounding error of its coefficients) for hexes of 27 nodes.
+template <class Body> void for_each_quadratic(QuadraticHexes nodes, const Body &body) {
+    parallel_chunks(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
+        for (auto h = begin; h < end; ++h) {
+            auto jacobian = jacobian_polynomial(nodes[h]);
+            body(h, box<6>(jacobian.coefficients, 0), ROUNDING * jacobian.size);
+        }
+    });
+}
+
+}  // namespace
+
+void certify(Points points, Hexes hexes, std::span<std::uint8_t> validity) {
+    expect(validity.size() == hexes.size(), "validity: a number for each of the hexes is expected");
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto jacobian = jacobian_polynomial(gather_corners<Lanes>(points, hexes, first, count));
+        const Lanes *values = &jacobian.coefficients.at[0][0][0];
+        Lanes least = values[0], margin = ROUNDING * jacobian.size;
+        for (int i = 1; i < 27; ++i) least = min(values[i], least);
+        for (int i = 0; i < count; ++i)
+            validity[first + i] = least[i] > margin[i] ? VALID : decide(box<3>(jacobian.coefficients, i), margin[i]);
+    });
+}
+
+void certify_quadratic(QuadraticHexes nodes, std::span<std::uint8_t> validity) {
+    expect(validity.size() == nodes.size(), "validity: a number for each of the hexes is expected");
+    for_each_quadratic(nodes,
+                       [&](std::int64_t h, const Box<6> &box, double margin) { validity[h] = decide(box, margin); });
+}
+
+void jacobian_bounds(Points points, Hexes hexes, ArrayView<double, 2> bounds) {
+    expect(bounds.size() == hexes.size(), "bounds: a row of each of the hexes is expected");
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto jacobian = jacobian_polynomial(gather_corners<Lanes>(points, hexes, first, count));
+        for (int i = 0; i < count; ++i) bounds[first + i] = bounds_of(box<3>(jacobian.coefficients, i));
+    });
+}
+
+void jacobian_bounds_quadratic(QuadraticHexes nodes, ArrayView<double, 2> bounds) {
+    expect(bounds.size() == nodes.size(), "bounds: a row of each of the hexes is expected");
+    for_each_quadratic(nodes, [&](std::int64_t h, const Box<6> &box, double) { bounds[h] = bounds_of(box); });
+}
+
+double least_jacobian(Points points, Hexes hexes) {
+    std::vector<double> lowest(hexes.size() / HEXES_PER_CHUNK + 1, 1.0);
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto jacobian = jacobian_polynomial(gather_corners<Lanes>(points, hexes, first, count));
+        for (int i = 0; i < count; ++i) lower(lowest[first / HEXES_PER_CHUNK], box<3>(jacobian.coefficients, i));
+    });
+    return *std::min_element(lowest.begin(), lowest.end());
+}
+
+double least_jacobian_quadratic(QuadraticHexes nodes) {
+    std::vector<double> lowest(nodes.size() / HEXES_PER_CHUNK + 1, 1.0);
+    for_each_quadratic(nodes,
+                       [&](std::int64_t h, const Box<6> &box, double) { lower(lowest[h / HEXES_PER_CHUNK], box); });
+    return *std::min_element(lowest.begin(), lowest.end());
+}
+
+void jacobian_coefficients(Points points, Hexes hexes, ArrayView<double, 27> coefficients) {
+    expect(coefficients.size() == hexes.size(), "coefficients: a row of each of the hexes is expected");
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto jacobian = jacobian_polynomial(gather_corners<Lanes>(points, hexes, first, count));
+        for (int i = 0; i < count; ++i) coefficients[first + i] = box<3>(jacobian.coefficients, i).coefficients;
+    });
+}
+
+}  // namespace hexmend
