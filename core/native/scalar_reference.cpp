@@ -8,6 +8,8 @@ namespace hexmend {
 
 void scalar::energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted,
                       std::span<double> eta, const TargetMatrices *target) {
+    expect(have_rows(hexes.size(), omitted, eta), "omitted and eta: one for each hex is expected");
+    expect_rows(target, hexes.size());
     with_target(target, [&](const auto &w) {
         using Target = std::remove_cvref_t<decltype(w)>;
         (delta != 0 ? energies_of<true, double, Target> : energies_of<false, double, Target>)(points, hexes, delta,
@@ -17,6 +19,8 @@ void scalar::energies(Points points, Hexes hexes, double delta, double offset, O
 
 void scalar::gradient(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
                       CornerVectors shares, const TargetMatrices *target) {
+    expect(have_rows(hexes.size(), omitted, shares), "omitted and shares: one for each hex is expected");
+    expect_rows(target, hexes.size());
     with_target(target, [&](const auto &w) {
         using Target = std::remove_cvref_t<decltype(w)>;
         (delta != 0 ? gradient_of<true, double, Target> : gradient_of<false, double, Target>)(points, hexes, delta,
@@ -26,6 +30,8 @@ void scalar::gradient(Points points, Hexes hexes, double delta, ObjectiveNorm no
 
 void scalar::hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
                              OmittedCorners omitted, CornerVectors shares, const TargetMatrices *target) {
+    expect(have_rows(hexes.size(), omitted, slots, shares), "omitted, slots and shares: one for each hex is expected");
+    expect_rows(target, hexes.size());
     with_target(target, [&](const auto &w) {
         using Target = std::remove_cvref_t<decltype(w)>;
         (delta != 0 ? hessian_product_of<true, double, Target>
@@ -36,6 +42,7 @@ void scalar::hessian_product(Points points, Hexes hexes, Hexes slots, Points val
 
 std::int64_t scalar::local_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                                  const NodeStepSettings &settings) {
+    expect_sweep(points, mesh, groups, nodes, settings);
     return with_target(settings.target, [&](const auto &target) {
         using Target = std::remove_cvref_t<decltype(target)>;
         return (settings.delta != 0

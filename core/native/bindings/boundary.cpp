@@ -21,7 +21,7 @@ void bind_closest_point(nb::module_ m) {
             "__init__",
             [](BoxTrees *self, Points points, std::span<const Piece> pieces, std::span<const ChildSide> boxes,
                std::span<const ChildLinks> links) {
-                expect(boxes.size() == SIDES * links.size(), "boxes: six rows for each of the links are expected");
+                expect_boxes(boxes, links.size());
                 new (self) BoxTrees{points, pieces, boxes, links};
             },
             "points"_a, "pieces"_a, "boxes"_a, "links"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
@@ -109,7 +109,14 @@ void bind_closest_point(nb::module_ m) {
         "numbers must exist.");
     nb::class_<SurfaceSamples>(m, "SurfaceSamples", "Samples of a surface on which a boundary of quads slides.")
         .def(
-            nb::init<Points, Numbers, std::span<const FaceNodes>, std::span<const FaceWeights>, Indices, Indices>(),
+            "__init__",
+            [](SurfaceSamples *self, Points x, Numbers distances, std::span<const FaceNodes> nodes,
+               std::span<const FaceWeights> weights, Indices pieces, Indices roots) {
+                expect(have_rows(x.size(), distances, nodes, weights, pieces, roots),
+                       "x, distances, nodes, weights, pieces and roots have different lengths: expected a row a "
+                       "sample");
+                new (self) SurfaceSamples{x, distances, nodes, weights, pieces, roots};
+            },
             "x"_a, "distances"_a, "nodes"_a, "weights"_a, "pieces"_a, "roots"_a, nb::keep_alive<1, 2>(),
             nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
             nb::keep_alive<1, 7>(),
@@ -166,7 +173,7 @@ void bind_sliding_surface(nb::module_ m) {
         .def(
             "__init__",
             [](BoundaryQuads *self, Indices start, Indices corners, std::span<const Quad> quads, Points outward) {
-                expect(!start.empty() && start.back() == static_cast<std::int64_t>(corners.size()),
+                expect(are_csr(start, corners.size()),
                        "start: its last number is expected to be the length of corners");
                 expect(outward.size() == quads.size(), "outward: one for each of the quads is expected");
                 new (self) BoundaryQuads{start, corners, quads, outward};

@@ -29,6 +29,8 @@ void bind_floor_barrier(nb::module_ m) {
             "__init__",
             [](Floors *self, std::span<const double> jacobians, std::span<const double> qualities,
                OmittedCorners ignored, double jacobian_band, double quality_band, double weight) {
+                expect(have_rows(jacobians.size(), qualities, ignored),
+                       "jacobians, qualities and ignored have different lengths: expected a row a hex");
                 new (self) Floors{jacobians, qualities, ignored, jacobian_band, quality_band, weight};
             },
             "jacobians"_a, "qualities"_a, "ignored"_a, "jacobian_band"_a, "quality_band"_a, "weight"_a,
@@ -62,10 +64,10 @@ void bind_assembly(nb::module_ m) {
             [](HexShares *self, Indices bounds, Indices start, Indices numbers, Hexes hexes, Indices slots,
                Indices row_start, Indices columns) {
                 expect(!bounds.empty() && start.size() == bounds.size(), "start: one for each of bounds is expected");
-                expect(static_cast<std::int64_t>(row_start.size()) == bounds.back() + 1,
+                expect(are_csr(start, numbers.size()), "numbers: as many as the last of start are expected");
+                expect(std::cmp_equal(row_start.size(), std::int64_t{bounds.back()} + 1),
                        "row_start: one more than the slots is expected");
-                expect(row_start.back() == static_cast<std::int64_t>(columns.size()),
-                       "columns: as many as the last of row_start are expected");
+                expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
                 new (self) HexShares{bounds, start, numbers, hexes, slots, row_start, columns};
             },
             "bounds"_a, "start"_a, "numbers"_a, "hexes"_a, "slots"_a, "row_start"_a, "columns"_a,

@@ -104,10 +104,10 @@ void bind_conjugate_gradients(nb::module_ m) {
         .def(
             "__init__",
             [](BlockPattern *self, Indices bounds, Indices row_start, Indices columns) {
-                expect(!bounds.empty() && bounds.back() + 1 == static_cast<std::int64_t>(row_start.size()),
+                expect(!bounds.empty() && bounds.size() % 2 == 0, "bounds: two for each part are expected");
+                expect(std::cmp_equal(row_start.size(), std::int64_t{bounds.back()} + 1),
                        "row_start: one more than the last of bounds is expected");
-                expect(row_start.back() == static_cast<std::int64_t>(columns.size()),
-                       "columns: as many as the last of row_start are expected");
+                expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
                 new (self) BlockPattern{bounds, row_start, columns};
             },
             "bounds"_a, "row_start"_a, "columns"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
@@ -119,8 +119,7 @@ void bind_conjugate_gradients(nb::module_ m) {
             "__init__",
             [](CoarsePattern *self, Indices aggregate, Indices row_start, Indices columns) {
                 expect(aggregate.size() + 1 == row_start.size(), "row_start: one more than aggregates is expected");
-                expect(row_start.back() == static_cast<std::int64_t>(columns.size()),
-                       "columns: as many as the last of row_start are expected");
+                expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
                 new (self) CoarsePattern{aggregate, row_start, columns};
             },
             "aggregate"_a, "row_start"_a, "columns"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),

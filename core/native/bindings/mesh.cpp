@@ -86,9 +86,7 @@ void bind_hex_mesh(nb::module_ m) {
         .def(
             "__init__",
             [](HexMesh *self, Hexes hexes, Indices start, Indices corners) {
-                expect(corners.size() == 8 * hexes.size(), "corners: eight for each of the hexes are expected");
-                expect(!start.empty() && start.back() == static_cast<std::int64_t>(corners.size()),
-                       "start: its last number is expected to be the length of corners");
+                expect_corners(hexes.size(), start, corners);
                 new (self) HexMesh{hexes, start, corners};
             },
             "hexes"_a, "start"_a, "corners"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
@@ -122,9 +120,15 @@ void bind_incidence(nb::module_ m) {
           "`node_corners`.\n\n"
           "-1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect\n"
           "of the mesh, and is counted once per hex.");
-    m.def("join", &join, "parent"_a, "items"_a, "width"_a, ReleaseGil(),
-          "Connect the items of each row of `width` items; changes parent (n,) int32, at first 0 to n - 1.\n\n"
-          "Union-find: parent[i] is an item of i's component, at most i.");
+    m.def(
+        "join",
+        [](std::span<std::int32_t> parent, Indices items, int width) {
+            expect(width > 0 && items.size() % width == 0, "items: rows of `width` are expected");
+            join(parent, items, width);
+        },
+        "parent"_a, "items"_a, "width"_a, ReleaseGil(),
+        "Connect the items of each row of `width` items; changes parent (n,) int32, at first 0 to n - 1.\n\n"
+        "Union-find: parent[i] is an item of i's component, at most i.");
     m.def("component_numbers", &component_numbers, "parent"_a, ReleaseGil(),
           "Component of each item, (n,) int32, numbered in the order of their lowest items.\n");
     m.def("node_rings", &node_rings, "hexes"_a, "start"_a, "corners"_a, "max_items"_a = MOST_ITEMS, ReleaseGil(),

@@ -12,8 +12,7 @@ void bind_linear_program(nb::module_ m) {
            std::span<const std::int64_t> columns, std::int64_t gain_column) {
             expect(slopes.size() == nodes.size() && gains.size() == nodes.size(),
                    "slopes and gains: a row for each of nodes is expected");
-            expect(!first.empty() && first.back() == static_cast<std::int64_t>(displacements.size()) &&
-                       columns.size() == displacements.size(),
+            expect(are_csr(first, displacements.size()) && columns.size() == displacements.size(),
                    "displacements and columns: as many as the last of first are expected");
             return program_rows({nodes, slopes, gains}, index, {first, displacements, columns}, gain_column);
         },

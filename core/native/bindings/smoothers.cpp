@@ -175,6 +175,8 @@ void bind_patches(nb::module_ m) {
                 expect(hexes.size() == slots.size(), "slots: one row for each of the hexes is expected");
                 expect(hex_start.size() == node_start.size(),
                        "node_start: as many numbers as in hex_start are expected");
+                expect(are_csr(hex_start, hexes.size()), "hexes: as many as the last of hex_start are expected");
+                expect(are_csr(node_start, nodes.size()), "nodes: as many as the last of node_start are expected");
                 new (self) PatchPartition{hexes, slots, hex_start, node_start, nodes};
             },
             "hexes"_a, "slots"_a, "hex_start"_a, "node_start"_a, "nodes"_a, nb::keep_alive<1, 2>(),

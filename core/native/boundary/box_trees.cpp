@@ -143,6 +143,7 @@ template <class T> std::span<T> rows(auto &values) {
 
 std::tuple<IntArray, TreeBoxes, TreeLinks, IntArray> build_trees(Points points, std::span<const Piece> pieces,
                                                                  Indices start) {
+    expect(are_csr(start, pieces.size()), "start: its last number is expected to be the number of pieces");
     expect(pieces.size() < (std::size_t{1} << 29), "pieces: fewer than 2^29 are expected");
     TreeBuilder builder(points, pieces);
     Nodes nodes;
@@ -163,7 +164,7 @@ std::tuple<IntArray, TreeBoxes, TreeLinks, IntArray> build_trees(Points points, 
 
 void refit(Points points, std::span<const Piece> pieces, std::span<const ChildLinks> links,
            std::span<ChildSide> boxes) {
-    expect(boxes.size() == SIDES * links.size(), "boxes: six rows for each of the links are expected");
+    expect_boxes(boxes, links.size());
     auto set = [&](std::size_t node, int i, const Box &box) {
         for (int k = 0; k < SIDES; ++k) boxes[SIDES * node + k][i] = box[k];
     };

@@ -50,6 +50,11 @@ struct BoxTrees {
     ClosestPoint closest(const Point &x, std::int32_t root, double enough = 0, std::int32_t known = -1) const;
 };
 
+// Throw std::invalid_argument unless there are boxes of so many nodes of trees.
+inline void expect_boxes(std::span<const ChildSide> boxes, std::size_t nodes) {
+    expect(boxes.size() == SIDES * nodes, "boxes: six rows for each of the links are expected");
+}
+
 // Throw std::invalid_argument for a piece that does not exist; -1 is none.
 void expect_known(std::span<const std::int32_t> known, std::size_t pieces);
 

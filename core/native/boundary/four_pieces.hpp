@@ -9,7 +9,7 @@
 
 namespace hexmend {
 
-// Largest number of nodes and leaves that wait: each of 16 levels leaves three behind.
+// Largest number of nodes and leaves that wait: each of 21 levels leaves three behind.
 constexpr int MOST_WAITING = 64;
 
 // A number for each child of a node, or for each of four pieces.
@@ -82,6 +82,7 @@ inline void visit_leaves(const BoxTrees &trees, std::int32_t root, const V3<Four
             limit = visit(first, count);
             continue;
         }
+        expect(size + CHILDREN <= MOST_WAITING, "links: trees of 21 levels at most are expected");
         Four squares = squares_to(&trees.boxes[std::size_t{SIDES} * child], x);
         int begin = size;
         for (int i = 0; i < CHILDREN; ++i) {

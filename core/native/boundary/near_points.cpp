@@ -39,6 +39,7 @@ void means_beyond(const BoxTrees &trees, Points points, std::span<const std::arr
 IntArray samples_beyond(const MovingTrees &trees, Points x, std::span<const bool> examined, Numbers limits,
                         const NearPoints &near) {
     expect_rows(x.size(), examined, limits, near);
+    expect_boxes(trees.boxes, trees.links.size());
     std::vector<std::uint8_t> far(x.size());
     expect_known(near.piece, trees.pieces.size());
     expect_roots(near.roots, trees.links.size());

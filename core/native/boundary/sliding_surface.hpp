@@ -67,4 +67,9 @@ struct SlidingSurface {
     }
 };
 
+// Throw unless there is no surface or it is one of a mesh with so many nodes.
+inline void expect_nodes(const SlidingSurface *surface, std::size_t nodes) {
+    expect(!surface || surface->slots.size() == nodes, "surface: a slot for each node is expected");
+}
+
 }  // namespace hexmend

@@ -34,11 +34,8 @@ FaceWeights weights_at(const FaceNodes &nodes, const Piece &piece, const Barycen
 }
 
 void expect_rows(const SurfaceSamples &samples, const SampleDistances &now) {
-    const std::size_t rows = samples.x.size();
-    expect(samples.distances.size() == rows && samples.nodes.size() == rows && samples.weights.size() == rows &&
-               samples.pieces.size() == rows && samples.roots.size() == rows && now.distances.size() == rows &&
-               now.directions.size() == rows && now.nodes.size() == rows && now.weights.size() == rows,
-           "arrays of samples have different lengths: expected a row a sample");
+    expect(have_rows(samples.x.size(), now.distances, now.directions, now.nodes, now.weights),
+           "distances, directions, nodes and weights: a row for each of samples is expected");
 }
 
 }  // namespace
@@ -46,6 +43,7 @@ void expect_rows(const SurfaceSamples &samples, const SampleDistances &now) {
 void find_distances(const MovingTrees &trees, Points start, std::span<const FaceNodes> faces,
                     const SurfaceSamples &samples, std::span<const std::int64_t> which, const SampleDistances &now) {
     expect_rows(samples, now);
+    expect_boxes(trees.boxes, trees.links.size());
     expect(trees.points.size() == start.size() + faces.size(), "points: the nodes and a centre a face are expected");
     expect_known(samples.pieces, trees.pieces.size());
     expect_roots(samples.roots, trees.links.size());

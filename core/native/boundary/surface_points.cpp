@@ -86,6 +86,7 @@ IntArray numbers_of_different_points(Points points) {
 
 std::tuple<OwnedArray<std::int32_t, 2>, IntArray, IntArray> edges_of_faces(Indices faces, int width,
                                                                            std::int64_t nodes) {
+    expect(nodes >= 0, "nodes: the number of nodes is expected");
     expect(width > 0 && faces.size() % width == 0, "faces: `width` nodes of each are expected");
     for (Node node : faces) expect(node >= 0 && node < nodes, "faces: a node is out of range");
     const auto [start, at_nodes] = sides_at_nodes(faces, width, nodes);
@@ -104,6 +105,10 @@ std::tuple<OwnedArray<std::int32_t, 2>, IntArray, IntArray> edges_of_faces(Indic
 }
 
 IntArray count_fans(Indices faces, int width, Indices sides, Indices first, std::int64_t nodes) {
+    expect(width > 0 && faces.size() % width == 0, "faces: `width` nodes of each are expected");
+    expect(are_csr(first, sides.size()), "first: its last number is expected to be the length of sides");
+    expect(sides.size() <= faces.size(), "sides: each side of faces once at most is expected");
+    expect(nodes >= 0, "nodes: the number of nodes is expected");
     std::vector<std::int32_t> parent(faces.size()), count(nodes);  // corners of faces that are of one fan are joined
     std::iota(parent.begin(), parent.end(), 0);
     auto join_corners = [&](std::int32_t one, std::int32_t other) { join(parent, std::array{one, other}, 2); };
@@ -125,6 +130,7 @@ IntArray count_fans(Indices faces, int width, Indices sides, Indices first, std:
 }
 
 OwnedArray<bool> extremes_in_cells(Indices cell, Numbers values, std::int64_t cells) {
+    expect(cells >= 0, "cells: the number of cells is expected");
     expect(cell.size() == values.size(), "values: one for each of the cells of points is expected");
     for (std::int32_t c : cell) expect(c >= 0 && c < cells, "cell: a number is out of range");
     auto least = zeros(cells), most = zeros(cells);  // one more than the number of the point, 0 for none

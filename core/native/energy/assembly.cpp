@@ -95,6 +95,7 @@ template <class Real>
 void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
               std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
               const TargetMatrices *matrices) {
+    shared.expect_sizes(points.size(), omitted.size(), off_diagonal.size(), diagonal.size());
     auto open = [&](std::int32_t, std::int32_t) { return WholeBlocks<Real>{off_diagonal}; };
     assemble_into<Real>(points, delta, norm, omitted, shared, 0, open, diagonal, matrices);
 }
@@ -102,7 +103,7 @@ void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners om
 void assemble_packed(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
                      std::int32_t first_separator, std::span<PackedBlock> off_diagonal,
                      std::span<std::array<float, 6>> diagonal, const TargetMatrices *matrices) {
-    expect(off_diagonal.size() >= shared.columns.size(), "off_diagonal: a row for each of columns is expected");
+    shared.expect_sizes(points.size(), omitted.size(), off_diagonal.size(), diagonal.size());
     auto open = [&](std::int32_t low, std::int32_t high) {
         return OpenBlocks(shared.row_start, low, high, first_separator, off_diagonal);
     };

@@ -22,6 +22,15 @@ struct HexShares {
     Indices row_start;  // (k + 1,): first block of each slot's row
     Indices columns;    // (blocks,)
 
+    // Throw unless they are shares of a mesh with so many nodes and hexes, and a matrix has their pattern.
+    void expect_sizes(std::size_t nodes, std::size_t hexes_of_mesh, std::size_t off_diagonal,
+                      std::size_t diagonal) const {
+        expect(slots.size() == nodes, "points: a row for each of the nodes of shares is expected");
+        expect(hexes.size() == hexes_of_mesh, "omitted: one for each of the hexes of shares is expected");
+        expect(off_diagonal == columns.size() + 1, "off_diagonal: a row for each of columns and one more are expected");
+        expect(diagonal + 1 == row_start.size(), "diagonal: a row for each slot is expected");
+    }
+
     // The number in the mesh of hex i of `count` from row `first` on; that of the last one beyond.
     std::int32_t number(std::int64_t first, int i, int count) const { return numbers[first + std::min(i, count - 1)]; }
 

@@ -291,8 +291,7 @@ void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, co
 }
 
 void expect_floors(const Floors &floors, std::size_t hexes, const TargetMatrices *target) {
-    expect(floors.jacobians.size() == hexes && floors.qualities.size() == hexes && floors.ignored.size() == hexes,
-           "jacobians, qualities and ignored: one for each hex is expected");
+    expect(floors.jacobians.size() == hexes, "floors: one for each hex is expected");
     expect_rows(target, hexes);
 }
 
@@ -332,6 +331,7 @@ template <class Real>
 void assemble_floors(Points points, const Floors &floors, OmittedCorners omitted, const HexShares &shared,
                      std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
                      const TargetMatrices *matrices) {
+    shared.expect_sizes(points.size(), omitted.size(), off_diagonal.size(), diagonal.size());
     expect_floors(floors, omitted.size(), matrices);
     with_target(matrices,
                 [&](const auto &w) { assemble_of<Real>(points, floors, omitted, shared, off_diagonal, diagonal, w); });

@@ -37,6 +37,9 @@ std::vector<std::int32_t> aggregates(Indices slot_of_node, Indices nodes, Indice
 std::tuple<IntArray, IntArray, IntArray> coarse_pattern(Hexes slots, Indices slot_of_node, Indices nodes,
                                                         Indices ring_start, Indices ring, Indices start,
                                                         Indices corners, int distance) {
+    expect_corners(slots.size(), start, corners);
+    expect_rings(slot_of_node.size(), ring_start, ring);
+    expect(start.size() == ring_start.size(), "start: one more than the nodes is expected");
     auto aggregate = aggregates(slot_of_node, nodes, ring_start, ring, distance);
     const auto width = std::max(8 * widest(start), 1);
     CSRBuilder<std::int32_t> rows(nodes.size(), width, MOST_ITEMS, [&](std::int64_t i, std::int32_t *items) {

@@ -65,6 +65,12 @@ struct BlockPattern {
 
     std::int64_t slots() const { return bounds.back(); }
     std::int32_t first_separator() const { return bounds[bounds.size() / 2]; }
+
+    // Throw unless a matrix of its rows, or of more, has so many blocks.
+    void expect_blocks(std::size_t off_diagonal, std::size_t diagonal) const {
+        expect(off_diagonal > columns.size(), "off_diagonal: a row for each of columns and one more are expected");
+        expect(std::cmp_greater_equal(diagonal, slots()), "diagonal: a row a slot is expected");
+    }
 };
 
 // Type of the numbers of vectors that are multiplied by blocks.

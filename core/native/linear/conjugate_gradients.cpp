@@ -239,10 +239,13 @@ std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Block
                                   DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
                                   int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work,
                                   const Coupling<Real> &coupling, const CoarsePattern *coarse_pattern) {
+    pattern.expect_blocks(off_diagonal.size(), diagonal.size());
+    expect(have_rows(pattern.slots(), right, x), "rhs and x: a row a slot is expected");
+    expect(coupling.ghosts >= 0, "ghosts: a negative number cannot be used");
     BlockMatrix<Block> system(pattern, off_diagonal);
     auto size = workspace_size(pattern, coupling.ghosts, static_cast<bool>(coupling.exchange));
     if (static_cast<std::int64_t>(work.size()) < size + (coarse_pattern ? coarse_workspace_size(*coarse_pattern) : 0))
-        throw std::invalid_argument("work is too small: see `workspace_size`");
+        throw std::invalid_argument("work: it is too small; see `workspace_size`");
     PreconditionedCG<Block> solver(pattern, system, diagonal, damping, work, coupling);
     std::optional<CoarseSpace<Real>> coarse;
     if (coarse_pattern)
@@ -305,6 +308,8 @@ template <class Real> void from_slots(Vectors<Real> of_slots, Indices order, dou
 template <class Block>
 void product(const BlockPattern &pattern, UpperBlocks<Block> off_diagonal, DiagonalBlocks<NumberOf<Block>> diagonal,
              Indices order, Points x, std::span<Point> y) {
+    pattern.expect_blocks(off_diagonal.size(), diagonal.size());
+    expect(have_rows(pattern.slots(), order, x, y), "order, x and y: a row a slot is expected");
     using V = Vec4<double>;
     BlockMatrix<Block, double> system(pattern, off_diagonal);
     std::vector<V> of(x.size()), there(x.size()), w(x.size()), odd(x.size() - pattern.first_separator());

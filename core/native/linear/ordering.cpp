@@ -107,6 +107,7 @@ std::vector<int> partition_slots(const std::vector<Node> &order, Hexes hexes, st
 }  // namespace
 
 CSR slots(Hexes hexes, Indices ring_start, Indices ring, std::span<const bool> free, int parts) {
+    expect_rings(free.size(), ring_start, ring);
     auto order = cuthill_mckee({ring_start, ring, free});
     std::vector<int> range;
     parts = std::max(parts, 1);

@@ -40,8 +40,7 @@ bool is_stretched(const std::array<float, 6> &block) {
 std::int64_t complete_diagonal(const BlockPattern &pattern, UpperBlocks<PackedBlock> off_diagonal,
                                std::span<std::array<float, 6>> diagonal) {
     const auto size = static_cast<std::int32_t>(pattern.slots());
-    expect(static_cast<std::int64_t>(diagonal.size()) >= size, "diagonal: a row a slot is expected");
-    expect(off_diagonal.size() >= pattern.columns.size(), "off_diagonal: a row for each of columns is expected");
+    pattern.expect_blocks(off_diagonal.size(), diagonal.size());
     auto rows = [&](std::int64_t range) {
         for (auto i = pattern.bounds[range]; i < pattern.bounds[range + 1]; ++i) {
             SymmetricPart total;

@@ -20,6 +20,7 @@ constexpr auto OPPOSITE = [] {
 }  // namespace
 
 CSR pattern(Hexes slots, Indices nodes, Indices start, Indices corners, bool opposite, std::int64_t max_items) {
+    expect_corners(slots.size(), start, corners);
     std::int64_t count = nodes.size(), size = std::max<std::int64_t>((count + PIECES - 1) / PIECES, 1);
     std::vector<std::int32_t> row_start(count + 1), found[PIECES];
     parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t end) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "mesh/hexahedron.hpp"
@@ -30,6 +31,28 @@ using CornerVectors = std::span<std::array<double, 24>>;
 // Throw std::invalid_argument if the caller's arrays do not fit each other.
 inline void expect(bool fits, const char *message) {
     if (!fits) throw std::invalid_argument(message);
+}
+
+// True if each of the arrays has so many rows.
+template <class... Array> bool have_rows(std::size_t rows, const Array &...arrays) {
+    return ((arrays.size() == rows) && ...);
+}
+
+// True if compressed rows end with the last of so many items; see csr.hpp.
+template <class Number> bool are_csr(std::span<const Number> start, std::size_t items) {
+    return !start.empty() && std::cmp_equal(start.back(), items);
+}
+
+// Throw unless start and corners can be the corners of so many hexes at each node, see incidence.hpp.
+inline void expect_corners(std::size_t hexes, Indices start, Indices corners) {
+    expect(corners.size() == 8 * hexes, "corners: eight for each of the hexes are expected");
+    expect(are_csr(start, corners.size()), "start: its last number is expected to be the length of corners");
+}
+
+// Throw unless they can be the edge neighbours of each of so many nodes.
+inline void expect_rings(std::size_t nodes, Indices ring_start, Indices ring) {
+    expect(ring_start.size() == nodes + 1, "ring_start: one more than the nodes is expected");
+    expect(are_csr(ring_start, ring.size()), "ring_start: its last number is expected to be the length of ring");
 }
 
 // One byte per hex: bit t is set if corner tetrahedron t is omitted, that is, counts as perfect.

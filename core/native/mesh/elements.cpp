@@ -56,6 +56,8 @@ inline __attribute__((always_inline)) CornerFigures corner_figures(const Corners
 
 void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> sigma, std::span<double> jacobian,
              std::span<double> eta) {
+    expect(have_rows(hexes.size(), q, sigma, jacobian, eta),
+           "q, sigma, jacobian and eta: one for each of hexes is expected");
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<Lanes>(points, hexes, first, count);
         EdgeLengths edges(x);
@@ -76,6 +78,7 @@ void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> 
 
 void measure_against(Points points, Hexes hexes, const TargetMatrices &target, std::span<double> q,
                      std::span<double> eta) {
+    expect(have_rows(hexes.size(), q, eta), "q and eta: one for each of hexes is expected");
     expect_rows(&target, hexes.size());
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<Lanes>(points, hexes, first, count);
@@ -94,6 +97,7 @@ void measure_against(Points points, Hexes hexes, const TargetMatrices &target, s
 }
 
 void corner_qualities(Points points, Hexes hexes, ArrayView<double, 8> q) {
+    expect(q.size() == hexes.size(), "q: a row for each of hexes is expected");
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<Lanes>(points, hexes, first, count);
         EdgeLengths edges(x);
@@ -175,6 +179,7 @@ double mean_edge_length(Points points, Hexes hexes) {
 }
 
 void corner_determinants(Points points, Hexes hexes, ArrayView<double, 8> sigma) {
+    expect(sigma.size() == hexes.size(), "sigma: a row for each of hexes is expected");
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<Lanes>(points, hexes, first, count);
         unroll<8>([&](auto t) {

@@ -22,6 +22,7 @@ Lanes cosine(const V3<Lanes> &a, const V3<Lanes> &b) {
 }  // namespace
 
 void angles(Points points, Hexes hexes, std::span<double> smallest, std::span<double> largest) {
+    expect(have_rows(hexes.size(), smallest, largest), "smallest and largest: one for each of hexes is expected");
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<Lanes>(points, hexes, first, count);
         Lanes low = broadcast<Lanes>(1.0), high = broadcast<Lanes>(-1.0);  // cosines
@@ -41,6 +42,7 @@ void angles(Points points, Hexes hexes, std::span<double> smallest, std::span<do
 }
 
 void warpage(Points points, Hexes hexes, std::span<double> worst) {
+    expect(worst.size() == hexes.size(), "worst: one for each of hexes is expected");
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<Lanes>(points, hexes, first, count);
         Lanes low = broadcast<Lanes>(1.0);
@@ -57,6 +59,7 @@ void warpage(Points points, Hexes hexes, std::span<double> worst) {
 }
 
 void volume(Points points, Hexes hexes, std::span<double> enclosed) {
+    expect(enclosed.size() == hexes.size(), "enclosed: one for each of hexes is expected");
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = from_first_corner(gather_corners<Lanes>(points, hexes, first, count));
         Lanes sum{};

@@ -14,10 +14,17 @@ struct HexMesh {
     Indices start;    // (n + 1,): the corners at node i are corners[start[i]] to corners[start[i + 1] - 1]
     Indices corners;  // (8 m,), result of `node_corners`
 
+    std::size_t nodes() const { return start.size() - 1; }
+
     Star star(Node i) const { return corners.subspan(start[i], start[i + 1] - start[i]); }
 
     // The largest number of hexes at a node.
     int largest_star() const { return widest(start); }
 };
+
+// Throw unless there is a point for each node of the mesh.
+inline void expect_points(const HexMesh &mesh, Points points) {
+    expect(points.size() == mesh.nodes(), "points: a row for each node of the mesh is expected");
+}
 
 }  // namespace hexmend

@@ -8,6 +8,7 @@
 namespace hexmend {
 
 CSR node_corners(Hexes hexes, std::int64_t nodes) {
+    expect(nodes >= 0, "n: the number of nodes is expected");
     std::vector<std::int32_t> start(nodes + 1), corners(8 * hexes.size());
     for (const Hex &hex : hexes)
         for (Node i : hex) ++start[i];
@@ -54,6 +55,7 @@ struct Face {
 }  // namespace
 
 std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners) {
+    expect_corners(hexes.size(), start, corners);
     std::vector<std::int32_t> neighbours(6 * hexes.size());
     const std::int64_t nodes = start.size() - 1;
     std::vector<std::int64_t> non_manifold((nodes + ROWS_PER_CHUNK - 1) / ROWS_PER_CHUNK);
@@ -109,6 +111,7 @@ IntArray component_numbers(Indices parent) {
 }
 
 CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_items) {
+    expect_corners(hexes.size(), start, corners);
     return arrays(CSRBuilder<Node>(start.size() - 1, 3 * widest(start) + 1, max_items, [&](std::int64_t i, Node *ring) {
         int size = 0;
         for (auto s = start[i]; s < start[i + 1]; ++s)
@@ -121,6 +124,8 @@ CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_ite
 }
 
 IntArray greedy_colours(Indices start, Indices corners, std::span<const bool> chosen) {
+    expect_corners(corners.size() / 8, start, corners);
+    expect(chosen.size() + 1 == start.size(), "chosen: one for each node is expected");
     auto each_hex = [&](std::int64_t i, const auto &body) {
         for (auto s = start[i]; s < start[i + 1]; ++s) body(corners[s] / 8);
     };
@@ -128,6 +133,7 @@ IntArray greedy_colours(Indices start, Indices corners, std::span<const bool> ch
 }
 
 CSR grouped(Indices colour, std::int64_t count) {
+    expect(count >= 0, "count: the number of colours is expected");
     std::vector<std::int32_t> start(count + 1);
     for (auto k : colour)
         if (k >= 0) ++start[k];
@@ -149,6 +155,7 @@ IntArray layers(Neighbours neighbours) {
 }
 
 OwnedArray<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings) {
+    expect_corners(hexes.size(), start, corners);
     std::vector<std::uint8_t> reached(hexes.size()), seen(start.size() - 1);
     std::vector<std::int32_t> queue;
     auto reach = [&](std::int32_t h) {

@@ -47,6 +47,8 @@ template <int i> V3<Lanes> cross_derivative(const Corners<Lanes> &x) {
 
 void lengths(Points points, Hexes hexes, std::span<double> edge_ratio, std::span<double> stretch,
              std::span<double> diagonal) {
+    expect(have_rows(hexes.size(), edge_ratio, stretch, diagonal),
+           "edge_ratio, stretch and diagonal: one for each of hexes is expected");
     const double ROOT_3 = sqrt(3.0);
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<Lanes>(points, hexes, first, count);
@@ -59,6 +61,8 @@ void lengths(Points points, Hexes hexes, std::span<double> edge_ratio, std::span
 }
 
 void axes(Points points, Hexes hexes, std::span<double> aspect_ratio, std::span<double> skew, std::span<double> taper) {
+    expect(have_rows(hexes.size(), aspect_ratio, skew, taper),
+           "aspect_ratio, skew and taper: one for each of hexes is expected");
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = from_first_corner(gather_corners<Lanes>(points, hexes, first, count));
         V3<Lanes> X[3] = {axis<0>(x), axis<1>(x), axis<2>(x)};
@@ -80,6 +84,7 @@ void axes(Points points, Hexes hexes, std::span<double> aspect_ratio, std::span<
 }
 
 void corners(Points points, Hexes hexes, std::span<double> shape, std::span<double> condition) {
+    expect(have_rows(hexes.size(), shape, condition), "shape and condition: one for each of hexes is expected");
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<Lanes>(points, hexes, first, count);
         Lanes fullest = broadcast<Lanes>(INF), worst = broadcast<Lanes>(1.0);
@@ -97,6 +102,7 @@ void corners(Points points, Hexes hexes, std::span<double> shape, std::span<doub
 }
 
 void centre(Points points, Hexes hexes, std::span<double> jacobian) {
+    expect(jacobian.size() == hexes.size(), "jacobian: one for each of hexes is expected");
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = from_first_corner(gather_corners<Lanes>(points, hexes, first, count));
         store(determinant(M3<Lanes>{axis<0>(x), axis<1>(x), axis<2>(x)}) * (1.0 / 64), first, count, jacobian);

@@ -207,6 +207,7 @@ class BlockBuilder {
 }  // namespace
 
 OwnedArray<Node, 27> coarse_blocks(Hexes hexes, Indices start, Indices corners) {
+    expect_corners(hexes.size(), start, corners);
     OwnedArray<Node, 27> blocks;
     if (hexes.empty() || hexes.size() % 8) return blocks;
     HexMesh mesh{hexes, start, corners};

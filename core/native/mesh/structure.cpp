@@ -29,6 +29,8 @@ struct Edge {
 
 std::tuple<OwnedArray<Node, 2>, IntArray, OwnedArray<bool>> edges(Hexes hexes, Indices start, Indices corners,
                                                                   Neighbours neighbours, std::int64_t max_items) {
+    expect_corners(hexes.size(), start, corners);
+    expect(neighbours.size() == hexes.size(), "neighbours: a row for each of hexes is expected");
     CSRBuilder<Edge> rows(start.size() - 1, 3 * widest(start) + 1, max_items, [&](std::int64_t i, Edge *row) {
         int size = 0;
         for (auto s = start[i]; s < start[i + 1]; ++s) {

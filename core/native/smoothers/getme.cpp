@@ -6,6 +6,7 @@
 namespace hexmend {
 
 void element_steps(Points points, Hexes hexes, double s, double rho, CornerVectors places) {
+    expect(places.size() == hexes.size(), "places: a row for each of hexes is expected");
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto y = element_step(gather_corners<Lanes>(points, hexes, first, count), s, rho);
         store(y, first, count, places);
@@ -14,6 +15,8 @@ void element_steps(Points points, Hexes hexes, double s, double rho, CornerVecto
 
 void weighted_means(std::span<const std::array<double, 24>> places, Numbers weights, const HexMesh &mesh, Indices nodes,
                     std::span<Point> targets) {
+    expect(have_rows(mesh.hexes.size(), places, weights), "places and weights: a row for each hex is expected");
+    expect(targets.size() == mesh.nodes(), "targets: a row for each node is expected");
     parallel_for(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t k) {
         const Node i = nodes[k];
         double total = 0;
@@ -33,6 +36,9 @@ constexpr int MAX_HALVINGS = 4;
 
 std::int64_t relax(Points points, const HexMesh &mesh, std::span<const bool> valid, Indices harmed,
                    std::span<Point> moved) {
+    expect_points(mesh, points);
+    expect(moved.size() == points.size(), "moved: a row for each of points is expected");
+    expect(valid.size() == mesh.hexes.size(), "valid: one for each hex is expected");
     const Hexes hexes = mesh.hexes;
     std::vector<std::uint8_t> level(points.size());
     std::vector<std::int32_t> node_round(points.size()), hex_round(hexes.size());

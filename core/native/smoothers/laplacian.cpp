@@ -126,6 +126,7 @@ constexpr std::size_t STRETCH = 256;
 // Stretches of a sequence of nodes, each by wavefronts: a node follows the nodes of its ring, and those that have it in
 // theirs, that come before it in the sequence, and precedes the others.
 std::vector<Node> by_wavefront(std::int64_t count, Indices ring_start, Indices ring, Indices nodes) {
+    expect_rings(count, ring_start, ring);
     std::vector<std::int32_t> written(count), read(count);  // of each node: one more than its last wavefront
     std::vector<std::int32_t> wavefront(nodes.size()), start(1);
     std::int32_t first = 0;  // wavefront of the stretch
@@ -182,6 +183,7 @@ void LaplacianSweeps::next(std::span<Point> points) {
 }
 
 bool most_wait(Indices ring_start, Indices ring, Indices nodes) {
+    expect(are_csr(ring_start, ring.size()), "ring_start: its last number is expected to be the length of ring");
     std::size_t waiting = 0;
     for (std::size_t k = 1; k < nodes.size(); ++k) {
         auto own = ring.subspan(ring_start[nodes[k]], ring_start[nodes[k] + 1] - ring_start[nodes[k]]);
@@ -191,16 +193,23 @@ bool most_wait(Indices ring_start, Indices ring, Indices nodes) {
 }
 
 void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes, const SlidingSurface *surface) {
+    expect_rings(points.size(), ring_start, ring);
+    expect_nodes(surface, points.size());
     for (Node i : nodes) points[i] = target(points, ring_start, ring, i, surface);
 }
 
 void simultaneous(Points points, Indices ring_start, Indices ring, Indices nodes, std::span<Point> moved) {
+    expect_rings(points.size(), ring_start, ring);
+    expect(moved.size() == points.size(), "moved: a row for each of points is expected");
     parallel_for(nodes.size(), ROWS_PER_CHUNK,
                  [&](std::int64_t k) { moved[nodes[k]] = ring_mean(points, ring_start, ring, nodes[k]); });
 }
 
 std::int64_t smart_sweep(std::span<Point> points, const HexMesh &mesh, Indices ring_start, Indices ring, Indices nodes,
                          bool keep_least_quality, const SlidingSurface *surface) {
+    expect_points(mesh, points);
+    expect_rings(points.size(), ring_start, ring);
+    expect_nodes(surface, points.size());
     return (keep_least_quality ? smart_sweep_of<QualityGuard>
                                : smart_sweep_of<InversionGuard>)(points, mesh, ring_start, ring, nodes, surface);
 }

@@ -41,7 +41,7 @@ class StepRecorder {
 
 std::int64_t local_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                          const NodeStepSettings &settings) {
-    expect_rows(settings.target, mesh.hexes.size());
+    expect_sweep(points, mesh, groups, nodes, settings);
     return with_target(settings.target, [&](const auto &target) {
         using Target = std::remove_cvref_t<decltype(target)>;
         return (settings.delta != 0

@@ -117,6 +117,14 @@ struct NodeMover {
     void on_moved(Node node, const Point &place, const SearchDirection &, double) { points[node] = place; }
 };
 
+// Throw unless the arguments of a sweep fit each other.
+inline void expect_sweep(Points points, const HexMesh &mesh, Indices groups, Indices nodes,
+                         const NodeStepSettings &settings) {
+    expect_points(mesh, points);
+    expect(are_csr(groups, nodes.size()), "groups: its last number is expected to be the length of nodes");
+    expect_rows(settings.target, mesh.hexes.size());
+}
+
 // The largest number of hexes at one of `nodes`.
 inline std::int64_t largest_star(const HexMesh &mesh, Indices nodes) {
     std::size_t most = 0;

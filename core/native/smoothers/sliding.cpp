@@ -141,8 +141,9 @@ std::int64_t sliding_sweep_of(std::span<Point> points, const HexMesh &mesh, Indi
 std::int64_t sliding_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                            const NodeStepSettings &settings, const SlidingSurface &surface,
                            std::span<const Tangents> tangents, const SurfaceTerm *term) {
+    expect_sweep(points, mesh, groups, nodes, settings);
+    expect_nodes(&surface, points.size());
     expect(tangents.size() == surface.count(), "tangents: two for each sliding node are expected");
-    expect_rows(settings.target, mesh.hexes.size());
     expect(!term || term->counted.size() == surface.quads.quads.size(), "term: a row for each quad is expected");
     SlidingSweep sweep{mesh.hexes, settings, surface, tangents};
     return with_target(settings.target, [&](const auto &target) {
@@ -156,6 +157,8 @@ std::int64_t sliding_sweep(std::span<Point> points, const HexMesh &mesh, Indices
 }
 
 void flipped_quads(Points before, Points after, std::span<const Quad> quads, Points outward, std::span<bool> flipped) {
+    expect(before.size() == after.size(), "before and after have different lengths: expected a row a node");
+    expect(have_rows(quads.size(), outward, flipped), "outward and flipped: a row for each of quads is expected");
     parallel_for(quads.size(), QUADS_PER_CHUNK, [&](std::int64_t f) {
         flipped[f] =
             !is_flipped(points_of(before, quads[f]), outward[f]) && is_flipped(points_of(after, quads[f]), outward[f]);

@@ -23,6 +23,9 @@ void shorten_step(Point &step, Points points, Node node, Indices neighbours, dou
 
 void shorten(std::span<Point> step, Points points, Hexes hexes, Indices start, Indices corners, Indices nodes,
              double reach) {
+    expect(step.size() == nodes.size(), "step: a row for each of nodes is expected");
+    expect_corners(hexes.size(), start, corners);
+    expect(start.size() == points.size() + 1, "start: one more than points is expected");
     const auto most = 3 * widest(start);
     parallel_chunks(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         std::vector<Node> ring(most);
@@ -41,6 +44,8 @@ void shorten(std::span<Point> step, Points points, Hexes hexes, Indices start, I
 }
 
 void shorten_by_rings(std::span<Point> step, Points points, Indices start, Indices ring, Indices nodes, double reach) {
+    expect(step.size() == nodes.size(), "step: a row for each of nodes is expected");
+    expect_rings(points.size(), start, ring);
     parallel_for(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t k) {
         const Node i = nodes[k];
         shorten_step(step[k], points, i, ring.subspan(start[i], start[i + 1] - start[i]), reach);
@@ -48,6 +53,8 @@ void shorten_by_rings(std::span<Point> step, Points points, Indices start, Indic
 }
 
 void displaced(Points points, Indices nodes, Points step, double alpha, std::span<Point> moved) {
+    expect(step.size() == nodes.size(), "step: a row for each of nodes is expected");
+    expect(moved.size() == points.size(), "moved: a row for each of points is expected");
     std::copy(points.begin(), points.end(), moved.begin());
     for (std::size_t k = 0; k < nodes.size(); ++k)
         for (int j = 0; j < 3; ++j) moved[nodes[k]][j] += alpha * step[k][j];

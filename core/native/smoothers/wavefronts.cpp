@@ -7,6 +7,7 @@
 namespace hexmend {
 
 IntArray levels(Indices ring_start, Indices ring, std::span<const bool> from) {
+    expect_rings(from.size(), ring_start, ring);
     return {breadth_first_levels(
         from.size(), [&](std::int64_t i) { return from[i]; },
         [&](std::int32_t i, const auto &body) {
@@ -15,6 +16,7 @@ IntArray levels(Indices ring_start, Indices ring, std::span<const bool> from) {
 }
 
 CSR wavefronts(Indices start, Indices corners, Indices sequence) {
+    expect_corners(corners.size() / 8, start, corners);
     std::vector<std::int32_t> next(corners.size() / 8);  // of each hex: one more than the group of its latest node
     std::vector<std::int32_t> group(sequence.size()), group_start(1);
     for (std::size_t k = 0; k < sequence.size(); ++k) {

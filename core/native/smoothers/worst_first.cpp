@@ -50,6 +50,10 @@ void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf) {
 std::int64_t worst_first_sweep(std::span<Point> points, const HexMesh &mesh, std::span<const bool> free,
                                Indices candidates, std::span<double> q, std::span<bool> valid,
                                const WorstFirstSettings &settings, const SlidingSurface *surface) {
+    expect_points(mesh, points);
+    expect(free.size() == points.size(), "free: one for each of points is expected");
+    expect(have_rows(mesh.hexes.size(), q, valid), "q and valid: one for each hex is expected");
+    expect_nodes(surface, points.size());
     if (candidates.empty()) return 0;  // an empty queue has no first element
     const Hexes hexes = mesh.hexes;
     const std::size_t m = hexes.size();

@@ -24,9 +24,14 @@ class Lines {
     std::string text_;
 };
 
+void expect_width(std::size_t values, std::int64_t width) {
+    expect(width > 0 ? values % width == 0 : values == 0, "values: rows of `width` are expected");
+}
+
 }  // namespace
 
 std::string decimal_lines(Numbers values, std::int64_t width, Integers last) {
+    expect_width(values.size(), width);
     expect(last.empty() || last.size() * width == values.size(), "last: a number for each row is expected");
     Lines lines;
     std::int64_t column = 0, row = 0;
@@ -40,6 +45,7 @@ std::string decimal_lines(Numbers values, std::int64_t width, Integers last) {
 }
 
 std::string whole_lines(Integers values, std::int64_t width) {
+    expect_width(values.size(), width);
     Lines lines;
     std::int64_t column = 0;
     for (auto value : values) lines.put(value, ++column % width ? ' ' : '\n');

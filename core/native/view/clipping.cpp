@@ -28,6 +28,9 @@ void cut_off(const std::vector<Point> &now, const Point &normal, double offset, 
 // Sutherland and Hodgman's clipping (Communications of the ACM 17, 1974).
 std::tuple<OwnedArray<double, 3>, OwnedArray<std::int64_t>, OwnedArray<std::int64_t>> before(
     Points points, PointNumbers start, PointNumbers places, PointNumbers owner, Points normals, Numbers offsets) {
+    expect(are_csr(start, places.size()), "start: its last number is expected to be the length of places");
+    expect(start.size() == owner.size() + 1, "owner: one for each polygon is expected");
+    expect(offsets.size() == normals.size(), "offsets: one for each of normals is expected");
     OwnedArray<double, 3> kept;
     OwnedArray<std::int64_t> begin{{0}}, whose;
     kept.values.reserve(3 * places.size());
@@ -49,6 +52,8 @@ std::tuple<OwnedArray<double, 3>, OwnedArray<std::int64_t>, OwnedArray<std::int6
 }
 
 void centres_kept(Points points, Hexes hexes, Points normals, Numbers offsets, bool notch, std::span<bool> kept) {
+    expect(offsets.size() == normals.size(), "offsets: one for each of normals is expected");
+    expect(kept.size() == hexes.size(), "kept: one for each of hexes is expected");
     std::fill(kept.begin(), kept.end(), !notch);
     std::vector<double> heights(points.size());
     for (std::size_t p = 0; p < normals.size(); ++p) {
@@ -98,6 +103,8 @@ std::pair<OwnedArray<Node, 4>, OwnedArray<Node>> opened(Hexes hexes, Neighbours 
 }
 
 void touched(Points points, Hexes hexes, Points normals, Numbers offsets, bool notch, std::span<bool> answer) {
+    expect(offsets.size() == normals.size(), "offsets: one for each of normals is expected");
+    expect(answer.size() == hexes.size() * normals.size(), "answer: one for each of hexes and normals is expected");
     std::size_t planes = normals.size();
     std::vector<double> heights(points.size() * planes), slack(planes);
     for (std::size_t p = 0; p < planes; ++p) {

@@ -98,6 +98,8 @@ std::vector<Vector> sample_points(Points points, PointNumbers start, PointNumber
 }  // namespace
 
 void normals(Points points, PointNumbers start, PointNumbers places, std::span<Point> answer) {
+    expect(are_csr(start, places.size()), "start: its last number is expected to be the length of places");
+    expect(answer.size() + 1 == start.size(), "answer: a row for each polygon is expected");
     for (std::size_t i = 0; i + 1 < start.size(); ++i) {
         Vector first = vector(points[places[start[i]]]),
                sum{};  // relative to a corner: far from the origin absolute products are all rounding
@@ -112,6 +114,10 @@ void normals(Points points, PointNumbers start, PointNumbers places, std::span<P
 // Object-space ambient occlusion by a height map a direction, as HexaLab accumulates it (Bracci et al. 2019).
 void shine(Points points, PointNumbers start, PointNumbers places, Points normals, Points directions, std::int64_t side,
            std::span<double> light, std::span<double> whole) {
+    expect(are_csr(start, places.size()), "start: its last number is expected to be the length of places");
+    expect(normals.size() + 1 == start.size(), "normals: a row for each polygon is expected");
+    expect(have_rows(places.size(), light, whole), "light and whole: one for each of places is expected");
+    expect(side > 4, "side: more than four pixels are expected");
     if (places.empty()) return;
     Point low = points[places[0]], high = low;
     for (std::int64_t place : places)

@@ -13,6 +13,8 @@ bool is_visible(Node behind, HexMask keep) { return behind < 0 || !keep[behind];
 }  // namespace
 
 Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask keep) {
+    expect(nodes >= 0, "nodes: the number of nodes is expected");
+    expect(have_rows(hexes.size(), neighbours, keep), "neighbours and keep: a row for each of hexes is expected");
     OwnedArray<Node> used, owners;
     OwnedArray<Node, 4> quads;
     std::vector<Node> place(nodes, -1);  // position of a node among those used
@@ -37,6 +39,8 @@ Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask ke
 }
 
 Faces faces_of(Hexes hexes, Neighbours neighbours, HexMask keep, HexMask chosen, bool hidden) {
+    expect(have_rows(hexes.size(), neighbours, keep, chosen),
+           "neighbours, keep and chosen: a row for each of hexes is expected");
     OwnedArray<Node> nodes, owners;
     OwnedArray<Node, 4> quads;
     for (std::size_t h = 0; h < hexes.size(); ++h) {
@@ -54,6 +58,7 @@ Faces faces_of(Hexes hexes, Neighbours neighbours, HexMask keep, HexMask chosen,
 }
 
 void outer(Neighbours neighbours, HexMask keep, std::span<bool> answer) {
+    expect(have_rows(neighbours.size(), keep, answer), "keep and answer: one for each of neighbours is expected");
     for (std::size_t h = 0; h < keep.size(); ++h) {
         bool seen = false;
         if (keep[h])
@@ -63,6 +68,8 @@ void outer(Neighbours neighbours, HexMask keep, std::span<bool> answer) {
 }
 
 void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places) {
+    expect(nodes.size() % 8 == 0, "nodes: eight of each hex are expected");
+    expect(places.size() == nodes.size(), "places: a row for each of nodes is expected");
     for (std::size_t first = 0; first + 8 <= nodes.size(); first += 8)
         for (int k = 0; k < 3; ++k) {
             double mean = 0;
@@ -77,6 +84,9 @@ void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places
 
 void edges_kept(Hexes hexes, Indices start, Indices corners, ArrayView<const Node, 2> edges, HexMask keep,
                 std::span<bool> answer) {
+    expect_corners(hexes.size(), start, corners);
+    expect(keep.size() == hexes.size(), "keep: one for each of hexes is expected");
+    expect(answer.size() == edges.size(), "answer: one for each of edges is expected");
     for (std::size_t e = 0; e < edges.size(); ++e) {
         auto [one, other] = edges[e];
         answer[e] = std::any_of(corners.begin() + start[one], corners.begin() + start[one + 1], [&](Node corner) {

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <stdexcept>
 
 #include "view/view.hpp"
 
 namespace hexmend {
 
 void largest(Hexes hexes, Numbers of_nodes, std::span<double> of_hexes) {
+    expect(of_hexes.size() == hexes.size(), "of_hexes: one for each of hexes is expected");
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         double most = of_nodes[hexes[h][0]];
         for (Node node : hexes[h]) most = std::max(most, of_nodes[node]);
@@ -14,6 +14,7 @@ void largest(Hexes hexes, Numbers of_nodes, std::span<double> of_hexes) {
 }
 
 void mean(Hexes hexes, Numbers of_nodes, std::span<double> of_hexes) {
+    expect(of_hexes.size() == hexes.size(), "of_hexes: one for each of hexes is expected");
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         double sum = 0;
         for (Node node : hexes[h]) sum += of_nodes[node];
@@ -23,7 +24,8 @@ void mean(Hexes hexes, Numbers of_nodes, std::span<double> of_hexes) {
 
 void count(Numbers values, std::span<const bool> inverted, double low, double scale, bool open_low, bool open_high,
            std::span<std::int64_t> counts) {
-    if (counts.size() < 4) throw std::invalid_argument("counts: one bin at least is expected, and three more");
+    expect(inverted.size() == values.size(), "inverted: one for each of values is expected");
+    expect(counts.size() >= 4, "counts: one bin at least is expected, and three more");
     std::size_t bins = counts.size() - 3, above = bins, below = bins + 1, none = bins + 2;
     std::size_t first = open_low ? below : 0, last = open_high ? above : bins - 1;
     std::fill(counts.begin(), counts.end(), 0);

@@ -10,6 +10,8 @@ std::tuple<IntArray, IntArray, IntArray, IntArray, OwnedArray<std::int32_t, 8>> 
                                                                                           std::span<const bool> free,
                                                                                           std::int64_t size,
                                                                                           int overlap) {
+    expect(free.size() == mesh.nodes(), "free: one for each node is expected");
+    expect(size > 0 && overlap >= 0, "size and overlap: a node at least, and no negative number, are expected");
     const Hexes hexes = mesh.hexes;
     const std::int64_t n = free.size();
     std::vector<std::int32_t> node_start(1), nodes, hex_start(1), patch_hexes;
@@ -65,6 +67,9 @@ std::tuple<IntArray, IntArray, IntArray, IntArray, OwnedArray<std::int32_t, 8>> 
 }
 
 CSR colours(Indices hex_start, Indices patch_hexes, std::int64_t hexes) {
+    expect(are_csr(hex_start, patch_hexes.size()),
+           "hex_start: its last number is expected to be the length of patch_hexes");
+    expect(hexes >= 0, "hexes: the number of hexes is expected");
     auto each_hex = [&](std::int64_t k, const auto &body) {
         for (auto s = hex_start[k]; s < hex_start[k + 1]; ++s) body(patch_hexes[s]);
     };

@@ -156,6 +156,7 @@ template <class Target> class MultiNodePatch {
 
 EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
                             const PatchStepSettings &settings) {
+    expect(are_csr(groups, patches.size()), "groups: its last number is expected to be the length of patches");
     const Indices hex_start = partition.hex_start;
     expect_rows(settings.target, partition.hexes.size());
     std::vector<EvaluationCount> counts(patches.size());
