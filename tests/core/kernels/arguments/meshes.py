@@ -32,6 +32,13 @@ def _metrics() -> Iterator[Row]:
     yield row("metrics.axes", "points", aspect_ratio=m, skew=m, taper=m)
     yield row("metrics.corners", "points", shape=m, condition=m)
     yield row("metrics.centre", "points", jacobian=m)
+    yield row("validity.certify", "points", validity=m)
+    yield row("validity.jacobian_bounds", "points", bounds=m)
+    yield row("validity.jacobian_coefficients", "points", coefficients=m)
+    yield row("validity.least_jacobian", "points", "hexes")
+    yield row("validity.certify_quadratic", nodes=k, validity=k)
+    yield row("validity.jacobian_bounds_quadratic", nodes=k, bounds=k)
+    yield row("validity.least_jacobian_quadratic", listed="nodes", nodes=k)
 
 
 def _incidence() -> Iterator[Row]:
