@@ -12,6 +12,7 @@ from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, Layers
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import check_orientation
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
@@ -38,6 +39,11 @@ class Run(Iterator[Iteration]):
     smoother : Smoother or Recipe
     stop : StoppingCriteria, optional
         The limits; the defaults for a smoother if None. For a recipe they replace those of every stage.
+
+    Raises
+    ------
+    MeshError
+        If hexes are numbered left-handed; see `hexmend.mesh.orientation.check_orientation`.
 
     Attributes
     ----------
@@ -69,6 +75,8 @@ class Run(Iterator[Iteration]):
         self.mesh = mesh
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes)
+        if quality.n_inverted:
+            check_orientation(mesh)
         self._shapes = ShapeWatch(mesh, quality)
         smoother = self._stages[0].smoother
         judged = measure_against_target(self._shapes.with_target(smoother), mesh.points, quality)

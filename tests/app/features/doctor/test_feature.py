@@ -66,7 +66,7 @@ def test_each_finding_is_repaired_by_a_click_and_undone(window, panel, qtbot):
     before = session.document.now.mesh
     repair(qtbot, session, buttons(panel, "Repair")[0])
     assert session.document.now.summary.inverted == 0
-    assert session.document.undo_title == "repair mirrored parts"
+    assert session.document.undo_title == "repair left-handed hexes"
     qtbot.waitUntil(lambda: len(buttons(panel, "Repair")) == 1, timeout=PATIENCE)
     repair(qtbot, session, buttons(panel, "Repair")[0])
     assert session.document.now.mesh.n_nodes == 2 * 64 - 16
