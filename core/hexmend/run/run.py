@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from hexmend.aliases import reads_old_names
 from hexmend.boundary import Departures, SurfaceChange, departures, surface_change
+from hexmend.doctor import PROBLEMS
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, Layers
 from hexmend.mesh.element_target import Target
@@ -222,6 +223,8 @@ class Run(Iterator[Iteration]):
         words.append(describe_regressions(before, after, target_q))
         if not inverted:
             words.append(self.stage.smoother.regression_hint(regressions(before, after, target_q)))
+        elif overlapping := PROBLEMS["overlapping-corners"].find(self.mesh):
+            words.append(overlapping.message)
         result = None if self.outcome is None else self._result_mesh
         words.append(self._shapes.message(self.stage.smoother, walls, result))
         return " ".join(filter(None, words))
