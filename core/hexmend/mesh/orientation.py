@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.arrays import bounds
 from hexmend.errors import MeshError
-from hexmend.kernels import faces
+from hexmend.kernels import elements, faces
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MIRRORED_MID_NODES
 from hexmend.mesh.topology.components import components_of_cells
@@ -106,14 +106,19 @@ def left_handed_hexes(mesh: Mesh, report: Callable[[float], object] = lambda sha
     if not (volume < 0).any():
         return np.zeros(mesh.n_hexes, dtype=bool)
     component, sign = face_parity(mesh.hexes, mesh.topology.face_neighbours)
-    return are_left_handed(component, sign, volume, np.sign(volume))
+    return are_left_handed(
+        component, sign, volume, np.sign(volume), all_corners_negative(mesh.points, mesh.hexes, volume)
+    )
 
 
-def are_left_handed(component: np.ndarray, sign: np.ndarray, volume: np.ndarray, votes: np.ndarray) -> np.ndarray:
+def are_left_handed(
+    component: np.ndarray, sign: np.ndarray, volume: np.ndarray, votes: np.ndarray, valid: np.ndarray
+) -> np.ndarray:
     """Decide which of both numberings in a component is left-handed: that in which its volume is negative.
 
     The volume inside the boundary does not depend on the nodes inside, however tangled they are. A component is left
-    as it is if renumbering would not leave fewer hexes of negative volume, as where an outlier turns the boundary.
+    as it is if renumbering would not leave fewer hexes of negative volume, as where an outlier turns the boundary, or
+    would make no hex valid, as for a tangled hex that shares no face.
 
     Parameters
     ----------
@@ -123,6 +128,8 @@ def are_left_handed(component: np.ndarray, sign: np.ndarray, volume: np.ndarray,
         Their volume.
     votes : (k,) float64
         Number of their hexes of positive volume less that of negative ones.
+    valid : (k,) float64 or bool
+        Number of their hexes that are valid after renumbering; see `all_corners_negative`.
 
     Returns
     -------
@@ -131,7 +138,17 @@ def are_left_handed(component: np.ndarray, sign: np.ndarray, volume: np.ndarray,
     with np.errstate(all="ignore"):  # volumes may overflow
         right = np.sign(np.bincount(component, sign * volume))[component]
         wrong = sign * right < 0
-    return wrong & (np.bincount(component, np.where(wrong, votes, 0.0)) < 0)[component]
+    lost, gained = (np.bincount(component, np.where(wrong, values, 0)) for values in (votes, valid))
+    return wrong & ((lost < 0) & (gained > 0))[component]
+
+
+def all_corners_negative(points: np.ndarray, hexes: np.ndarray, volume: np.ndarray) -> np.ndarray:
+    """Mark the hexes (m, 8) of these volumes (m,) whose corner determinants are all negative, (m,) bool."""
+    negative = np.flatnonzero(volume < 0)
+    determinants, marks = np.empty((negative.size, 8)), np.zeros(len(hexes), dtype=bool)
+    elements.corner_determinants(points, np.ascontiguousarray(hexes[negative]), determinants)
+    marks[negative] = (determinants < 0).all(axis=1)
+    return marks
 
 
 def signed_volumes(

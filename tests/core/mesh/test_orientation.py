@@ -153,6 +153,16 @@ def test_a_node_far_outside_does_not_turn_the_whole_mesh():
     assert with_consistent_orientation(mesh) is mesh
 
 
+def test_a_tangled_hex_that_shares_no_face_is_left_as_it_is():
+    mesh = two_grids()
+    points = mesh.points.copy()
+    points[mesh.hexes[8, 4:]] -= [[0, 0, 1.5]] * 3 + [[0, 0, 0.5]]  # three of the four upper corners below the lower
+    mesh = mesh.with_points(points)
+    signs = np.sign(corner_determinants(mesh.points, mesh.hexes)[8])
+    assert signs.sum() < 0 < signs.max()
+    assert with_consistent_orientation(mesh) is mesh
+
+
 def test_mid_nodes_and_side_sets_follow_their_hexes():
     mesh, which = grid(4, 3, 3), lattice_pattern("checkerboard")
     rows = np.array([(hexa, face) for hexa in range(36) for face in range(6)])

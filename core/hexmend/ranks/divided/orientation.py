@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.hexahedron import FACES
-from hexmend.mesh.orientation import MIRRORED_CORNERS, are_left_handed, signed_volumes
+from hexmend.mesh.orientation import MIRRORED_CORNERS, all_corners_negative, are_left_handed, signed_volumes
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.topology.face_parity import face_parity, signed_components
 from hexmend.ranks.mpi_ranks import MPIRanks
@@ -41,7 +41,8 @@ def with_right_handed_hexes(
     component, sign = _in_whole_mesh(ranks, component, sign, ids, ~owned[hexes].all(axis=1))
     group, of_hex = np.unique(3 * component + sign + 1, return_inverse=True)  # alike in the whole mesh
     counted = owned[hexes[:, 0]]
-    sums = [np.bincount(of_hex[counted], values[counted], len(group)) for values in (volume, np.sign(volume))]
+    values = volume, np.sign(volume), all_corners_negative(points, hexes, volume)
+    sums = [np.bincount(of_hex[counted], one[counted], len(group)) for one in values]
     rows = ranks.gather(np.stack([group, *sums], axis=1))
     components, signs = np.divmod(rows[:, 0].astype(np.int64), 3)
     left_handed = np.isin(group, rows[are_left_handed(components, signs - 1, *rows[:, 1:].T), 0])[of_hex]
