@@ -51,13 +51,14 @@ class OverlappingCorners(Problem):
         return hexes_without_valid_position(mesh)
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        found = replace(self.finding(where, ""), nodes=nodes_without_valid_position(mesh))
-        hexes, nodes = (replace(found, **{none: NONE_FOUND}).location_text(10, mesh) for none in ("nodes", "hexes"))
-        return replace(
-            found,
-            message=f"No position of the nodes makes all of these {where.size:,} hexes valid: {hexes}. At {nodes} two "
-            "faces have the same two edges, so that hexes on the same side of them overlap or are inverted.",
+        nodes = nodes_without_valid_position(mesh)
+        hexes = self.finding(where, "").location_text(10, mesh)
+        at = Finding(self.name, nodes.size, "", nodes=nodes).location_text(10, mesh)
+        message = (
+            f"No position of the nodes makes all of these {where.size:,} hexes valid: {hexes}. At {at} two faces have "
+            "the same two edges, so that hexes on the same side of them overlap or are inverted."
         )
+        return replace(self.finding(where, message), nodes=nodes)
 
 
 @register_problem
