@@ -4,7 +4,7 @@
 >>> examine(make("cube", size=8))
 ()
 >>> sorted(PROBLEMS)[:3]
-['coincident-nodes', 'crowded-faces', 'degenerate-hexes']
+['coincident-nodes', 'contradictory-faces', 'crowded-faces']
 """
 
 from __future__ import annotations

@@ -1,10 +1,13 @@
-"""Problems of connectivity: non-manifold faces and disconnected parts."""
+"""Problems of connectivity: non-manifold faces, corners that overlap, and disconnected parts."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
+from hexmend.locking import hexes_without_valid_position, nodes_without_valid_position
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import parts_of
@@ -34,6 +37,28 @@ class NonManifoldFaces(Problem):
             f"{faces} to more than two hexes; {'it is' if count == 1 else 'they are'} treated as boundary.",
             count=count,
         )
+
+
+@register_problem
+class OverlappingCorners(Problem):
+    """Hexes of which one is inverted wherever the nodes are; see `hexmend.locking.hexes_without_valid_position`."""
+
+    name, title = "overlapping-corners", "Overlapping corners"
+    rank = 11
+    remedy = "Correct the connectivity there where the mesh was made."
+
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        return hexes_without_valid_position(mesh)
+
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        nodes = nodes_without_valid_position(mesh)
+        hexes = self.finding(where, "").location_text(10, mesh)
+        at = Finding(self.name, nodes.size, "", nodes=nodes).location_text(10, mesh)
+        message = (
+            f"No position of the nodes makes all of these {where.size:,} hexes valid: {hexes}. At {at} two faces have "
+            "the same two edges, so that hexes on the same side of them overlap or are inverted."
+        )
+        return replace(self.finding(where, message), nodes=nodes)
 
 
 @register_problem

@@ -53,7 +53,7 @@ class Finding:
 
         >>> Finding("unused-nodes", 7, "", nodes=np.arange(7)).location_text(3)
         'nodes 0, 1, 2, ...'
-        >>> Finding("flipped-hexes", 1, "", hexes=np.array([12])).location_text()
+        >>> Finding("degenerate-hexes", 1, "", hexes=np.array([12])).location_text()
         'hex 12'
         """
         numbers, one, several = (self.hexes, "hex", "hexes") if len(self.hexes) else (self.nodes, "node", "nodes")

@@ -24,7 +24,7 @@ def import_library(library: str) -> ModuleType:
 
 
 def convert_to_mesh(title: str, read: Callable[[Path], Mesh], as_is: bool) -> Mesh:
-    """Convert an object of another library to a mesh with side sets, and correct mirrored hexes unless `as_is`.
+    """Convert an object of another library to a mesh with side sets, and renumber left-handed hexes unless `as_is`.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def convert_to_mesh(title: str, read: Callable[[Path], Mesh], as_is: bool) -> Me
     read : callable
         read(title) returns the mesh; it takes the title in place of a file's path, as readers of files do.
     as_is : bool
-        Keep parts whose hexes are all mirrored.
+        Keep hexes that are numbered left-handed.
 
     Returns
     -------

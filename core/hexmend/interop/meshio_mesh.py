@@ -90,7 +90,7 @@ def from_meshio(meshio_mesh: meshio.Mesh, *, as_is: bool = False) -> Mesh:
     ----------
     meshio_mesh : meshio.Mesh
     as_is : bool
-        Keep parts whose hexes are all mirrored; else their node order is reversed.
+        Keep hexes that are numbered left-handed; else they are renumbered.
 
     Returns
     -------

@@ -82,7 +82,7 @@ def from_pyvista(grid: Any, *, as_is: bool = False) -> Mesh:
         Any data set with hexahedra or voxels: an unstructured grid, a structured grid, an image... VTK's own objects
         are taken too.
     as_is : bool
-        Keep parts whose hexes are all mirrored; else their node order is reversed.
+        Keep hexes that are numbered left-handed; else they are renumbered.
 
     Returns
     -------

@@ -47,7 +47,7 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
         A file of any format in `FORMATS`; the content decides where the suffix is unknown or misleading. For OpenFOAM
         also the folder of a case.
     as_is : bool
-        Keep parts whose hexes are all mirrored; else their node order is reversed.
+        Keep hexes that are numbered left-handed; else they are renumbered.
     interpolate_missing : bool
         Place nodes without finite coordinates between their neighbours; else they are an error.
 

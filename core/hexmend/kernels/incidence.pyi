@@ -24,6 +24,14 @@ def face_neighbours(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8),
     of the mesh, and is counted once per hex.
     """
 
+def overlapping_corners(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+    """
+    Corners at each node whose cones overlap wherever the nodes are, as compressed rows (start (n + 1,),
+    corners), both int32; start, corners: `node_corners`.
+
+    Two faces at the node have the same two edges there, in one order as seen from their hexes.
+    """
+
 def join(parent: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], items: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], width: int) -> None:
     """
     Connect the items of each row of `width` items; changes parent (n,) int32, at first 0 to n - 1.

@@ -4,6 +4,7 @@ from hexmend.aliases import exports
 from hexmend.locking.free_positions import FreePositions, find_free_positions
 from hexmend.locking.locked_corners import LockedCorner, Reason, find_locked_corners
 from hexmend.locking.locking import Locking, find_locking
+from hexmend.locking.overlapping_corners import hexes_without_valid_position, nodes_without_valid_position
 from hexmend.locking.visibility import nodes_without_space
 
 __all__ = [
@@ -14,7 +15,9 @@ __all__ = [
     "find_free_positions",
     "find_locked_corners",
     "find_locking",
+    "hexes_without_valid_position",
     "nodes_without_space",
+    "nodes_without_valid_position",
 ]
 
 __getattr__ = exports(__name__)

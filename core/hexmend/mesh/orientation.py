@@ -1,4 +1,4 @@
-"""Orientation of hexes: parts whose corners are numbered left-handed, so that each hex is inside out."""
+"""Orientation of hexes: those whose corners are numbered left-handed, which are inside out wherever their nodes are."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from collections.abc import Callable
 import numpy as np
 
 from hexmend.arrays import bounds
-from hexmend.kernels import elements
+from hexmend.errors import MeshError
+from hexmend.kernels import elements, faces
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MIRRORED_MID_NODES
 from hexmend.mesh.topology.components import components_of_cells
+from hexmend.mesh.topology.face_parity import face_parity
 from hexmend.terminal_text import count_phrase
 
 #: Corners, and faces, of a hex whose lower and upper face are exchanged.
@@ -19,20 +21,25 @@ MIRRORED_FACES = np.array([0, 1, 2, 3, 5, 4])
 
 #: Hexes whose volumes are computed at a time.
 _CHUNK = 1 << 16
-#: End of the note on hexes that were renumbered, and that of version 0.1.
+#: End of the note on hexes that were renumbered, and words in it where they were numbered unlike others of their part.
 _RENUMBERED = "numbered inside out in the file (left-handed), and renumbered on reading."
-_RENUMBERED_BEFORE = "were numbered inside out in the file, and were renumbered on reading."
+_UNLIKE = ", unlike "
 
 
 def was_turned(mesh: Mesh) -> bool:
-    """Return True if parts of the mesh were renumbered on reading."""
-    return any(note.endswith((_RENUMBERED, _RENUMBERED_BEFORE)) for note in mesh.notes)
+    """Return True if hexes of the mesh were renumbered on reading."""
+    return any(note.endswith(_RENUMBERED) for note in mesh.notes)
+
+
+def had_mixed_numbering(mesh: Mesh) -> bool:
+    """Return True if hexes were renumbered on reading that the file numbers unlike others of their part."""
+    return any(note.endswith(_RENUMBERED) and _UNLIKE in note for note in mesh.notes)
 
 
 def with_consistent_orientation(mesh: Mesh, report: Callable[[float], object] = lambda share: None) -> Mesh:
-    """Return the mesh with all left-handed parts renumbered right-handed, and a note that says so.
+    """Return the mesh with all left-handed hexes renumbered right-handed, and a note that says so.
 
-    Single inverted hexes are left as they are: smoothing has to repair them.
+    Hexes that the positions of their nodes invert are left as they are: smoothing has to repair them.
 
     Parameters
     ----------
@@ -44,30 +51,46 @@ def with_consistent_orientation(mesh: Mesh, report: Callable[[float], object] = 
     -------
     Mesh
     """
-    which = mirrored_parts(mesh, report)
-    count = int(which.sum())
-    if not count:
+    which = left_handed_hexes(mesh, report)
+    if not which.any():
         return mesh
-    note = f"{whole_parts_are(count, mesh.n_hexes)} {_RENUMBERED}"
+    note = f"{left_handed_are(mesh, which)} {_RENUMBERED}"
     return mirror_hexes(mesh, which).replace(notes=(*mesh.notes, note))
 
 
-def whole_parts_are(count: int, n_hexes: int) -> str:
-    """Return the subject and verb of a sentence about hexes that make whole parts of a mesh.
+def check_orientation(mesh: Mesh) -> None:
+    """Check that no hex is numbered left-handed: no position of its nodes makes it valid.
 
-    >>> whole_parts_are(8, 8), whole_parts_are(1, 8), whole_parts_are(1, 1)
-    ('All hexes are', '1 hex, which makes a whole part, is', 'The only hex is')
+    Raises
+    ------
+    MeshError
+        Where hexes are; the message names the ways to renumber them.
     """
-    if count == n_hexes:
+    which = left_handed_hexes(mesh)
+    if which.any():
+        raise MeshError(
+            f"{left_handed_are(mesh, which)} numbered inside out (left-handed), which moving nodes does not mend. "
+            "Renumber first: hexmend repair MESH -o OUT, hexmend.doctor.repair(mesh), or Edit > Doctor in the window."
+        )
+
+
+def left_handed_are(mesh: Mesh, which: np.ndarray) -> str:
+    """Return the subject and verb of a sentence about left-handed hexes (m,) bool, of which there is at least one."""
+    count, neighbours = int(which.sum()), mesh.topology.face_neighbours[which]
+    if count == mesh.n_hexes:
         return "The only hex is" if count == 1 else "All hexes are"
+    if ((neighbours >= 0) & ~which[neighbours]).any():
+        return count_phrase(count, f"hex{_UNLIKE}its neighbours, is", f"hexes{_UNLIKE}their neighbours, are")
     return count_phrase(count, "hex, which makes a whole part, is", "hexes, which make whole parts, are")
 
 
-def mirrored_parts(mesh: Mesh, report: Callable[[float], object] = lambda share: None) -> np.ndarray:
-    """Find the hexes of left-handed parts.
+def left_handed_hexes(mesh: Mesh, report: Callable[[float], object] = lambda share: None) -> np.ndarray:
+    """Find the hexes whose corners are numbered left-handed.
 
-    Parts are connected by nodes. A part is left-handed if some of its hexes have a negative volume and none a positive
-    one; flat hexes, whose volume is zero up to rounding, do not count.
+    Which hexes of a face-connected component are numbered alike follows from the faces that they share
+    (`face_parity`); which of both ways is right-handed follows from volumes (`are_left_handed`). A hex that is
+    inverted, and numbered as its neighbours are, is therefore not left-handed. None is where the faces contradict each
+    other.
 
     Parameters
     ----------
@@ -79,41 +102,72 @@ def mirrored_parts(mesh: Mesh, report: Callable[[float], object] = lambda share:
     -------
     (m,) bool
     """
-    wrong, right = np.zeros(mesh.n_hexes, dtype=bool), np.zeros(mesh.n_hexes, dtype=bool)
-    if not mesh.n_hexes:
-        return wrong
-    bound = _rounding_bound(mesh.points)
-    for begin in range(0, mesh.n_hexes, _CHUNK):
-        some = slice(begin, begin + _CHUNK)
-        wrong[some], right[some] = _handedness(mesh.points, mesh.hexes[some], bound)
-        report(min(begin + _CHUNK, mesh.n_hexes) / mesh.n_hexes)
-    if not wrong.any():
-        return wrong
-    part = parts_of(mesh)
-    of_part = (np.bincount(part, wrong) > 0) & (np.bincount(part, right) == 0)
-    return of_part[part]
+    volume = signed_volumes(mesh.points, mesh.hexes, report) if mesh.n_hexes else np.empty(0)
+    if not (volume < 0).any():
+        return np.zeros(mesh.n_hexes, dtype=bool)
+    component, sign = face_parity(mesh.hexes, mesh.topology.face_neighbours)
+    return are_left_handed(
+        component, sign, volume, np.sign(volume), all_corners_negative(mesh.points, mesh.hexes, volume)
+    )
 
 
-def handedness(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Mark hexes (m, 8) of negative and of positive volume, both (m,) bool; flat ones are neither."""
-    bound, chunks = _rounding_bound(points), range(0, len(hexes), _CHUNK)
-    marks = [_handedness(points, hexes[begin : begin + _CHUNK], bound) for begin in chunks]
-    wrong, right = (np.concatenate([np.empty(0, bool), *(pair[side] for pair in marks)]) for side in (0, 1))
-    return wrong, right
+def are_left_handed(
+    component: np.ndarray, sign: np.ndarray, volume: np.ndarray, votes: np.ndarray, valid: np.ndarray
+) -> np.ndarray:
+    """Decide which of both numberings in a component is left-handed: that in which its volume is negative.
 
+    The volume inside the boundary does not depend on the nodes inside, however tangled they are. A component is left
+    as it is if renumbering would not leave fewer hexes of negative volume, as where an outlier turns the boundary, or
+    would make no hex valid, as for a tangled hex that shares no face.
 
-def _handedness(points: np.ndarray, hexes: np.ndarray, bound: float) -> tuple[np.ndarray, np.ndarray]:
-    """Mark hexes (k, 8) of negative and of positive volume, both (k,) bool; flat ones are neither.
+    Parameters
+    ----------
+    component, sign : (k,) int
+        Of hexes, or of groups of hexes that are numbered alike; see `face_parity`.
+    volume : (k,) float64
+        Their volume.
+    votes : (k,) float64
+        Number of their hexes of positive volume less that of negative ones.
+    valid : (k,) float64 or bool
+        Number of their hexes that are valid after renumbering; see `all_corners_negative`.
 
-    `bound` is that of the rounding error of any hex: those of larger volumes need none of their own.
+    Returns
+    -------
+    (k,) bool
     """
-    volumes = _volumes(points, hexes)
-    with np.errstate(all="ignore"):
-        wrong, right = volumes < -bound, volumes > bound
-        small = np.flatnonzero(~(wrong | right))
-        rounding = _rounding(points, hexes[small])
-        wrong[small], right[small] = volumes[small] < -rounding, volumes[small] > rounding
-    return wrong, right
+    with np.errstate(all="ignore"):  # volumes may overflow
+        right = np.sign(np.bincount(component, sign * volume))[component]
+        wrong = sign * right < 0
+    lost, gained = (np.bincount(component, np.where(wrong, values, 0)) for values in (votes, valid))
+    return wrong & ((lost < 0) & (gained > 0))[component]
+
+
+def all_corners_negative(points: np.ndarray, hexes: np.ndarray, volume: np.ndarray) -> np.ndarray:
+    """Mark the hexes (m, 8) of these volumes (m,) whose corner determinants are all negative, (m,) bool."""
+    negative = np.flatnonzero(volume < 0)
+    determinants, marks = np.empty((negative.size, 8)), np.zeros(len(hexes), dtype=bool)
+    elements.corner_determinants(points, np.ascontiguousarray(hexes[negative]), determinants)
+    marks[negative] = (determinants < 0).all(axis=1)
+    return marks
+
+
+def signed_volumes(
+    points: np.ndarray, hexes: np.ndarray, report: Callable[[float], object] = lambda share: None
+) -> np.ndarray:
+    """Compute the volumes of hexes (m, 8); 0 for flat hexes, whose volume is zero up to rounding, (m,) float64.
+
+    Those of very large coordinates, whose products overflow, count as flat.
+    """
+    volume = np.empty(len(hexes))
+    faces.volume(points, hexes, volume)
+    bound = _rounding_bound(points)
+    for begin in range(0, len(hexes), _CHUNK):
+        some = volume[begin : begin + _CHUNK]
+        small = begin + np.flatnonzero(~(np.abs(some) > bound))  # larger volumes need no bound of their own
+        with np.errstate(all="ignore"):
+            volume[small[~(np.abs(volume[small]) > _rounding(points, hexes[small]))]] = 0.0
+        report(min(begin + _CHUNK, len(hexes)) / len(hexes))
+    return volume
 
 
 def _rounding_bound(points: np.ndarray) -> float:
@@ -124,16 +178,8 @@ def _rounding_bound(points: np.ndarray) -> float:
         return float(65 * np.finfo(np.float64).eps * largest * np.square(high - low).sum())
 
 
-def _volumes(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Sums of the corner determinants of hexes (k, 8), (k,); very large coordinates overflow."""
-    determinants = np.empty((len(hexes), 8))
-    elements.corner_determinants(points, hexes, determinants)
-    with np.errstate(all="ignore"):
-        return determinants.sum(axis=1)
-
-
 def _rounding(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Bound of the rounding error in the sum of a hex's corner determinants, (k,) float64."""
+    """Bound of the rounding error in the volume of a hex, (k,) float64."""
     corners = points[hexes]
     size = np.linalg.norm(corners.max(axis=1) - corners.min(axis=1), axis=1)
     return 64 * np.finfo(np.float64).eps * np.abs(corners).max(axis=(1, 2)) * size**2

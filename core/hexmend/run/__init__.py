@@ -59,7 +59,7 @@ def iterate(
         For a method that does not exist, a name that neither the method nor `StoppingCriteria` nor `MotionRules` has,
         and a value out of bounds; the message suggests the nearest name and lists all.
     FileError, MeshError
-        If the file cannot be read.
+        If the file cannot be read, or hexes are numbered left-handed.
 
     Examples
     --------
@@ -124,7 +124,7 @@ def smooth(
     ParameterError
         For a method or a name that does not exist, and a value out of bounds; the message suggests the nearest name.
     FileError, MeshError
-        If the file cannot be read.
+        If the file cannot be read, or hexes are numbered left-handed.
 
     Examples
     --------

@@ -8,10 +8,12 @@ from itertools import pairwise
 
 from hexmend.aliases import reads_old_names
 from hexmend.boundary import Departures, SurfaceChange, departures, surface_change
+from hexmend.doctor import PROBLEMS
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, Layers
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import check_orientation
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
@@ -38,6 +40,11 @@ class Run(Iterator[Iteration]):
     smoother : Smoother or Recipe
     stop : StoppingCriteria, optional
         The limits; the defaults for a smoother if None. For a recipe they replace those of every stage.
+
+    Raises
+    ------
+    MeshError
+        If hexes are numbered left-handed; see `hexmend.mesh.orientation.check_orientation`.
 
     Attributes
     ----------
@@ -69,6 +76,8 @@ class Run(Iterator[Iteration]):
         self.mesh = mesh
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+        if quality.n_inverted:
+            check_orientation(mesh)
         self._shapes = ShapeWatch(mesh, quality)
         smoother = self._stages[0].smoother
         judged = measure_against_target(self._shapes.with_target(smoother), mesh.points, quality)
@@ -214,6 +223,8 @@ class Run(Iterator[Iteration]):
         words.append(describe_regressions(before, after, target_q))
         if not invalid:
             words.append(self.stage.smoother.regression_hint(regressions(before, after, target_q)))
+        elif overlapping := PROBLEMS["overlapping-corners"].find(self.mesh):
+            words.append(overlapping.message)
         result = None if self.outcome is None else self._result_mesh
         words.append(self._shapes.message(self.stage.smoother, walls, result))
         return " ".join(filter(None, words))

@@ -120,6 +120,10 @@ void bind_incidence(nb::module_ m) {
           "`node_corners`.\n\n"
           "-1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect\n"
           "of the mesh, and is counted once per hex.");
+    m.def("overlapping_corners", &overlapping_corners, "hexes"_a, "start"_a, "corners"_a, ReleaseGil(),
+          "Corners at each node whose cones overlap wherever the nodes are, as compressed rows (start (n + 1,),\n"
+          "corners), both int32; start, corners: `node_corners`.\n\n"
+          "Two faces at the node have the same two edges there, in one order as seen from their hexes.");
     m.def(
         "join",
         [](std::span<std::int32_t> parent, Indices items, int width) {

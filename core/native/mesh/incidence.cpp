@@ -40,6 +40,19 @@ constexpr auto FACES_AT_CORNER = [] {
     return faces;
 }();
 
+// The three faces at each corner, seen from outside: the corner after it, that across the face, and that before it.
+constexpr auto SIDES_AT_CORNER = [] {
+    std::array<std::array<std::array<int, 3>, 3>, 8> sides{};
+    for (int c = 0; c < 8; ++c)
+        for (int k = 0; k < 3; ++k) {
+            auto &face = FACES[CORNER_FACES[c][k]];
+            int at = 0;
+            while (face[at] != c) ++at;
+            sides[c][k] = {face[(at + 1) % 4], face[(at + 2) % 4], face[(at + 3) % 4]};
+        }
+    return sides;
+}();
+
 // A face in the list of its lowest node: the other three nodes, ascending; the number of hexes behind it, and the last.
 struct Face {
     Node a, b, c;
@@ -84,6 +97,34 @@ std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes
         }
     });
     return {{std::move(neighbours)}, std::reduce(non_manifold.begin(), non_manifold.end())};
+}
+
+CSR overlapping_corners(Hexes hexes, Indices start, Indices corners) {
+    expect_corners(hexes.size(), start, corners);
+    struct Side {  // a face at a corner: its two edges there as one number, the node across it, the corner
+        std::int64_t edges;
+        Node across;
+        std::int32_t corner;
+    };
+    return arrays(CSRBuilder<std::int32_t>(start.size() - 1, widest(start), MOST_ITEMS, [&](std::int64_t i, int *row) {
+        thread_local std::vector<Side> sides;
+        sides.clear();
+        int size = 0;
+        for (auto s = start[i]; s < start[i + 1]; ++s)
+            for (auto [after, across, before] : SIDES_AT_CORNER[corners[s] % 8]) {
+                const Hex &hex = hexes[corners[s] / 8];
+                Node a = hex[after], b = hex[before];
+                if (a == b || a == i || b == i) continue;
+                Side side{static_cast<std::int64_t>(a) << 32 | b, hex[across], corners[s]};
+                for (const Side &other : sides)
+                    if (side.edges == other.edges && side.across != other.across) {
+                        placed(row, size, side.corner);
+                        placed(row, size, other.corner);
+                    }
+                sides.push_back(side);
+            }
+        return size;
+    }));
 }
 
 void join(std::span<std::int32_t> parent, Indices items, int width) {

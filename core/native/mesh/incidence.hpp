@@ -15,6 +15,10 @@ CSR node_corners(Hexes hexes, std::int64_t nodes);
 // The hex behind each face, (m, 6), -1 for none; and the number of non-manifold faces, those of more than two hexes.
 std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners);
 
+// Corners at each node whose cones overlap wherever the nodes are, ascending: two faces at the node have the same two
+// edges there, in one order as seen from their hexes. Faces that are collapsed at the node are left out.
+CSR overlapping_corners(Hexes hexes, Indices start, Indices corners);
+
 // Connected components by union-find with path halving: parent[i] is an item of i's component, at most i; in the
 // beginning every item is its own parent. Join the items of each row of `width` items.
 void join(std::span<std::int32_t> parent, Indices items, int width);

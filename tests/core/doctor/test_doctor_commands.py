@@ -58,10 +58,15 @@ def _rest(lines, row):
     return lines[next(k for k, line in enumerate(lines[row:], row) if line[:1].isalpha()) :]
 
 
-@pytest.mark.parametrize("mesh", [flipped(13), with_hexes(SOUND.hexes[:, VOXEL_ORDER])], ids=["flipped", "voxels"])
-def test_smooth_gives_the_diagnosis_and_the_command(mesh, tmp_path, capsys):
+@pytest.mark.parametrize(
+    ("mesh", "option"),
+    [(flipped(13), ["--as-is"]), (with_hexes(SOUND.hexes[:, VOXEL_ORDER]), [])],
+    ids=["flipped", "voxels"],
+)
+def test_smooth_gives_the_diagnosis_and_the_command(mesh, option, tmp_path, capsys):
     io.write(tmp_path / "bad.vtu", mesh)
-    main(["smooth", str(tmp_path / "bad.vtu"), "-o", str(tmp_path / "out.vtu"), "--max-iterations", "1"])
+    main(["smooth", str(tmp_path / "bad.vtu"), "-o", str(tmp_path / "out.vtu"), "--max-iterations", "1", *option])
+    assert (tmp_path / "out.vtu").exists() is not bool(option)  # refused before a node moves
     assert f"Run: hexmend repair {tmp_path / 'bad.vtu'} -o OUT --only" in capsys.readouterr().err
 
 

@@ -1,21 +1,26 @@
-"""Left-handed parts are renumbered with their side sets; single inverted hexes are not."""
+"""Left-handed hexes are renumbered with their side sets; hexes that their nodes invert are not."""
 
 import numpy as np
 import pytest
 
+from hexmend.doctor import repair
+from hexmend.errors import MeshError
 from hexmend.mesh import orientation
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import (
     MIRRORED_CORNERS,
+    had_mixed_numbering,
+    left_handed_hexes,
     mirror_hexes,
-    mirrored_parts,
     parts_of,
+    was_turned,
     with_consistent_orientation,
 )
 from hexmend.quality import corner_determinants
+from hexmend.run import iterate, smooth
 from hexmend.terminal_text import count_phrase
-from tests.core.grids import grid
+from tests.core.grids import grid, scrambled, with_edge_midpoints
 
 
 def mirrored(mesh, which):
@@ -43,11 +48,11 @@ def test_hexes_that_are_flat_up_to_rounding_do_not_count_wherever_a_chunk_ends(c
     mesh = grid(2, 1, 1)
     points = mesh.points.copy()
     flat = points[:, 0] == 2
-    points[flat] = points[flat] * [0, 1, 1] + [1 + 1e-15, 0, 0]
-    mesh = mirrored(mesh.with_points(points), [True, False])
+    points[flat] = points[flat] * [0, 1, 1] + [1 - 1e-15, 0, 0]
+    mesh = mirrored(mesh.with_points(points), [True, True])
     volumes = corner_determinants(points, mesh.hexes, np.arange(2)).sum(axis=1)
     assert volumes[0] < 0 < volumes[1] < 1e-13
-    assert mirrored_parts(mesh).all()
+    assert left_handed_hexes(mesh).all()
 
 
 def test_faces_of_side_sets_stay_where_they_are():
@@ -75,7 +80,7 @@ def test_turning_changes_the_sign_of_every_determinant_of_these_hexes_alone():
 def test_whole_parts_are_turned_and_a_note_counts_them(which):
     mesh = two_grids()
     wrong = mirrored(mesh, np.isin(np.arange(9), which))
-    np.testing.assert_array_equal(np.flatnonzero(mirrored_parts(wrong)), which)
+    np.testing.assert_array_equal(np.flatnonzero(left_handed_hexes(wrong)), which)
     back = with_consistent_orientation(wrong)
     assert (corner_determinants(back.points, back.hexes) > 0).all()
     assert len(back.notes) == 1
@@ -84,11 +89,95 @@ def test_whole_parts_are_turned_and_a_note_counts_them(which):
     )
 
 
-@pytest.mark.parametrize("which", [[], [0], [0, 1, 2, 3, 4, 5, 6]])
-def test_a_part_with_one_sound_hex_is_left_as_it_is(which):
-    wrong = mirrored(two_grids(), np.isin(np.arange(9), which))
-    assert not mirrored_parts(wrong).any()
-    assert with_consistent_orientation(wrong) is wrong
+def lattice_pattern(name):
+    """Mark hexes of a lattice of 4 x 3 x 3, (36,) bool."""
+    x, y, z = np.arange(36) % 4, np.arange(36) // 4 % 3, np.arange(36) // 12
+    return {
+        "checkerboard": (x + y + z) % 2 == 0,
+        "layer": z == 1,
+        "one hex": np.arange(36) == 17,
+        "all but one": np.arange(36) != 17,
+        "block": (x < 2) & (y < 2),
+        "most": x > 0,
+    }[name]
+
+
+@pytest.mark.parametrize("name", ["checkerboard", "layer", "one hex", "all but one", "block", "most"])
+def test_left_handed_hexes_of_a_lattice_are_renumbered_exactly_and_a_note_counts_them(name):
+    mesh, which = grid(4, 3, 3), lattice_pattern(name)
+    wrong = mirrored(scrambled(mesh, 0.1), which)
+    np.testing.assert_array_equal(left_handed_hexes(wrong), which)
+    back = with_consistent_orientation(wrong)
+    np.testing.assert_array_equal(back.hexes, mesh.hexes)
+    (note,) = back.notes
+    assert note.startswith(f"{count_phrase(which.sum(), 'hex', 'hexes')}, unlike")
+    assert was_turned(back)
+    assert had_mixed_numbering(back)
+
+
+def test_components_are_renumbered_each_by_itself():
+    which = np.isin(np.arange(9), [2, 5, 8])
+    wrong = mirrored(two_grids(), which)
+    np.testing.assert_array_equal(left_handed_hexes(wrong), which)
+    np.testing.assert_array_equal(with_consistent_orientation(wrong).hexes, two_grids().hexes)
+
+
+@pytest.mark.parametrize("flat", [[0, 1, 2, 3], [4, 5, 6, 7]])
+def test_flat_hexes_follow_their_neighbours(flat):
+    mesh = grid(2, 2, 3)
+    points = mesh.points.copy()
+    points[points[:, 2] == (0 if flat[0] == 0 else 2), 2] = 1  # the lowest layer, or that above it, has no height
+    mesh = mesh.with_points(points)
+    assert (corner_determinants(mesh.points, mesh.hexes)[flat] == 0).all()
+    which = np.arange(12) % 3 == 0
+    np.testing.assert_array_equal(with_consistent_orientation(mirrored(mesh, which)).hexes, mesh.hexes)
+    assert with_consistent_orientation(mesh) is mesh
+
+
+@pytest.mark.parametrize("amplitude", [1.3, 1.5])
+def test_hexes_that_their_nodes_invert_are_left_as_they_are_and_others_renumbered_among_them(amplitude):
+    mesh = scrambled(grid(4, 3, 3), amplitude)
+    inverted = corner_determinants(mesh.points, mesh.hexes).sum(axis=1) < 0
+    assert inverted.any()
+    assert with_consistent_orientation(mesh) is mesh
+    for which in (lattice_pattern("layer"), np.ones(36, dtype=bool)):
+        np.testing.assert_array_equal(with_consistent_orientation(mirrored(mesh, which)).hexes, mesh.hexes)
+
+
+def test_a_node_far_outside_does_not_turn_the_whole_mesh():
+    mesh = grid(4, 3, 3)
+    points = mesh.points.copy()
+    points[0] = 1e6
+    assert corner_determinants(points, mesh.hexes[:1]).sum() < 0
+    mesh = mesh.with_points(points)
+    assert with_consistent_orientation(mesh) is mesh
+
+
+def test_a_tangled_hex_that_shares_no_face_is_left_as_it_is():
+    mesh = two_grids()
+    points = mesh.points.copy()
+    points[mesh.hexes[8, 4:]] -= [[0, 0, 1.5]] * 3 + [[0, 0, 0.5]]  # three of the four upper corners below the lower
+    mesh = mesh.with_points(points)
+    signs = np.sign(corner_determinants(mesh.points, mesh.hexes)[8])
+    assert signs.sum() < 0 < signs.max()
+    assert with_consistent_orientation(mesh) is mesh
+
+
+def test_mid_nodes_and_side_sets_follow_their_hexes():
+    mesh, which = grid(4, 3, 3), lattice_pattern("checkerboard")
+    rows = np.array([(hexa, face) for hexa in range(36) for face in range(6)])
+    mesh = with_edge_midpoints(mesh).replace(side_sets={"all": rows})
+    back = with_consistent_orientation(mirror_hexes(mesh, which))
+    np.testing.assert_array_equal(back.hexes, mesh.hexes)
+    np.testing.assert_array_equal(back.mid_nodes, mesh.mid_nodes)
+    np.testing.assert_array_equal(back.side_sets["all"], rows)
+
+
+def test_a_run_refuses_left_handed_hexes_and_names_the_remedy():
+    wrong = mirrored(scrambled(grid(3), 0.1), np.arange(27) == 13)
+    with pytest.raises(MeshError, match=r"1 hex, unlike its neighbours, is numbered inside out .* hexmend repair"):
+        iterate(wrong)
+    assert smooth(repair(wrong)[0]).after.inverted == 0
 
 
 def test_parts_hang_together_by_nodes_and_are_counted_from_0():

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.mesh.orientation import MIRRORED_CORNERS, mirrored_parts
+from hexmend.mesh.orientation import MIRRORED_CORNERS, left_handed_hexes
 from hexmend.quality.metric import METRICS
 from tests.core.grids import grid
 
@@ -38,7 +38,7 @@ def folded(shift):
     [(0.0, True), (1 - 1e-6, True), (1 - 1e-17, True), (1.0, True), (1 + 1e-15, True), (1 + 1e-6, False), (2, False)],
 )
 def test_a_part_of_which_a_hex_is_flat_but_for_rounding_is_wound_as_the_others_are(shift, mirrored):
-    assert mirrored_parts(folded(shift)).tolist() == [mirrored] * 2
+    assert left_handed_hexes(folded(shift)).tolist() == [mirrored] * 2
 
 
 def test_rounding_grows_with_the_distance_from_the_origin_and_the_size():
@@ -46,4 +46,4 @@ def test_rounding_grows_with_the_distance_from_the_origin_and_the_size():
     far = mesh.with_points(1e3 * mesh.points + 1e9)
     points = far.points.copy()
     points[-1, 2] += 2e-7  # a bit of such coordinates
-    assert mirrored_parts(far.with_points(points)).all()
+    assert left_handed_hexes(far.with_points(points)).all()

@@ -150,17 +150,20 @@ def test_all_but_the_points_stays_bit_for_bit(tmp_path, suffix):
 
 @needs_mpi
 @pytest.mark.slow
-def test_left_handed_parts_are_renumbered_as_in_one_process(tmp_path):
+@pytest.mark.parametrize("which", [[3], np.arange(0, 512, 3), np.arange(5, 512)], ids=["one", "a third", "most"])
+def test_left_handed_hexes_are_renumbered_as_in_one_process(which, tmp_path):
     mesh = make("cube", size=512, scramble=0.2)
     n = mesh.n_nodes
     both = np.concatenate([mesh.hexes, (mesh.hexes + n)[:, MIRRORED_CORNERS]])
     flipped = mesh.hexes.copy()
-    flipped[3] = flipped[3][MIRRORED_CORNERS]  # a single one stays inverted
+    flipped[which] = flipped[which][:, MIRRORED_CORNERS]
     both[: len(flipped)] = flipped
     write(tmp_path / "a.vtu", Mesh(np.concatenate([mesh.points, mesh.points + [2, 0, 0]]), both))
     words = tmp_path / "a.vtu", "-o", tmp_path / "out.pvtu", "--goal", "shape", "--max-iterations", "1"
     on_ranks(3, *words)
-    np.testing.assert_array_equal(read(tmp_path / "out.pvtu").hexes, read(tmp_path / "a.vtu").hexes)
+    written = read(tmp_path / "out.pvtu", as_is=True)
+    np.testing.assert_array_equal(written.hexes, np.concatenate([mesh.hexes, mesh.hexes + n]))
+    np.testing.assert_array_equal(written.hexes, read(tmp_path / "a.vtu").hexes)
     on_ranks(3, *words, "--as-is")
     np.testing.assert_array_equal(read(tmp_path / "out.pvtu", as_is=True).hexes, both)
 

@@ -13,7 +13,7 @@ DEFAULT_RINGS = 1
 def add_mesh(parser: argparse.ArgumentParser) -> None:
     """Declare the mesh file, and the option that keeps its orientation."""
     parser.add_argument("mesh", metavar="MESH", help="the mesh file")
-    text = "do not reorient parts in which all hexes have the opposite orientation"
+    text = "do not renumber hexes that are numbered left-handed; runs refuse them"
     parser.add_argument("--as-is", action="store_true", help=text)
 
 

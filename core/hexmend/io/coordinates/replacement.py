@@ -15,7 +15,7 @@ from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates,
 from hexmend.io.coordinates.original import Original, difference
 from hexmend.io.storage.atomic_files import atomic_files
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.orientation import was_turned
+from hexmend.mesh.orientation import had_mixed_numbering, was_turned
 
 _LOGGER = logging.getLogger(__name__)
 #: Remedy for a file that is not overwritten.
@@ -87,6 +87,8 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     different = difference(original.mesh, mesh, format.capabilities)
     if different:
         raise CoordinatesError(f"the mesh has {different} than {original.path.name}")
+    if had_mixed_numbering(original.mesh):
+        raise CoordinatesError(f"some hexes of {original.path.name} are numbered inside out")
     located = _located(original, format)
     in_place = is_same_mesh(format, path, original.path)
     turned = (_TURNED,) if was_turned(original.mesh) else ()

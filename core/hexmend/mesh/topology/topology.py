@@ -79,6 +79,16 @@ class Topology:
         """Hex corners at each node; items are 8 * hex + corner."""
         return CSR(*incidence.node_corners(self.hexes, self.n))
 
+    @cached_property
+    def overlapping_corners(self) -> CSR:
+        """Corners at each node whose cones overlap if they are positive; items are 8 * hex + corner.
+
+        Two faces at the node have the same two edges there, and hexes on the same side. The proof is in
+        `hexmend.locking.hexes_without_valid_position`.
+        """
+        rows = self.node_corners
+        return CSR(*incidence.overlapping_corners(self.hexes, rows.start, rows.items))
+
     @property
     def hex_mesh(self) -> HexMesh:
         """The hexes and `node_corners` as the kernels of methods take them; a view, cheap to make."""

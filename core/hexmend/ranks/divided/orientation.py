@@ -1,16 +1,23 @@
-"""Orientation of hexes of a divided mesh: left-handed parts are renumbered, as in one process."""
+"""Orientation of hexes of a divided mesh: left-handed ones are renumbered, as in one process."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh.orientation import MIRRORED_CORNERS, handedness
-from hexmend.mesh.topology.components import components_of_cells
+from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.orientation import MIRRORED_CORNERS, all_corners_negative, are_left_handed, signed_volumes
+from hexmend.mesh.topology import Topology
+from hexmend.mesh.topology.face_parity import face_parity, signed_components
 from hexmend.ranks.mpi_ranks import MPIRanks
 
 
-def mirror_parts(ranks: MPIRanks, points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Return the hexes of a rank's part, those of left-handed parts of the whole mesh renumbered.
+def with_right_handed_hexes(
+    ranks: MPIRanks, points: np.ndarray, hexes: np.ndarray, ids: np.ndarray, owned: np.ndarray
+) -> np.ndarray:
+    """Return the hexes of a rank's part, those renumbered that are left-handed in the whole mesh.
+
+    Each rank solves the parity of its own hexes (`face_parity`); hexes that several ranks have connect their
+    components.
 
     Parameters
     ----------
@@ -18,29 +25,44 @@ def mirror_parts(ranks: MPIRanks, points: np.ndarray, hexes: np.ndarray) -> np.n
     points : (n, 3) float64
     hexes : (m, 8) int32
         All hexes at the nodes that the rank owns.
+    ids : (m,) int
+        Their numbers in the whole mesh.
+    owned : (n,) bool
 
     Returns
     -------
     (m, 8) int32
     """
-    wrong, right = handedness(points, hexes)
-    if not ranks.any(wrong):
+    volume = signed_volumes(points, hexes)
+    if not ranks.any(volume < 0):
         return hexes
-    part = components_of_cells(len(points), hexes)
-    left, proper = (np.bincount(part, marks) > 0 for marks in (wrong, right))
-    marks = np.stack([left, proper], axis=1)
-    while True:  # marks spread through nodes from rank to rank
-        of_node = np.zeros((len(points), 2), np.uint8)
-        of_node[hexes] = marks[part][:, None]
-        ranks.complete(of_node)
-        spread = marks.copy()
-        for corner in hexes.T:
-            np.logical_or.at(spread, part, of_node[corner].astype(bool))
-        changed = (spread != marks).any()
-        marks = spread
-        if not ranks.any(changed):
-            break
-    mirrored = (marks[:, 0] & ~marks[:, 1])[part]
+    of_own = owned[hexes[:, FACES]].any(axis=2)  # all hexes at such a face are here
+    component, sign = face_parity(hexes, np.where(of_own, Topology(hexes, len(points)).face_neighbours, -1))
+    component, sign = _in_whole_mesh(ranks, component, sign, ids, ~owned[hexes].all(axis=1))
+    group, of_hex = np.unique(3 * component + sign + 1, return_inverse=True)  # alike in the whole mesh
+    counted = owned[hexes[:, 0]]
+    values = volume, np.sign(volume), all_corners_negative(points, hexes, volume)
+    sums = [np.bincount(of_hex[counted], one[counted], len(group)) for one in values]
+    rows = ranks.gather(np.stack([group, *sums], axis=1))
+    components, signs = np.divmod(rows[:, 0].astype(np.int64), 3)
+    left_handed = np.isin(group, rows[are_left_handed(components, signs - 1, *rows[:, 1:].T), 0])[of_hex]
     turned = hexes.copy()
-    turned[mirrored] = hexes[mirrored][:, MIRRORED_CORNERS]
+    turned[left_handed] = hexes[left_handed][:, MIRRORED_CORNERS]
     return turned
+
+
+def _in_whole_mesh(
+    ranks: MPIRanks, component: np.ndarray, sign: np.ndarray, ids: np.ndarray, shared: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the components and signs of hexes in the whole mesh, of those in a rank's part; `shared` has others."""
+    first, component = np.unique(component, return_inverse=True)
+    counts = ranks.gather(np.array([first.size]))
+    component = component + counts[: ranks.number].sum()
+    rows = ranks.gather(np.stack([ids, component, sign], axis=1)[shared | (sign == 0)])
+    rows = rows[np.argsort(rows[:, 0], kind="stable")]
+    same = rows[1:, 0] == rows[:-1, 0]
+    none = rows[rows[:, 2] == 0, 1]
+    pairs = np.concatenate([np.stack([rows[:-1, 1], rows[1:, 1]], axis=1)[same], np.stack([none, none], axis=1)])
+    unlike = np.concatenate([(rows[:-1, 2] != rows[1:, 2])[same], np.ones(none.size, dtype=bool)])
+    whole, sign_of = signed_components(int(counts.sum()), pairs, unlike)
+    return whole[component], sign * sign_of[component]

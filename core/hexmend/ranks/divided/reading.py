@@ -19,7 +19,7 @@ from hexmend.ranks.divided.checks import check_divisible, check_nodes
 from hexmend.ranks.divided.divided_mesh import DividedMesh, PieceCells
 from hexmend.ranks.divided.exchange import Directory, send_rows
 from hexmend.ranks.divided.figures import mean_edge_length
-from hexmend.ranks.divided.orientation import mirror_parts
+from hexmend.ranks.divided.orientation import with_right_handed_hexes
 from hexmend.ranks.mpi_ranks import MPIRanks
 from hexmend.ranks.rank_part import RankPart, too_many_ranks
 
@@ -164,7 +164,7 @@ def _part(
     )
     counted = owned[hexes[:, 0]]
     if not as_is:
-        hexes = mirror_parts(ranks, x, hexes)
+        hexes = with_right_handed_hexes(ranks, x, hexes, ids, owned)
     whole = Mesh(as_immutable_owned(x), as_immutable_owned(hexes), pinned=pins)
     fixed = ranks.complete(whole.fixed.astype(np.uint8)).astype(bool)  # a node's owner has all its hexes
     mesh = Mesh(whole.points, whole.hexes).with_fixed(fixed)

@@ -15,6 +15,8 @@ from hexmend.io.coordinates.original import difference
 from hexmend.io.coordinates.replacement import ChangedFileError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, fields_of_words
 from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.orientation import mirror_hexes
+from tests.core.grids import grid
 from tests.core.io.kept import assert_same, with_everything
 
 FILES = Path(__file__).parents[1] / "files"
@@ -213,6 +215,19 @@ def test_hexes_that_were_turned_on_reading_stay_as_the_file_has_them(tmp_path):
     assert any("inside out" in note for note in written.notes)
     hx.write(tmp_path / "b.msh", moved(given), like=tmp_path / "a.msh")
     np.testing.assert_array_equal(io.read(tmp_path / "b.msh", as_is=True).hexes, mirrored.hexes)
+
+
+def test_a_file_in_which_some_hexes_are_left_handed_is_rewritten_with_all_of_them_right_handed(tmp_path):
+    mesh = grid(3)
+    mixed = mirror_hexes(mesh, np.arange(27) % 2 == 0)
+    io.write(tmp_path / "a.msh", mixed, encoding="ascii")
+    given = io.read(tmp_path / "a.msh")
+    written = write_as_given(tmp_path / "b.msh", moved(given), Original(tmp_path / "a.msh", given))
+    assert not written.replaced
+    assert "some hexes of a.msh are numbered inside out" in written.notes[0]
+    np.testing.assert_array_equal(io.read(tmp_path / "b.msh", as_is=True).hexes, mesh.hexes)
+    with pytest.raises(FileError, match=r"numbered inside out.*Write it without"):
+        hx.write(tmp_path / "c.msh", moved(given), like=tmp_path / "a.msh")
 
 
 def test_coordinates_of_32_bits_stay_so_and_it_is_said(tmp_path):

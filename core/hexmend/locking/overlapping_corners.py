@@ -1,0 +1,33 @@
+"""Hexes that no position of the nodes makes valid, as the connectivity at a node lets them overlap."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.mesh.mesh import Mesh
+
+
+def hexes_without_valid_position(mesh: Mesh) -> np.ndarray:
+    """Find hexes that are not all valid wherever the nodes are, by `Topology.overlapping_corners`.
+
+    Let two corners at a node have the edges a, b, c and a, b, d, both right-handed: their faces with the edges a and b
+    are two, and both hexes lie on one side of these. If both corners are positive, c = r a + s b + t d with
+    t = det(a, b, c) / det(a, b, d) > 0, so that a + b + e c = (1 + e r) a + (1 + e s) b + e t d is in the cones of both
+    for a small e > 0. A hex fills the cone of a positive corner near the node: the hexes overlap. Positive hexes less
+    inverted ones cover each point inside a boundary that does not overlap itself once, so that a hex is inverted there.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    (k,) int32
+        Numbers of hexes, ascending.
+    """
+    return np.unique(mesh.topology.overlapping_corners.items // 8)
+
+
+def nodes_without_valid_position(mesh: Mesh) -> np.ndarray:
+    """Find the nodes at which hexes of `hexes_without_valid_position` overlap, (k,) int64, ascending."""
+    return np.flatnonzero(np.diff(mesh.topology.overlapping_corners.start))
