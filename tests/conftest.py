@@ -38,6 +38,16 @@ def pytest_collection_finish() -> None:
     gc.freeze()
 
 
+@pytest.fixture(scope="session", autouse=True)
+def terminal() -> Iterator[None]:
+    """Let programs that tests start, and this one, find the same terminal wherever the tests are run."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TERM", "xterm")
+        for name in ("COLUMNS", "LINES", "NO_COLOR", "FORCE_COLOR"):
+            patch.delenv(name, raising=False)
+        yield
+
+
 @pytest.fixture(scope="session")
 def real_mesh() -> Callable[[str], Path]:
     """The path of one of the real meshes; the test is skipped where they are absent."""
