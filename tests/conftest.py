@@ -24,11 +24,11 @@ if sys.platform == "linux":
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# Machines are shared: no example has a deadline.
-# CI draws the same examples every time, so that a change is judged by what it changed.
-settings.register_profile("hexmend", deadline=None, max_examples=40)
-settings.register_profile("ci", settings.get_profile("hexmend"), derandomize=True, print_blob=True)
-settings.load_profile("ci" if os.environ.get("CI") else "hexmend")
+# `make test` and `make test-slow` draw the same examples each time, however loaded the machine is; `make soak` draws others.
+settings.register_profile("quick", deadline=None, database=None, derandomize=True, max_examples=10)
+settings.register_profile("slow", settings.get_profile("quick"), max_examples=40)
+settings.register_profile("soak", settings.get_profile("quick"), derandomize=False, max_examples=400, print_blob=True)
+settings.load_profile("quick")
 
 _REAL = Path(os.environ.get("HEXMEND_MESHES") or Path(__file__).resolve().parents[2] / "shared" / "meshes")
 
