@@ -49,7 +49,7 @@ soak: SEED := $(or $(SEED),$(shell date +%s))
 soak: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages
 	@echo "hexmend: random examples; make soak SEED=$(SEED) draws the same again"
-	@$(PYTEST) -m hypothesis --hypothesis-profile=soak --hypothesis-seed=$(SEED)
+	@$(PYTEST) -m hypothesis --hypothesis-profile=soak --hypothesis-seed=$(SEED) --timeout=3600
 
 mutants: $(VENV)/.test $(VENV)/.kernels
 	@status=0; for kind in "" --native; do $(BIN)/python scripts/mutants.py $$kind || status=1; done; exit $$status

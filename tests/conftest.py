@@ -30,7 +30,17 @@ settings.register_profile("slow", settings.get_profile("quick"), max_examples=40
 settings.register_profile("soak", settings.get_profile("quick"), derandomize=False, max_examples=400, print_blob=True)
 settings.load_profile("quick")
 
+#: Seconds after which a slow test is ended; pyproject.toml has those of the others.
+SLOW_TIMEOUT = 600
+
 _REAL = Path(os.environ.get("HEXMEND_MESHES") or Path(__file__).resolve().parents[2] / "shared" / "meshes")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Let slow tests take longer, where no other time is asked for."""
+    for item in items:
+        if item.get_closest_marker("slow") and config.getoption("timeout") is None:
+            item.add_marker(pytest.mark.timeout(SLOW_TIMEOUT))
 
 
 def pytest_collection_finish() -> None:
