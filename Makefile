@@ -6,12 +6,13 @@ BIN    := $(VENV)/bin
 MESH   ?=
 CXX_SOURCES = $(shell find core/native -name "*.cpp" -o -name "*.hpp")
 
-.PHONY: help run test test-slow mutants lint format bench study docs pictures site pins wheel sbom clean
+.PHONY: help run test test-slow soak mutants lint format bench study docs pictures site pins wheel sbom clean
 .NOTPARALLEL:
 
 help:
 	@echo "make run [MESH=path]   open the viewer (on the demo mesh, or on yours)"
 	@echo "make test              run the quick tests, on a virtual screen;  make test-slow  runs the others"
+	@echo "make soak [SEED=n]     run the tests of properties on many random examples, of this seed or of another each time"
 	@echo "make mutants           put small faults into copies of the core: do its tests find them? half an hour"
 	@echo "make lint              check the style and the types;  make format  mends the style"
 	@echo "make bench             measure speed and memory"
@@ -42,7 +43,13 @@ test: $(VENV)/.test $(VENV)/.kernels
 test-slow: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages
 	@scripts/debian-packages chromium
-	@$(PYTEST) -m slow
+	@$(PYTEST) -m slow --hypothesis-profile=slow
+
+soak: SEED := $(or $(SEED),$(shell date +%s))
+soak: $(VENV)/.test $(VENV)/.kernels
+	@scripts/debian-packages
+	@echo "hexmend: random examples; make soak SEED=$(SEED) draws the same again"
+	@$(PYTEST) -m hypothesis --hypothesis-profile=soak --hypothesis-seed=$(SEED) --timeout=3600
 
 mutants: $(VENV)/.test $(VENV)/.kernels
 	@status=0; for kind in "" --native; do $(BIN)/python scripts/mutants.py $$kind || status=1; done; exit $$status

@@ -24,18 +24,38 @@ if sys.platform == "linux":
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# Machines are shared: no example has a deadline.
-# CI draws the same examples every time, so that a change is judged by what it changed.
-settings.register_profile("hexmend", deadline=None, max_examples=40)
-settings.register_profile("ci", settings.get_profile("hexmend"), derandomize=True, print_blob=True)
-settings.load_profile("ci" if os.environ.get("CI") else "hexmend")
+# `make test` and `make test-slow` draw the same examples each time, however loaded the machine is; `make soak` draws others.
+settings.register_profile("quick", deadline=None, database=None, derandomize=True, max_examples=10)
+settings.register_profile("slow", settings.get_profile("quick"), max_examples=40)
+settings.register_profile("soak", settings.get_profile("quick"), derandomize=False, max_examples=400, print_blob=True)
+settings.load_profile("quick")
+
+#: Seconds after which a slow test is ended; pyproject.toml has those of the others.
+SLOW_TIMEOUT = 600
 
 _REAL = Path(os.environ.get("HEXMEND_MESHES") or Path(__file__).resolve().parents[2] / "shared" / "meshes")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Let slow tests take longer, where no other time is asked for."""
+    for item in items:
+        if item.get_closest_marker("slow") and config.getoption("timeout") is None:
+            item.add_marker(pytest.mark.timeout(SLOW_TIMEOUT))
 
 
 def pytest_collection_finish() -> None:
     """Look for garbage in what tests make alone: a look at modules and thousands of tests takes a third of a second."""
     gc.freeze()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def terminal() -> Iterator[None]:
+    """Let programs that tests start, and this one, find the same terminal wherever the tests are run."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TERM", "xterm")
+        for name in ("COLUMNS", "LINES", "NO_COLOR", "FORCE_COLOR"):
+            patch.delenv(name, raising=False)
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -85,8 +85,8 @@ class Copy:
         return [sys.executable, "-m", "pytest", "-c", "mutation.ini", "--rootdir=.", temporary, *arguments]
 
     def environment(self, **more: str) -> dict[str, str]:
-        """Variables for `pytest`: examples are drawn the same way each time, and real meshes are found."""
+        """Variables for `pytest`: real meshes are found."""
         folders = [*(self.folder / name for name in self.project.imports), _SCRIPTS]
         meshes = os.environ.get("HEXMEND_MESHES") or str(self.project.root.parent / "shared" / "meshes")
-        own = {"PYTHONPATH": os.pathsep.join(map(str, folders)), "CI": "1", "HEXMEND_MESHES": meshes}
+        own = {"PYTHONPATH": os.pathsep.join(map(str, folders)), "HEXMEND_MESHES": meshes}
         return {key: value for key, value in os.environ.items() if key != "PYTHONDONTWRITEBYTECODE"} | own | more

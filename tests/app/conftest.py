@@ -17,14 +17,19 @@ from hexmend_app.scene.render.graphics import prepare_off_screen
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
 from hexmend_app.state.settings import settings
+from hexmend_app.state.tasks import task
 from hexmend_app.state.tasks.task import running
 from hexmend_app.theme.style import apply_style
 from tests.app.driving import open_and_wait
 from tests.app.resetting import SIZE, Resetting, lay_out, settle, unseen
 from tests.guards import windows_close
+from tests.patience import PATIENCE
 
 #: Tests do not wait for runs to be shown, unless they say so.
 settings.RUN_PACE = replace(settings.RUN_PACE, default="fastest")
+
+#: On a busy machine threads end later than a window waits for when it closes.
+task.GRACE = PATIENCE / 1000
 
 #: The window that tests share; empty until it is created.
 SHARED: list[Window] = []
@@ -72,7 +77,7 @@ def shown(qtbot):
     def show(widget, width=360, height=0):
         qtbot.addWidget(widget)
         widget.resize(width, height or widget.sizeHint().height())
-        with qtbot.waitActive(widget):
+        with qtbot.waitActive(widget, timeout=PATIENCE):
             widget.show()
             widget.activateWindow()
         return widget
@@ -160,8 +165,8 @@ def empty_window(qtbot):
     application()
     window = Window()
     window.resize(*SIZE)
-    window.show()
-    qtbot.waitExposed(window)
+    with qtbot.waitExposed(window, timeout=PATIENCE):
+        window.show()
     return window
 
 
@@ -189,4 +194,4 @@ def close(window):
     window.canvas.interactor.forget_context()  # likewise for the deleted surface
     del window
     gc.collect()  # collect the objects of VTK now, while nothing is drawn
-    assert [task.name for task in running()] == []
+    assert [one.name for one in running()] == []

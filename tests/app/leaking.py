@@ -10,6 +10,7 @@ from PySide6.QtCore import QThread
 from PySide6.QtWidgets import QDialog
 
 from tests import guards
+from tests.patience import PATIENCE
 
 #: Leaked objects, which live until the last test has ended.
 LEFT = []
@@ -20,7 +21,7 @@ OVER = threading.Event()
 def over():
     """Shorten the wait of the guards; at the end, close all leaked objects so that the process can end."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(guards, "GRACE", 0.2)
+        patch.setattr(guards, "GRACE", 1.0)
         yield
     OVER.set()
     for leaked in LEFT:
@@ -51,7 +52,7 @@ def test_a_thread_of_qt(qtbot):
     begun = threading.Event()
     LEFT.append(Working())
     LEFT[-1].start()
-    begun.wait(10)
+    assert begun.wait(PATIENCE / 1000)
 
 
 def test_a_thread_of_qt_that_ends(qtbot):

@@ -33,6 +33,7 @@ from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.timeline import SPEED
 from hexmend_app.theme import theme_choice
 from tests.app.driving import open_and_wait
+from tests.patience import PATIENCE
 
 SIZE = 1400, 900
 
@@ -165,7 +166,7 @@ def settle(qtbot, window):
     QTest.mouseMove(window, QPoint(1, 1))
     window.activateWindow()
     window.windowHandle().requestActivate()
-    qtbot.waitUntil(window.isActiveWindow, timeout=5000)  # otherwise shortcuts have no effect
+    qtbot.waitUntil(window.isActiveWindow, timeout=PATIENCE)  # otherwise shortcuts have no effect
     if QApplication.focusWidget() is not None:
         QApplication.focusWidget().clearFocus()
     QApplication.processEvents()

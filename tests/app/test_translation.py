@@ -23,10 +23,11 @@ from hexmend_app.picture.colour_map import COLOUR_MAPS
 from hexmend_app.resources import recipes
 from hexmend_app.shell.start import language
 from hexmend_app.shell.start.language import install_language
+from hexmend_app.state.tasks.task import running
 from hexmend_app.translation import PREFIX, tr, tr_count
 from tests.app.conftest import close, separate_settings, window_with_mesh
 from tests.app.dialogs import DIALOGS
-from tests.app.driving import choose
+from tests.app.driving import choose, turn
 from tests.examples import ROOT
 from tests.patience import PATIENCE
 
@@ -232,6 +233,13 @@ def check(window, translation, parts, name):
     assert (name, translation.missing - set(sentences_of_core(window))) == (name, set())
 
 
+def wait_for_tasks(window, qtbot):
+    """Wait until the window shows what is computed in the background."""
+    qtbot.waitUntil(lambda: running() == (), timeout=PATIENCE)
+    turn()
+    window.refresh()
+
+
 def use(window, qtbot):
     """Yield names of states of the window, after bringing it into each of them."""
     session = window.session
@@ -240,7 +248,7 @@ def use(window, qtbot):
     for id in window.docks.ids():
         window.show_panel(id)
     window.refresh()
-    qtbot.wait(300)
+    wait_for_tasks(window, qtbot)
     yield "all panels were shown"
     worst = int(session.selection.worst_hexes()[0])
     session.selection.choose(worst, int(session.document.now.mesh.hexes[worst][0]))
@@ -254,7 +262,7 @@ def use(window, qtbot):
     window.action("run").trigger()
     qtbot.waitUntil(lambda: not session.run.busy, timeout=PATIENCE)
     window.refresh()
-    qtbot.wait(300)
+    wait_for_tasks(window, qtbot)
     yield "after a run"
     session.commands.tag("tagged", [worst])
     session.commands.pin(int(session.document.now.mesh.hexes[worst][1]), True)

@@ -32,7 +32,7 @@ CLOSED = []
 def canvas(qtbot):
     canvas = Canvas()
     canvas.resize(600, 500)
-    with qtbot.waitExposed(canvas):
+    with qtbot.waitExposed(canvas, timeout=PATIENCE):
         canvas.show()
     canvas.draw(Frame(MESH, FIGURES))
     rested(qtbot, canvas)

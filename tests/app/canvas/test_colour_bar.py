@@ -77,6 +77,7 @@ def test_an_empty_range_has_no_ticks(shown):
     shown(bar).grab()
 
 
+@pytest.mark.usefixtures("qapp")
 @given(st.floats(-1e7, 1e7), st.floats(-1e7, 1e7), st.floats(10, 2000))
 def test_ticks_include_both_ends_and_labels_do_not_overlap(low, high, length):
     assume(high - low > 1e-6 * max(abs(low), abs(high), 1e-3))

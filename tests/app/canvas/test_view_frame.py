@@ -12,6 +12,7 @@ from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.scene.views.arrangement import grid
 from hexmend_app.state.view.side_views import Wipe
 from tests.app.driving import LEFT
+from tests.patience import PATIENCE
 
 
 class Framed(QWidget):
@@ -93,6 +94,6 @@ def test_a_close_button_in_the_lower_row_closes_its_view(framed, qtbot):
     frame, view = framed.frame, framed.view
     frame.set_captions(captions(4), None)
     cross = next(one for one in view.findChildren(QToolButton) if one.accessibleName() == "Close the view of view 2")
-    with qtbot.waitSignal(frame.view_closed) as closed:
+    with qtbot.waitSignal(frame.view_closed, timeout=PATIENCE) as closed:
         QTest.mouseClick(cross, LEFT)
     assert closed.args == [2]

@@ -122,7 +122,7 @@ def test_invalid_metadata_are_errors(tmp_path, keyword, text, message):
 
 
 @pytest.mark.slow
-@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data())
 def test_any_picture_is_read_or_rejected(picture, tmp_path, data):
     whole = bytearray(picture.read_bytes())
@@ -136,7 +136,7 @@ def test_any_picture_is_read_or_rejected(picture, tmp_path, data):
         assert str(error).startswith("other.png: ")
 
 
-@settings(max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.text(max_size=60), st.sampled_from(["hexmend scene", "hexmend meshes", "hexmend recipe"]))
 def test_any_text_is_read_or_rejected(tmp_path, text, keyword):
     def chunk(kind, data):

@@ -18,8 +18,9 @@ from hexmend.smoothers import METHODS
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.user_events import MeshEdited, MeshSaved, NodesMoved
 from hexmend_app.state.tasks import mesh_repairer, mesh_saver
+from hexmend_app.state.tasks.task import running
 from hexmend_app.widgets.dialogs.waiting import WaitingDialog
-from tests.app.driving import key, open_and_wait, phase
+from tests.app.driving import key, open_and_wait, phase, turn
 from tests.patience import PATIENCE
 
 
@@ -211,7 +212,8 @@ def test_a_repair_that_is_given_up_changes_nothing(tangled, qtbot, gate, told, e
         open_and_wait(qtbot, tangled, mesh_file)
     now = session.document.now
     repairing.opened.set()
-    qtbot.wait(50)
+    qtbot.waitUntil(lambda: running() == (), timeout=PATIENCE)
+    turn()
     assert session.document.now is now
     assert told == []
     assert session.editable

@@ -15,6 +15,7 @@ from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.shell.palette.palette_entries import command_entries
 from hexmend_app.shell.window import Window
+from tests.patience import PATIENCE
 
 
 class FeatureCounting(Feature):
@@ -91,16 +92,16 @@ def test_a_feature_appears_in_menu_palette_keys_and_window(with_example, qtbot):
 def test_all_changes_in_a_turn_of_the_event_loop_cause_one_refresh(with_example, qtbot):
     window = with_example
     example = window.features["counting"]
-    qtbot.waitUntil(lambda: example.refreshed > 0)
+    qtbot.waitUntil(lambda: example.refreshed > 0, timeout=PATIENCE)
     before = example.refreshed
     for _ in range(20):
         window.session.selection.changed.emit()
     assert example.refreshed == before
-    qtbot.waitUntil(lambda: example.refreshed > before)
+    qtbot.waitUntil(lambda: example.refreshed > before, timeout=PATIENCE)
     assert example.refreshed == before + 1
     window.action("count").trigger()
     window.action("count").trigger()
-    qtbot.waitUntil(lambda: example.panel.text() == "2 counted")
+    qtbot.waitUntil(lambda: example.panel.text() == "2 counted", timeout=PATIENCE)
     assert not window.action("count").isEnabled()
 
 

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QLineEdit, QMainWindow,
 
 from hexmend_app.shell.focus_after_return import FocusAfterReturn
 from tests.app.driving import named
+from tests.patience import PATIENCE
 
 
 class Fields(QWidget):
@@ -56,10 +57,10 @@ def test_return_in_a_floating_panel_ends_typing(shown, qtbot):
     dock.setFloating(True)
     dock.activateWindow()
     field.setFocus()
-    qtbot.waitUntil(lambda: QApplication.focusWidget() is field)
+    qtbot.waitUntil(lambda: QApplication.focusWidget() is field, timeout=PATIENCE)
     QTest.keyClicks(field, "7")
     QTest.keyClick(field, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: QApplication.focusWidget() is view)
+    qtbot.waitUntil(lambda: QApplication.focusWidget() is view, timeout=PATIENCE)
     assert field.text() == "7"
     dock.setFloating(False)
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
 
 from hexmend_app.theme.style import apply_style
 from tests.app.conftest import close, separate_settings, window_with_mesh
 from tests.app.dialogs import DIALOGS
+from tests.app.driving import turn
+from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -60,13 +62,21 @@ def needed_by_label(label):
     return label.sizeHint().height(), 0 if elided else label.sizeHint().width()
 
 
-def test_no_text_of_a_panel_is_clipped(large_window, qtbot):
+def lay_out_all(window):
+    """Process events until no size changes: sizes reach nested panels one level after the other."""
+    before = None
+    while (sizes := [widget.size().toTuple() for widget in window.findChildren(QWidget)]) != before:
+        before = sizes
+        turn()
+
+
+def test_no_text_of_a_panel_is_clipped(large_window):
     window = large_window
     found = set()
     for id in window.docks.ids():
         window.show_panel(id)
         window.refresh()
-        qtbot.wait(300)  # sizes reach nested panels one level after the other
+        lay_out_all(window)
         found |= {f"{id}: {text}" for text in clipped(window)}
     assert "\n".join(sorted(found)) == ""
 
@@ -74,8 +84,8 @@ def test_no_text_of_a_panel_is_clipped(large_window, qtbot):
 @pytest.mark.parametrize("name", DIALOGS)
 def test_no_text_of_a_dialog_is_clipped(large_window, qtbot, name):
     dialog = DIALOGS[name](large_window)
-    dialog.show()
-    qtbot.waitExposed(dialog)
+    with qtbot.waitExposed(dialog, timeout=PATIENCE):
+        dialog.show()
     assert "\n".join(clipped(dialog)) == ""
     dialog.close()
     dialog.deleteLater()

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from hexmend_app.shell.letter_keys import LetterKeys
 from tests.app.driving import LEFT, named
+from tests.patience import PATIENCE
 
 WORDS = ["Laplacian", "Mend", "Steepest descent", "Truss"]
 
@@ -79,7 +80,7 @@ def test_arrows_and_space_work_in_lists(lists):
 
 def test_an_open_list_finds_entries_by_letters(lists, qtbot):
     QTest.mouseClick(lists.box, LEFT)
-    qtbot.waitUntil(lists.box.view().isVisible)
+    qtbot.waitUntil(lists.box.view().isVisible, timeout=PATIENCE)
     QTest.keyClicks(QApplication.focusWidget(), "t")
     QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Return)
     assert lists.box.currentText() == "Truss"
@@ -102,7 +103,7 @@ def test_letters_change_nothing_in_a_floating_panel(lists, qtbot):
     lists.dock.setFloating(True)
     lists.dock.activateWindow()
     lists.docked.setFocus()
-    qtbot.waitUntil(lambda: QApplication.focusWidget() is lists.docked)
+    qtbot.waitUntil(lambda: QApplication.focusWidget() is lists.docked, timeout=PATIENCE)
     QTest.keyClicks(lists.docked, "stn")
     assert lists.docked.currentIndex() == 0
     lists.dock.setFloating(False)

@@ -8,6 +8,7 @@ from PySide6.QtGui import QAccessible
 from PySide6.QtWidgets import QAbstractSpinBox, QComboBox, QLineEdit, QPushButton, QSlider, QWidget
 
 from tests.app.dialogs import DIALOGS
+from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -78,8 +79,8 @@ def test_the_controls_of_all_panels_have_names_and_roles(window):
 @pytest.mark.parametrize("name", DIALOGS)
 def test_the_controls_of_a_dialog_have_names_and_roles(window, qtbot, name):
     dialog = DIALOGS[name](window)
-    dialog.show()
-    qtbot.waitExposed(dialog)
+    with qtbot.waitExposed(dialog, timeout=PATIENCE):
+        dialog.show()
     try:
         assert dialog.windowTitle() or name in ("palette", "waiting")
         assert "\n".join(unnamed(dialog)) == ""

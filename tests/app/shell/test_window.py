@@ -129,7 +129,7 @@ def test_messages_and_the_colour_bar_do_not_change_the_layout(window, qtbot):
     before = canvas.interactor.geometry(), bar.geometry()
     assert canvas.interactor.rect().contains(bar.geometry())
     window.messages.show_error("The mesh was not saved", "There is no room. " * 20)
-    qtbot.waitUntil(window.messages.isVisible)
+    qtbot.waitUntil(window.messages.isVisible, timeout=PATIENCE)
     assert (canvas.interactor.geometry(), bar.geometry()) == before
     assert window.messages.width() <= 560
     width = canvas.interactor.width()
@@ -182,7 +182,7 @@ def test_a_failing_refresh_is_reported_once_and_other_features_are_refreshed(fre
     monkeypatch.setattr(window.features["appearance"], "refresh", fail)
     monkeypatch.setattr(window.features["compare"], "refresh", lambda: later.append(1))
     window.session.selection.changed.emit()
-    qtbot.waitUntil(lambda: len(later) > 0)
+    qtbot.waitUntil(lambda: len(later) > 0, timeout=PATIENCE)
     for _ in range(50):
         QApplication.processEvents()
     ((_, _, text),) = [message for message in window.messages.messages() if message[0] == "error"]

@@ -12,6 +12,7 @@ from hexmend_app.theme.style import apply_style
 from tests.app.driving import turn
 from tests.app.theme.contrasts import BLOCK, DISABLED, TEXT, contrast, painted, text_contrast
 from tests.app.theme.controls import CONTROLS, SIZE, menu
+from tests.patience import PATIENCE
 
 STATES = ("enabled", "disabled", "hover", "pressed", "checked", "focus", "checked and disabled")
 THEMES = pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
@@ -64,7 +65,7 @@ def grab(qtbot, make, state):
     widget.setParent(page, Qt.WindowType.Widget)
     widget.resize(*SIZE)
     widget.show()
-    with qtbot.waitActive(page):  # otherwise the focus comes later, and to the control
+    with qtbot.waitActive(page, timeout=PATIENCE):  # otherwise the focus comes later, and to the control
         page.show()
         page.activateWindow()
     if not set_state(widget, state):
@@ -100,9 +101,9 @@ def test_texts_of_combo_popups_are_legible(qtbot, dark, current, record_property
         qtbot.addWidget(box)
         box.resize(*SIZE)
         box.show()
-        box.showPopup()
+        with qtbot.waitExposed(box.view().window(), timeout=PATIENCE):
+            box.showPopup()
         popup = box.view().window()
-        qtbot.waitExposed(popup)
         popup.resize(200, 70)
         turn()
         images.append(painted(popup))
@@ -124,8 +125,8 @@ def test_texts_of_menus_are_legible(qtbot, dark, options, record_property):
         widget = menu(text, **options)
         qtbot.addWidget(widget)
         widget.setFixedSize(*SIZE)
-        widget.popup(QPoint(40, 40))
-        qtbot.waitExposed(widget)
+        with qtbot.waitExposed(widget, timeout=PATIENCE):
+            widget.popup(QPoint(40, 40))
         widget.setActiveAction(widget.actions()[0] if options.get("active") else None)
         turn()
         images.append(painted(widget))

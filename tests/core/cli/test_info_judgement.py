@@ -1,6 +1,7 @@
 """Judgement and next command at the end of `hexmend info`."""
 
 import json
+from shlex import quote
 
 import numpy as np
 import pytest
@@ -26,7 +27,10 @@ def ended(path, mesh, capsys, *words):
 def test_a_good_mesh_is_fit(tmp_path, capsys):
     path = tmp_path / "cube.vtu"
     line, record = ended(path, gallery.make("cube", size=8), capsys)
-    assert line == f"Fit for solving: no hex is inverted or has a scaled Jacobian below 0.2. Next: hexmend {path}"
+    assert (
+        line
+        == f"Fit for solving: no hex is inverted or has a scaled Jacobian below 0.2. Next: hexmend {quote(str(path))}"
+    )
     assert record["fit"] is True
 
 
@@ -36,7 +40,7 @@ def test_inverted_hexes_are_counted_and_the_command_mends_them(tmp_path, capsys)
     line, record = ended(path, mesh, capsys)
     assert inverted
     assert line.startswith(f"Not fit for solving: {inverted} of 125 hexes ")
-    assert (record["fit"], record["next"]) == (False, f"hexmend smooth '{path}' -o OUT")
+    assert (record["fit"], record["next"]) == (False, f"hexmend smooth {quote(str(path))} -o OUT")
     out = tmp_path / "out.vtu"
     assert main(["smooth", str(path), "-o", str(out)]) == 0
     capsys.readouterr()
@@ -75,12 +79,12 @@ def test_parts_that_are_not_connected_may_be_meant_so(tmp_path, capsys):
 def test_hexes_that_are_inverted_between_their_corners_are_not_fit(tmp_path, capsys):
     path, out, repaired = tmp_path / "bent.vtu", tmp_path / "out.vtu", tmp_path / "repaired.vtu"
     line, record = ended(path, bent(inside=True), capsys)
-    assert line == f"To be repaired before solving: mid nodes. Next: hexmend repair {path} -o OUT"
+    assert line == f"To be repaired before solving: mid nodes. Next: hexmend repair {quote(str(path))} -o OUT"
     assert record["fit"] is False
     assert main(["smooth", str(path), "-o", str(out)]) == 4
     last = capsys.readouterr().out.splitlines()[-1]
     assert last.startswith("Not fit for solving: 4 hexes of second order have sound corners, but a Jacobian that is")
-    assert last.endswith(f"Next: hexmend repair {out} -o OUT --only mid-nodes")
+    assert last.endswith(f"Next: hexmend repair {quote(str(out))} -o OUT --only mid-nodes")
     assert main(["repair", str(out), "-o", str(repaired), "--only", "mid-nodes"]) == 0
     assert main(["smooth", str(repaired), "-o", str(out)]) == 0
     line, record = ended(tmp_path / "edge.vtu", bent(inside=False), capsys)

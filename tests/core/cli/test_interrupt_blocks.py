@@ -8,9 +8,10 @@ import time
 
 import pytest
 
-from hexmend.cli.process import interrupts
+from hexmend.cli.process import interrupts, signal_timer
 from hexmend.cli.process.interrupts import ENDING, CleanExit, ExitAfterIteration, FinishWriting
 from hexmend.signal_guard import uninterrupted
+from tests.patience import PATIENCE
 
 #: A program that gets a signal after each handler that a block restores, and rests then.
 RESTORES = """
@@ -41,9 +42,18 @@ def handlers():
 
 @pytest.fixture(params=["alarm", "no alarm"])
 def timer(request, monkeypatch):
-    """The timer of this system, or that of a system without SIGALRM."""
-    if request.param == "no alarm":
-        monkeypatch.setattr(interrupts, "_ALARM", None)
+    """The timer of this system, or that of a system without SIGALRM: whether it is on."""
+    if request.param == "alarm":
+        return lambda: signal.getitimer(signal.ITIMER_REAL)[0] > 0
+    seconds = [0.0]
+
+    def send_later(number, delay):
+        seconds.append(delay)
+        signal_timer.send_later(number, delay)
+
+    monkeypatch.setattr(interrupts, "_ALARM", None)
+    monkeypatch.setattr(interrupts, "send_later", send_later)
+    return lambda: seconds[-1] > 0
 
 
 def send(number=signal.SIGINT):
@@ -77,25 +87,24 @@ def test_the_grace_ends_a_block_that_is_asked_twice(timer, monkeypatch, capfd):
     with pytest.raises(KeyboardInterrupt), FinishWriting():
         send()
         send()
-        rest(60)
+        rest(PATIENCE / 1000)
     assert capfd.readouterr().err == "Writing the result; after a second Ctrl-C it has 0.05 s left.\n"
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_result_is_written_to_its_end_however_long_that_takes_after_one_signal(timer, monkeypatch, number):
-    monkeypatch.setattr(FinishWriting, "grace", 0.01)
+def test_a_result_is_written_to_its_end_however_long_that_takes_after_one_signal(timer, number):
     with FinishWriting() as writing:
         send(number)
-        rest(0.2)
+        assert not timer()
     assert writing.asked
 
 
-def test_nothing_is_raised_after_the_end_of_a_block_with_a_grace(timer, monkeypatch):
-    monkeypatch.setattr(FinishWriting, "grace", 0.05)
+def test_nothing_is_raised_after_the_end_of_a_block_with_a_grace(timer):
     with FinishWriting():
         send()
         send()
-    rest(0.2)
+        assert timer()
+    assert not timer()
 
 
 def test_a_block_has_the_status_of_its_first_signal():

@@ -12,6 +12,7 @@ from hexmend.cli.main import main
 from hexmend.cli.output import progress
 from hexmend.quality import summarise
 from hexmend.run import StoppingCriteria, iterate
+from tests.patience import PATIENCE
 
 #: The program, which tells of every iteration, so that a test need not wait for the clock.
 TALKATIVE = (
@@ -41,7 +42,7 @@ def interrupted(*words, at, number=signal.SIGINT):
                 break
         else:
             pytest.fail(f"the program ended before {at!r}")
-        out, err = program.communicate(timeout=60)
+        out, err = program.communicate(timeout=PATIENCE / 1000)
     assert "Traceback" not in err
     return program.returncode, out, err
 

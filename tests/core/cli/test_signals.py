@@ -10,6 +10,7 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.cli.main import main
+from tests.patience import PATIENCE
 
 #: The program, which tells of every iteration.
 TALKATIVE = """
@@ -63,7 +64,7 @@ def signalled(program, number, at, *words, again_at=None):
                 at, again_at = again_at, None
         else:
             pytest.fail(f"the program ended before {at!r}")
-        out, err = done.communicate(timeout=60)
+        out, err = done.communicate(timeout=PATIENCE / 1000)
     assert "Traceback" not in err
     return done.returncode, out, err
 

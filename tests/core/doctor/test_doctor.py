@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.doctor import PROBLEMS, examine, repair
@@ -104,7 +104,6 @@ def test_nodes_of_second_order_are_no_unused_ones_and_turn_with_their_hex():
         np.testing.assert_allclose(points[hexes[ends]].mean(axis=1), points[middles[:12]])
 
 
-@settings(max_examples=30)
 @given(st.integers(0, 2**32 - 1), st.integers(1, 26))
 def test_flipped_hexes_are_those_that_were_flipped(seed, count):
     random = np.random.default_rng(seed)

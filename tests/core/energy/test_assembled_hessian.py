@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.boundary import SlidingBoundary
@@ -127,7 +127,6 @@ def test_opposite_corners_have_a_block_only_where_the_energy_couples_them():
 
 
 @pytest.mark.parametrize("parts", [1, 2, 3])
-@settings(max_examples=10)
 @given(seed=seeds)
 def test_parts_change_the_way_but_not_the_solution(parts, seed):
     hessian = hessian_of(scrambled(grid(14, 3, 3), 0.15, seed), shift=0.5)

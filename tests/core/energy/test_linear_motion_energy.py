@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.boundary import SlidingBoundary
@@ -40,7 +40,6 @@ def at(name, seed, p):
     return energy, energy.to_edge_units(mesh.points), step - energy.reduction.inadmissible(step)
 
 
-@settings(max_examples=40, deadline=None)
 @cases
 def test_gradient_is_that_of_differences(name, seed, p):
     energy, x, step = at(name, seed, p)
@@ -53,7 +52,6 @@ def test_gradient_is_that_of_differences(name, seed, p):
     ).max() < (1e-12 * np.abs(gradient).max())
 
 
-@settings(max_examples=40, deadline=None)
 @cases
 def test_hessian_is_that_of_differences(name, seed, p):
     energy, x, step = at(name, seed, p)
@@ -63,7 +61,6 @@ def test_hessian_is_that_of_differences(name, seed, p):
     np.testing.assert_allclose(rise / (2 * t), product, rtol=1e-4, atol=1e-5 * np.abs(product).max())
 
 
-@settings(max_examples=40, deadline=None)
 @cases
 def test_the_assembled_hessian_has_the_same_products(name, seed, p):
     energy, x, step = at(name, seed, p)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.boundary import SlidingBoundary
@@ -83,7 +83,6 @@ def with_quads(solid, seed, p, offset=1.0):
 cases = given(st.sampled_from(sorted(SOLIDS)), seeds, st.sampled_from([1.0, 2.0, 3.5]))
 
 
-@settings(max_examples=30, deadline=None)
 @cases
 def test_gradient_and_hessian_of_the_mesh_are_those_of_differences(solid, seed, p):
     energy, x, step = with_quads(solid, seed, p)

@@ -43,7 +43,6 @@ def at(solid, seed, p):
 cases = given(st.sampled_from(sorted(SOLIDS)), st.integers(0, 2**32 - 1), st.sampled_from([1.0, 2.0, 3.5]))
 
 
-@settings(max_examples=30)
 @cases
 def test_gradient_is_that_of_differences(solid, seed, p):
     energy, x, step = at(solid, seed, p)
@@ -53,7 +52,6 @@ def test_gradient_is_that_of_differences(solid, seed, p):
     assert rise / (2 * t) == pytest.approx((gradient * step).sum(), rel=1e-5, abs=1e-5 * np.abs(gradient).sum())
 
 
-@settings(max_examples=30)
 @cases
 def test_hessian_is_that_of_differences(solid, seed, p):
     energy, x, step = at(solid, seed, p)
@@ -63,7 +61,6 @@ def test_hessian_is_that_of_differences(solid, seed, p):
     np.testing.assert_allclose(rise / (2 * t), product, rtol=1e-4, atol=1e-5 * np.abs(product).max())
 
 
-@settings(max_examples=20)
 @cases
 def test_the_assembled_hessian_has_the_same_products_along_the_surface(solid, seed, p):
     energy, x, step = at(solid, seed, p)

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
@@ -51,7 +51,6 @@ def test_counts_are_those_of_the_thesis(size, quads, boundary, free):
     assert np.bincount(mesh.hex_data["layer"])[1:].tolist() == [quads] * (size // quads)
 
 
-@settings(max_examples=15)
 @given(quads=st.integers(45, 300), share=st.floats(0.8, 1.1), jitter=st.floats(0.05, 0.7), seed=st.integers(0, 100))
 def test_a_pentagon_has_the_quads_asked_for_and_they_are_convex(quads, share, jitter, seed):
     boundary = 2 * round(2.2 * share * quads**0.5)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
@@ -27,7 +27,6 @@ def test_every_order_of_the_free_nodes(mesh, order):
     assert_equal_sweeps(mesh.points, ring.start, ring.items, ORDERS[order](mesh)(mesh.points, 0))
 
 
-@settings(max_examples=50)
 @given(st.integers(0, 2**32 - 1))
 def test_rings_of_which_only_one_node_is_in_the_others(seed):
     rng = np.random.default_rng(seed)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.gallery import GALLERY, make
@@ -41,7 +41,6 @@ def test_the_numbering_of_hexes_does_not_matter(growth, layers, seed):
     assert (np.take_along_axis(directions[wall.hexes], (wall.faces // 2)[..., None].astype(int), axis=2) == 2).all()
 
 
-@settings(max_examples=10)
 @given(growth=st.floats(1.1, 1.6), seed=st.integers(0, 100))
 def test_a_tangled_stack_is_found(growth, seed):
     mesh = stack(layers=7, first=2e-3, growth=growth)

@@ -1,6 +1,7 @@
 """Hexes that no movement can mend: proofs, positions that free others, and real sliding runs."""
 
 import json
+from shlex import quote
 
 import numpy as np
 import pytest
@@ -150,7 +151,7 @@ def test_info_prints_what_frees_locked_hexes_and_lists_the_proofs(tmp_path, caps
     printed = capsys.readouterr().out
     assert "3 locked; sliding frees none; 1 needs another layer; 2 that neither mends." in printed
     assert "Hex 0 at node" in printed
-    assert f"hexmend pad {path} -o OUT" in printed
+    assert f"hexmend pad {quote(str(path))} -o OUT" in printed
     assert main(["info", str(path), "--json"]) == 0
     values = json.loads(capsys.readouterr().out)["locking"]
     assert (values["need_layer"], values["unmendable"]) == ([9], [0, 18])

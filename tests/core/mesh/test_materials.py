@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
@@ -68,7 +68,6 @@ def test_numbers_under_a_usual_name_are_materials(name, as_type):
     np.testing.assert_array_equal(np.flatnonzero(found.of_hex), HIGH)
 
 
-@settings(max_examples=30, deadline=None)
 @given(st.integers(2, 5), st.integers(0, 10**6))
 def test_interfaces_are_the_nodes_and_faces_of_hexes_of_different_material(count, seed):
     numbers = np.random.default_rng(seed).integers(0, count, MESH.n_hexes)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.errors import MeshError
@@ -19,7 +19,6 @@ from tests.core.node_steps import LOCAL, after, patch_energy, swept
 # Local methods
 
 
-@settings(max_examples=60)
 @given(
     st.sampled_from(LOCAL),
     st.integers(0, 2**32 - 1),
@@ -40,7 +39,6 @@ def test_it_is_what_a_sweep_does_to_this_node(name, seed, amplitude, p, delta):
     assert step.energy_after == pytest.approx(patch_energy(mesh, step, step.after), rel=1e-9)
 
 
-@settings(max_examples=30)
 @given(st.sampled_from(LOCAL), st.integers(0, 2**32 - 1), st.sampled_from([0.2, 0.9]))
 def test_the_line_search_is_algorithm_a_5(name, seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
@@ -18,7 +18,6 @@ def indefinite(size, seed, condition):
     return (q * (np.geomspace(1, condition, size) * random.choice([-1, 1], size))) @ q.T, random.normal(size=size)
 
 
-@settings(max_examples=50)
 @given(st.integers(2, 40), st.integers(0, 2**32 - 1), st.sampled_from([1e1, 1e3]))
 def test_it_solves_what_has_eigenvalues_of_both_signs(size, seed, condition):
     matrix, right = indefinite(size, seed, condition)
@@ -26,7 +25,6 @@ def test_it_solves_what_has_eigenvalues_of_both_signs(size, seed, condition):
     np.testing.assert_allclose(matrix @ x, right, atol=1e-7 * np.linalg.norm(right))
 
 
-@settings(max_examples=50)
 @given(st.integers(5, 40), st.integers(0, 2**32 - 1), st.sampled_from([1e-1, 1e-3, 1e-6]))
 def test_it_ends_by_the_residual_beside_the_right_hand_side(size, seed, tolerance):
     matrix, right = indefinite(size, seed, 1e3)

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import kernels
@@ -49,7 +49,6 @@ def part(mesh, patches, k):
     return Mesh(mesh.points[used] / unit, hexes, pinned=pinned), used, unit
 
 
-@settings(max_examples=40)
 @given(st.tuples(*[st.integers(1, 5)] * 3), SIZES, OVERLAPS)
 def test_patches_hold_each_free_node_and_know_their_hexes(size, nodes, overlap):
     mesh = grid(*size)
@@ -72,7 +71,6 @@ def test_patches_hold_each_free_node_and_know_their_hexes(size, nodes, overlap):
         np.testing.assert_array_equal(patches.nodes[k][slots[own]], patches.hexes[rows][own])
 
 
-@settings(max_examples=40)
 @given(st.tuples(*[st.integers(2, 5)] * 3), SIZES, OVERLAPS)
 def test_patches_of_a_colour_share_no_hex(size, nodes, overlap):
     patches = partition_patches(grid(*size), nodes, overlap)
@@ -103,7 +101,6 @@ def test_nodes_of_a_patch_hang_together():
         assert len(set(label.values())) == 1
 
 
-@settings(max_examples=30)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([1.0, 2.0, 3.5]))
 def test_a_patch_of_one_node_is_visited_as_local_newton_does(seed, p):
     mesh = scrambled(grid(3), 0.1, seed)
@@ -115,7 +112,6 @@ def test_a_patch_of_one_node_is_visited_as_local_newton_does(seed, p):
     np.testing.assert_allclose(single, after(mesh, METHODS["local-mnr"](p=p)), atol=1e-7)
 
 
-@settings(max_examples=20)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([8, 27, 64]), st.sampled_from([1.5, 2.0, 4.0]))
 def test_a_step_is_newtons_for_the_nodes_of_the_patch(seed, size, p):
     mesh = scrambled(grid(5), 0.15, seed)
@@ -156,7 +152,6 @@ def test_large_systems_are_solved_by_conjugate_gradients_as_well(overlap):
     assert gradient @ step + step @ (hessian @ step) / 2 == pytest.approx(best, rel=0.01)
 
 
-@settings(max_examples=40)
 @given(st.integers(0, 2**32 - 1), SIZES, OVERLAPS, st.sampled_from([1.0, 2.0, 5.0]), st.sampled_from([0.2, 0.7, 1.5]))
 def test_no_patch_raises_its_energy_nor_moves_a_node_of_others(seed, size, overlap, p, amplitude):
     mesh = scrambled(grid(4), amplitude, seed)
@@ -172,7 +167,6 @@ def test_no_patch_raises_its_energy_nor_moves_a_node_of_others(seed, size, overl
     assert now <= before * (1 + 1e-9) + 1e-12
 
 
-@settings(max_examples=20)
 @given(st.integers(0, 2**32 - 1), SIZES, OVERLAPS)
 def test_sweeps_lower_the_objective_and_never_leave_the_feasible_region(seed, size, overlap):
     mesh = scrambled(grid(4), 0.2, seed)

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
@@ -62,7 +62,6 @@ def test_a_perfect_grid_is_a_fixed_point(name):
         np.testing.assert_allclose(points, mesh.points, atol=1e-12)
 
 
-@settings(max_examples=10)
 @given(seed=st.integers(0, 2**32 - 1), exponent=st.integers(-6, 6))
 def test_the_result_moves_turns_and_scales_with_the_mesh(name, seed, exponent):
     random = np.random.default_rng(seed)

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.boundary import SlidingBoundary, surface_change
@@ -33,7 +33,6 @@ def sides(points, sliding):
 
 
 @pytest.mark.slow
-@settings(max_examples=60)
 @given(name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.2, 0.6, 1.0]), seed=SEED)
 def test_no_step_turns_a_quad_over(name, solid, amplitude, seed):
     mesh = slid(SOLIDS[solid](), amplitude, seed)
@@ -85,7 +84,6 @@ def test_a_quad_that_is_turned_may_stay_so_and_be_turned_back():
 
 
 @pytest.mark.slow
-@settings(max_examples=60)
 @given(
     name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.0, 0.3, 0.8]), tolerance=st.sampled_from([0.02, 0.1, 0.3]),
     seed=SEED,
@@ -109,7 +107,6 @@ def test_the_room_costs_little_of_what_is_reached(name):
 
 
 @pytest.mark.slow
-@settings(max_examples=40)
 @given(name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.0, 0.3, 0.8]), seed=SEED)
 def test_with_a_tolerance_of_0_the_boundary_stays_on_its_surface(name, solid, amplitude, seed):
     mesh = slid(SOLIDS[solid](), amplitude, seed)

@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
@@ -49,7 +49,6 @@ def test_every_optimiser_and_averaging_method_can():
     assert set(SLIDING) == set(METHODS)
 
 
-@settings(max_examples=40, deadline=None)
 @given(
     name=st.sampled_from(SLIDING),
     solid=st.sampled_from(sorted(SOLIDS)),
@@ -127,7 +126,6 @@ def test_where_corners_are_all_there_is_nothing_moves():
     assert result.outcome is Outcome.NOTHING_FREE
 
 
-@settings(max_examples=15, deadline=None)
 @given(st.sampled_from(["smart-laplacian", "getme", "getme-sequential"]), st.integers(0, 2**32 - 1))
 def test_guarded_methods_invert_no_hex_that_was_sound(name, seed):
     mesh = slid(ball(3), 0.4, seed)
@@ -138,7 +136,6 @@ def test_guarded_methods_invert_no_hex_that_was_sound(name, seed):
         was = now
 
 
-@settings(max_examples=15, deadline=None)
 @given(st.sampled_from(["local-sd", "local-nr", "local-mnr", "local-patch", "global-nr"]), st.integers(0, 2**32 - 1))
 def test_optimisers_lower_the_objective_and_never_leave_the_feasible_region(name, seed):
     mesh = slid(cylinder(16, 3), 0.1, seed)

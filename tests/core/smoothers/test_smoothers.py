@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
@@ -43,7 +43,6 @@ def test_laplacian_inverts_hexes_on_bridge_sharp_and_smart_laplacian_does_not():
     assert smooth(mesh, SmartLaplacian(), StoppingCriteria(max_iterations=60)).after.inverted == 0
 
 
-@settings(max_examples=15)
 @given(st.integers(0, 2**32 - 1), st.floats(0.1, 1.0))
 def test_smart_laplacian_never_inverts_a_hex_that_was_sound(seed, amplitude):
     mesh = scrambled(grid(4), amplitude, seed)
@@ -54,7 +53,6 @@ def test_smart_laplacian_never_inverts_a_hex_that_was_sound(seed, amplitude):
         was = now
 
 
-@settings(max_examples=15)
 @given(st.integers(0, 2**32 - 1))
 def test_guarding_quality_never_lowers_the_least(seed):
     mesh = scrambled(grid(4), 0.35, seed)
@@ -69,7 +67,6 @@ def test_smart_laplacian_is_laplacian_where_nothing_is_harmed():
     np.testing.assert_array_equal(after(mesh, SmartLaplacian(), 3), after(mesh, Laplacian(), 3))
 
 
-@settings(max_examples=15)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([1.0, 2.0, 4.0]))
 def test_local_sd_lowers_the_objective_and_never_leaves_the_feasible_region(seed, p):
     mesh = scrambled(grid(4), 0.2, seed)

@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import io, kernels
@@ -133,7 +133,6 @@ def test_a_flipped_quad_is_untangled(name):
     assert np.abs(result.mesh.points[node] - [2, 2, 0]).max() < 0.2
 
 
-@settings(max_examples=25, deadline=None)
 @given(
     name=st.sampled_from(WEIGHTED),
     solid=st.sampled_from(sorted(SOLIDS)),

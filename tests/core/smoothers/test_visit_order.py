@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import kernels
@@ -42,7 +42,6 @@ def sharing(mesh):
     return {(int(a), int(b)) for a, b in itertools.permutations(range(8), 2) for a, b in mesh.hexes[:, [a, b]]}
 
 
-@settings(max_examples=40)
 @given(st.sampled_from(sorted(ORDERS)), st.integers(0, 5), st.tuples(*[st.integers(1, 4)] * 3), st.integers(0, 99))
 def test_each_order_visits_each_free_node_once(order, sweep, size, seed):
     mesh = scrambled(grid(*size), 0.3, seed)
@@ -52,7 +51,6 @@ def test_each_order_visits_each_free_node_once(order, sweep, size, seed):
     np.testing.assert_array_equal(np.sort(visits.groups(mesh.points, sweep).items), np.sort(nodes))
 
 
-@settings(max_examples=40)
 @given(st.permutations(range(27)), st.integers(0, 27))
 def test_nodes_of_a_wavefront_share_no_hex_and_neighbours_keep_their_order(nodes, count):
     mesh = grid(2)
@@ -73,7 +71,6 @@ def test_the_wavefronts_of_colour_are_the_colours():
     np.testing.assert_array_equal(fronts.items, colours.items)
 
 
-@settings(max_examples=30)
 @given(
     st.sampled_from(LOCAL),
     st.sampled_from(sorted(ORDERS)),
@@ -136,7 +133,6 @@ def test_random_is_another_in_each_sweep_and_the_same_in_each_run():
     np.testing.assert_array_equal(sequence(mesh.points, 3), ORDERS["random"](mesh)(mesh.points, 3))
 
 
-@settings(max_examples=20)
 @given(st.integers(0, 2**32 - 1))
 def test_worst_first_is_by_the_least_quality_at_a_node(seed):
     mesh = scrambled(grid(4), 0.5, seed)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.kernels import worst_first
@@ -22,7 +22,6 @@ def swept(mesh, free, **more):
     return before, measure(points, mesh.hexes), rejected
 
 
-@settings(max_examples=15)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.1, 0.3, 0.6]))
 def test_no_sound_hex_is_inverted_and_where_none_is_mended_the_least_does_not_fall(seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)

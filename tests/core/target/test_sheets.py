@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
@@ -17,7 +17,6 @@ def test_lengths_of_a_sound_mesh_are_as_given_to_the_last_bit():
         np.testing.assert_array_equal(recovered_lengths(mesh), given_lengths(mesh))
 
 
-@settings(max_examples=10)
 @given(growth=st.floats(1.05, 1.6), first=st.floats(1e-4, 1e-2), seed=st.integers(0, 100))
 def test_lengths_of_a_tangled_stack_are_those_before(growth, first, seed):
     mesh = stack(layers=6, first=first, growth=growth)

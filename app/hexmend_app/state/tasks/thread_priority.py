@@ -9,7 +9,7 @@ import threading
 
 from hexmend.kernels import set_threads, threads
 
-#: Nice value of threads that compute.
+#: Nice value of threads that compute, in addition to that of the process.
 _NICE = 10
 
 
@@ -22,4 +22,4 @@ def lower_priority() -> None:
     set_threads(max(1, threads() - 1))
     if sys.platform == "linux":  # elsewhere the number of a thread is no process, or another process
         with contextlib.suppress(OSError):
-            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)
+            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), os.getpriority(os.PRIO_PROCESS, 0) + _NICE)

@@ -11,6 +11,7 @@ from hexmend.run import StoppingCriteria
 from hexmend_app.canvas.view_captions import CaptionRow
 from hexmend_app.features.compare.comparison_table import METHOD
 from tests.app.driving import LEFT, choose, named
+from tests.patience import PATIENCE
 
 COLUMN = {quantity.key: at for at, quantity in enumerate(LINES, 2)}
 
@@ -55,7 +56,7 @@ def prepared(window, qtbot):
     """Return the window with the panel in front and short runs."""
     window.show_panel("compare")
     choose(window, "mend", SHORT)
-    qtbot.waitUntil(window.features["compare"].panel.isVisible)
+    qtbot.waitUntil(window.features["compare"].panel.isVisible, timeout=PATIENCE)
     return window
 
 

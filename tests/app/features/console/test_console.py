@@ -69,10 +69,10 @@ def test_another_topology_is_drawn_and_undone(window, console):
 
 
 def test_an_endless_loop_can_be_interrupted(window, console, qtbot):
-    qtbot.keyClicks(console.panel.input, "while True: pass")
+    qtbot.keyClicks(console.panel.input, r"exec('print(\'begun\')\nwhile True: pass')")
     qtbot.keyClick(console.panel.input, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: "\nbegun\n" in console.panel.output.toPlainText(), timeout=PATIENCE)
     assert console.running
-    qtbot.wait(100)  # the window responds
     qtbot.keyClick(console.panel.input, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
     qtbot.waitUntil(lambda: not console.running, timeout=PATIENCE)
     assert "KeyboardInterrupt" in console.panel.output.toPlainText()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-from time import perf_counter
 
 import pytest
 from PySide6.QtCore import QPointF, Qt
@@ -21,7 +20,7 @@ pytestmark = pytest.mark.slow
 @pytest.fixture
 def panel(window, qtbot):
     window.show_panel("convergence")
-    qtbot.waitUntil(window.features["convergence"].panel.isVisible)
+    qtbot.waitUntil(window.features["convergence"].panel.isVisible, timeout=PATIENCE)
     return window.features["convergence"].panel
 
 
@@ -72,21 +71,23 @@ def test_branches_start_where_they_left_or_at_zero_and_are_deleted(window, qtbot
 
 
 @pytest.mark.slow
-def test_charts_are_redrawn_during_a_run_at_most_ten_times_a_second(window, qtbot, panel):
+def test_charts_are_redrawn_during_a_run_by_a_timer(window, qtbot, panel):
     drawn = []
     original = panel.set_curves
     panel.set_curves = lambda curves: (drawn.append(len(curves[0].columns) if curves else 0), original(curves))
     choose(window, "local-sd", StoppingCriteria(max_iterations=100_000, tolerance=0))
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(drawn) > 0, timeout=PATIENCE)
     drawn.clear()
-    began = perf_counter()
+    for _ in range(20):
+        window.refresh()
+    assert len(drawn) <= 1
     qtbot.waitUntil(lambda: len(drawn) >= 6, timeout=PATIENCE)
-    assert perf_counter() - began > 0.45
     assert drawn == sorted(drawn)
     assert drawn[-1] > drawn[0]
     end_run(window.session)
-    qtbot.waitUntil(lambda: drawn[-1] == window.session.run.record.newest + 1, timeout=3000)
+    qtbot.waitUntil(lambda: drawn[-1] == window.session.run.record.newest + 1, timeout=PATIENCE)
 
 
 @pytest.mark.slow

@@ -15,6 +15,7 @@ from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab, S
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
+from tests.patience import PATIENCE
 
 _LEFT = Qt.MouseButton.LeftButton
 _BOUNDS = np.array([[-1.0, 0.0, 2.0], [3.0, 30.0, 4.0]])
@@ -155,7 +156,7 @@ def test_the_cut_is_whole_or_smooth(panel, emitted):
 
 def test_the_handles_check_box_emits_a_signal(panel, qtbot):
     switch_on(panel)
-    with qtbot.waitSignal(panel.handles_changed) as caught:
+    with qtbot.waitSignal(panel.handles_changed, timeout=PATIENCE) as caught:
         QTest.mouseClick(named(panel, QCheckBox, "Handles"), _LEFT, pos=_BOX)
     assert caught.args == [False]
 
@@ -204,7 +205,7 @@ def test_planes_are_added_selected_and_removed(panel, emitted, qtbot):
     QTest.keyClick(slider(panel), Qt.Key.Key_End)
     assert emitted[-1].planes[0].point == (1, 15, 3)
     assert emitted[-1].planes[1].point[1] == pytest.approx(30)
-    with qtbot.waitSignal(panel.plane_chosen) as chosen:
+    with qtbot.waitSignal(panel.plane_chosen, timeout=PATIENCE) as chosen:
         QTest.mouseClick(tabs(panel), _LEFT, pos=tabs(panel).tabRect(0).center())
     assert chosen.args == [0]
     assert axis(panel).value() == "x"

@@ -32,7 +32,7 @@ def panel(qtbot):
     qtbot.addWidget(panel)
     panel.set_layers(4)
     panel.resize(330, panel.sizeHint().height())
-    with qtbot.waitActive(panel):
+    with qtbot.waitActive(panel, timeout=PATIENCE):
         panel.show()
         panel.activateWindow()
     return panel
@@ -234,7 +234,7 @@ def test_in_large_meshes_only_visible_hexes_are_shrunk(window, qtbot, monkeypatc
     assert set(faces(window)) == set(np.flatnonzero(layers == 0))
     boundary = np.count_nonzero(window.session.document.now.mesh.topology.face_neighbours < 0)
     assert len(faces(window)) == boundary  # without their sides, until the view rests
-    qtbot.waitUntil(lambda: len(faces(window)) == 6 * np.count_nonzero(layers == 0), timeout=5000)
+    qtbot.waitUntil(lambda: len(faces(window)) == 6 * np.count_nonzero(layers == 0), timeout=PATIENCE)
     window.session.view.change(show={"peel": 2})
     assert set(faces(window)) <= set(np.flatnonzero(layers >= 2))
 

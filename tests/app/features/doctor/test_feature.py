@@ -29,7 +29,7 @@ def panel(window, qtbot):
     window.session.document.replace(State.of(unmerged()), None)
     window.show_panel("doctor")
     panel = window.features["doctor"].panel
-    qtbot.waitUntil(panel.isVisible)
+    qtbot.waitUntil(panel.isVisible, timeout=PATIENCE)
     window.refresh()
     qtbot.waitUntil(lambda: len(buttons(panel, "Repair")) == 2, timeout=PATIENCE)
     return panel

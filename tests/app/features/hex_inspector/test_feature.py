@@ -67,7 +67,7 @@ def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot)
     worst = window.session.selection.hex
     assert worst == window.features["hex_inspector"].worst_list.hexes[0]
     middle = window.session.document.now.mesh.points[window.session.document.now.mesh.hexes[worst]].mean(axis=0)
-    qtbot.waitUntil(lambda: np.allclose(camera.GetFocalPoint(), middle), timeout=5000)
+    qtbot.waitUntil(lambda: np.allclose(camera.GetFocalPoint(), middle), timeout=PATIENCE)
     assert not np.allclose(before, middle)
     key(window, Qt.Key.Key_N)
     key(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
@@ -216,7 +216,7 @@ def test_the_distance_of_a_node_that_was_moved_off_its_corner_is_shown(window, q
 def test_commands_are_found_by_name_in_the_palette(window, qtbot):
     key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
     palette = window.findChild(CommandPalette)
-    qtbot.waitExposed(palette)
+    qtbot.waitUntil(palette.isVisible, timeout=PATIENCE)
     assert any("Isometric" in text for text in palette.titles())
     QTest.keyClicks(palette.findChild(QLineEdit), "next worst")
     QTest.keyClick(palette.findChild(QLineEdit), Qt.Key.Key_Return)

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
 from hexmend.quality import describe_hex, describe_node, measure
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from tests.core.grids import grid, scrambled
+from tests.patience import PATIENCE
 
 MESH = scrambled(grid(5), 0.9, 4)
 WORST = int(measure(MESH.points, MESH.hexes).scaled_jacobian.argmin())
@@ -65,12 +66,12 @@ def neighbours(panel):
 def test_neighbours_are_links_for_keys(panel, qtbot):
     details = describe_hex(MESH, WORST)
     panel.show_hex(details)
-    with qtbot.waitActive(panel):
+    with qtbot.waitActive(panel, timeout=PATIENCE):
         panel.activateWindow()
     links = neighbours(panel)
     links.setFocus()
     QTest.keyClick(links, Qt.Key.Key_Tab)  # to the first link
-    with qtbot.waitSignal(panel.chosen, timeout=1000) as chosen:
+    with qtbot.waitSignal(panel.chosen, timeout=PATIENCE) as chosen:
         QTest.keyClick(links, Qt.Key.Key_Return)
     assert chosen.args[0] == next(h for h in details.neighbours if h >= 0)
 
@@ -84,7 +85,7 @@ def test_neighbours_are_links_for_the_mouse(panel, qtbot):
     number = f"{details.neighbours[first]:,}"
     before = text[: text.index(number)]
     x = links.fontMetrics().horizontalAdvance(before) + links.fontMetrics().horizontalAdvance(number) // 2
-    with qtbot.waitSignal(panel.chosen, timeout=1000) as chosen:
+    with qtbot.waitSignal(panel.chosen, timeout=PATIENCE) as chosen:
         QTest.mouseClick(links, Qt.MouseButton.LeftButton, pos=QPoint(x, links.fontMetrics().height() // 2))
     assert chosen.args[0] == details.neighbours[first]
 
@@ -97,8 +98,8 @@ def test_a_low_and_wide_panel_needs_no_scrolling(panel):
 
 def test_buttons_emit_signals(panel, qtbot):
     panel.show_hex(describe_hex(MESH, WORST))
-    with qtbot.waitSignal(panel.zoom_requested):
+    with qtbot.waitSignal(panel.zoom_requested, timeout=PATIENCE):
         QTest.mouseClick(panel.findChild(QPushButton), Qt.MouseButton.LeftButton)
-    with qtbot.waitSignal(panel.corners_toggled):
+    with qtbot.waitSignal(panel.corners_toggled, timeout=PATIENCE):
         panel.findChild(QCheckBox).click()
     assert panel.corners_in_view

@@ -27,7 +27,7 @@ from tests.patience import PATIENCE
 @pytest.fixture
 def panel(window, qtbot):
     window.show_panel("movement")
-    qtbot.waitUntil(window.features["movement"].panel.isVisible)
+    qtbot.waitUntil(window.features["movement"].panel.isVisible, timeout=PATIENCE)
     return window.features["movement"].panel
 
 
@@ -92,7 +92,7 @@ def test_displacements_are_among_the_metrics_of_the_colours(window, record, qtbo
         for name in ("Metric", "Colour map")
     )
     window.show_panel("look")
-    qtbot.waitUntil(combo.isVisible)
+    qtbot.waitUntil(combo.isVisible, timeout=PATIENCE)
     combo.setFocus()
     while combo.currentData() != "moved-mean":
         QTest.keyClick(combo, Qt.Key.Key_Down)

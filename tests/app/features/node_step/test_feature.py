@@ -16,7 +16,6 @@ from hexmend.smoothers import METHODS
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Isolate
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.tasks import task
 from hexmend_app.state.tasks.task import running
 from hexmend_app.theme import theme_choice
 from hexmend_app.theme.palette import DESCENT, SEARCH
@@ -231,7 +230,6 @@ def test_the_marks_and_the_plot_follow_the_theme(node_window, qtbot):
 
 
 def test_closing_while_a_step_is_computed_leaves_no_thread(fresh_window, qtbot, monkeypatch):
-    monkeypatch.setattr(task, "GRACE", PATIENCE / 1000)  # on a busy machine a step takes longer than closing waits
     window, others = fresh_window, running()  # those of windows that tests share
     choose_by_keys(window, "global-nr")
     key(window, Qt.Key.Key_D)
@@ -247,7 +245,10 @@ def test_no_text_is_cut_off(node_window, qtbot, size):
     window.resize(*size)
     panel = window.features["node_step"].panel
     tools = named(window, QTabBar, "Tools")
-    qtbot.waitUntil(lambda: panel.mapTo(window, panel.rect().bottomRight()).x() < tools.mapTo(window, QPoint()).x())
+    qtbot.waitUntil(
+        lambda: panel.mapTo(window, panel.rect().bottomRight()).x() < tools.mapTo(window, QPoint()).x(),
+        timeout=PATIENCE,
+    )
     assert window.width() == size[0]
     labels = [named(panel, QLabel, name) for name in ("Node", "Progress of the sweep")]
     for part in [*panel.findChildren(QAbstractButton), patch_box(window), *labels]:

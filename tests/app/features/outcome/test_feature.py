@@ -56,7 +56,7 @@ def locked(window, qtbot, tmp_path):
 
 def test_a_hint_is_shown_before_the_first_run(window, qtbot):
     window.show_panel("outcome")
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
+    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
     assert "No run has finished yet" in texts(window)
 
 
@@ -66,7 +66,7 @@ def test_the_key_shows_why_the_run_stopped(window, qtbot):
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     key(window, Qt.Key.Key_Y)
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
+    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
     assert "Why Laplacian stopped" in texts(window)
     assert "no node moved further than 0.0001 mean edge lengths" in texts(window)
     inverted = window.session.document.now.summary.inverted
@@ -182,7 +182,7 @@ def test_the_camera_moves_to_the_hexes_that_limit_the_least_scaled_jacobian(wind
     assert "Limiting: " in texts(window)
     assert f'<a href="{limiting[0]}">{limiting[0]}</a>' in texts(window)
     assert f"the minimum scaled Jacobian is {ended[0].after.scaled_jacobian_min:.4f}" in texts(window)
-    with qtbot.waitSignal(window.session.selection.visited) as visited:
+    with qtbot.waitSignal(window.session.selection.visited, timeout=PATIENCE) as visited:
         press(window, "Show the limiting hexes")
     assert visited.args == [tuple(limiting)]
     assert window.session.view.look.show.isolate.hexes == tuple(limiting)
@@ -229,7 +229,7 @@ def test_a_run_without_iterations_is_explained(window, qtbot, tmp_path):
     window.session.document.mark_saved(tmp_path / "one.vtu")
     open_and_wait(qtbot, window, tmp_path / "one.vtu")
     run(window, qtbot, "mend")
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
+    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
     assert "Why Mend stopped Nothing to do: every node is fixed." in texts(window)
     run(window, qtbot, "laplacian")
     assert "Why Laplacian stopped" in texts(window)
@@ -240,5 +240,5 @@ def test_the_explanation_is_cleared_for_another_mesh(window, qtbot, mesh_file):
     window.session.document.mark_saved(mesh_file)
     open_and_wait(qtbot, window, mesh_file)
     window.show_panel("outcome")
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
+    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
     assert "No run has finished yet" in texts(window)

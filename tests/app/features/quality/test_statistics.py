@@ -13,6 +13,7 @@ from hexmend.quality.summary import Summary
 from hexmend_app.features.quality.statistics import ROWS, StatisticsTable, change
 from hexmend_app.theme.style import BETTER, MUTED, WORSE
 from tests.app.driving import named
+from tests.patience import PATIENCE
 
 _START = {
     "hexes": 32735,
@@ -121,7 +122,7 @@ def test_the_context_menu_copies_the_table(table, qtbot):
     assert isinstance(menu, QMenu)
     QTest.keyClick(menu, Qt.Key.Key_Down)
     QTest.keyClick(menu, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: QGuiApplication.clipboard().text() == table.text())
+    qtbot.waitUntil(lambda: QGuiApplication.clipboard().text() == table.text(), timeout=PATIENCE)
 
 
 def test_no_text_is_cut_off_in_a_narrow_panel(table):

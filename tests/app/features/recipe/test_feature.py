@@ -25,7 +25,7 @@ SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
 @pytest.fixture
 def panel(window, qtbot):
     window.show_panel("recipe")
-    qtbot.waitUntil(window.features["recipe"].panel.isVisible)
+    qtbot.waitUntil(window.features["recipe"].panel.isVisible, timeout=PATIENCE)
     return window.features["recipe"].panel
 
 
@@ -184,10 +184,10 @@ def test_the_active_stage_of_a_paused_recipe_can_be_changed(window, panel, qtbot
     assert window.session.run_setup.method == "local-sd"  # the stage at work, not what was shown before
     for number in (2, 3):
         click(window, "Resume")
-        qtbot.waitUntil(lambda number=number: paused_after(window, number))
+        qtbot.waitUntil(lambda number=number: paused_after(window, number), timeout=PATIENCE)
     window.refresh()
     type_value(window, "p", "4")
-    with qtbot.waitSignal(window.session.run.ended) as ended:
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE) as ended:
         window.session.run.break_at(Breakpoints())
         click(window, "Resume")
     assert [(one.stage, one.parameters["p"], one.iterations) for one in ended.args[0].stages] == [

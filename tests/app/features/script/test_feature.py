@@ -22,7 +22,7 @@ def nothing_done_before(window):
 @pytest.fixture
 def panel(window, qtbot):
     window.show_panel("script")
-    qtbot.waitUntil(window.features["script"].panel.isVisible)
+    qtbot.waitUntil(window.features["script"].panel.isVisible, timeout=PATIENCE)
     return window.features["script"].panel
 
 

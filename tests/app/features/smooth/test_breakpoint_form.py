@@ -4,6 +4,7 @@ import pytest
 
 from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
+from tests.patience import PATIENCE
 
 
 @pytest.mark.parametrize(
@@ -19,7 +20,7 @@ def test_breakpoints_are_emitted_and_read_back(qtbot, breakpoints):
     form = BreakpointForm()
     qtbot.addWidget(form)
     form.set_mesh(10, 20)
-    with qtbot.waitSignal(form.changed) as told:
+    with qtbot.waitSignal(form.changed, timeout=PATIENCE) as told:
         form.set_breakpoints(breakpoints)
     assert told.args == [breakpoints]
     assert form.breakpoints() == breakpoints

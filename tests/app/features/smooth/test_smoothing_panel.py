@@ -133,7 +133,7 @@ def test_the_status_shows_progress_and_wraps_the_outcome(panel, qtbot):
     progress, sentence = named(panel, QLabel, "Progress"), named(panel, QLabel, "Outcome")
     assert progress.text().split("·")[0].strip() == "12 iterations"
     assert "1.84 s" in progress.text()
-    qtbot.waitUntil(lambda: sentence.height() > 2 * sentence.fontMetrics().height())
+    qtbot.waitUntil(lambda: sentence.height() > 2 * sentence.fontMetrics().height(), timeout=PATIENCE)
     assert sentence.width() <= panel.width()
 
 

@@ -114,7 +114,7 @@ def test_irregular_edges_are_shown_by_the_palette(five, qtbot):
     field = five.findChild(CommandPalette).findChild(QLineEdit)
     QTest.keyClicks(field, "irregular edges inside")
     QTest.keyClick(field, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: five.session.view.look.structure.is_on("irregular"), timeout=2000)
+    qtbot.waitUntil(lambda: five.session.view.look.structure.is_on("irregular"), timeout=PATIENCE)
     assert count(pixels(five), VALENCES[5]) > 100
 
 

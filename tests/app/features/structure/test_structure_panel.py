@@ -18,6 +18,7 @@ from tests.app.driving import turn
 from tests.app.features.structure.layers import press, texts
 from tests.core.grids import grid
 from tests.core.mesh.test_structure import tetrahedron
+from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -26,8 +27,8 @@ def panel(qtbot):
     panel = StructurePanel()
     qtbot.addWidget(panel)
     panel.resize(330, panel.sizeHint().height())
-    panel.show()
-    qtbot.waitExposed(panel)
+    with qtbot.waitExposed(panel, timeout=PATIENCE):
+        panel.show()
     return panel
 
 

@@ -17,7 +17,7 @@ from tests.patience import PATIENCE
 @pytest.fixture
 def panel(window, qtbot):
     window.show_panel("tags")
-    qtbot.waitUntil(window.features["tags"].panel.isVisible)
+    qtbot.waitUntil(window.features["tags"].panel.isVisible, timeout=PATIENCE)
     return window.features["tags"].panel
 
 
@@ -110,7 +110,7 @@ def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
         QTest.keyClicks(editor, text)
         QTest.keyClick(editor, Qt.Key.Key_Return)
         # Qt takes what was typed in a later turn of the event loop
-        qtbot.waitUntil(lambda: table.findChild(QLineEdit) is None)
+        qtbot.waitUntil(lambda: table.findChild(QLineEdit) is None, timeout=PATIENCE)
         window.refresh()
 
     QTest.mouseClick(table.viewport(), LEFT, pos=QPoint(20, 10))

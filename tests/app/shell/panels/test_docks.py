@@ -12,6 +12,7 @@ from hexmend_app.resources import demo_mesh
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.state.settings import settings
 from tests.app.driving import LEFT, open_and_wait
+from tests.patience import PATIENCE
 
 #: Panels by place, with their groups; two share a tab.
 PLACED = {
@@ -115,7 +116,7 @@ def test_hidden_panels_are_restored(docks, qtbot):
     docks.show_panel("tags")
     docks.show_panel("quality")
     before, view = visible(docks), docks.centre.width()
-    with qtbot.waitSignal(docks.changed):
+    with qtbot.waitSignal(docks.changed, timeout=PATIENCE):
         docks.set_hidden(True)
     QApplication.processEvents()
     assert docks.hidden
@@ -255,7 +256,7 @@ def test_the_drawer_keeps_its_height(docks):
 
 
 def test_a_closed_dock_can_be_shown_again(docks, qtbot):
-    with qtbot.waitSignal(docks.changed):
+    with qtbot.waitSignal(docks.changed, timeout=PATIENCE):
         dock_of(docks, "Quality").close()
     assert not docks.is_open("quality")
     docks.set_hidden(True)

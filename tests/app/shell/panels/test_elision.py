@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QTabBar, QToolButton
 
 from tests.app.driving import turn
+from tests.patience import PATIENCE
 
 
 def bars_of(window):
@@ -16,7 +17,9 @@ def test_tabs_are_elided_and_not_scrolled(window, qtbot):
     window.show_panel("runs")
     window.resize(window.minimumSizeHint())
     turn()
-    qtbot.waitUntil(lambda: window.width() < 1000 and all(bar.accessibleName() for bar in bars_of(window)))
+    qtbot.waitUntil(
+        lambda: window.width() < 1000 and all(bar.accessibleName() for bar in bars_of(window)), timeout=PATIENCE
+    )
     bars = bars_of(window)
     assert len(bars) >= 3
     for bar in bars:

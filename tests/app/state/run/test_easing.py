@@ -1,6 +1,7 @@
 """Short runs are shown eased; their result is recorded at once, and shown at once for whoever asks."""
 
-from time import sleep
+import threading
+from itertools import count
 
 import numpy as np
 import pytest
@@ -19,6 +20,13 @@ from tests.core.grids import grid
 from tests.patience import PATIENCE
 
 TEN = StoppingCriteria(max_iterations=10, tolerance=0)
+
+
+@pytest.fixture(autouse=True)
+def clock(monkeypatch):
+    """Let 50 ms pass from one look at the clock to the next, however long the machine takes."""
+    looks = count()
+    monkeypatch.setattr(eased_view, "perf_counter", lambda: 0.05 * next(looks))
 
 
 @pytest.fixture
@@ -132,19 +140,22 @@ def test_steps_and_large_meshes_are_shown_as_they_are(document, run, qtbot, monk
 
 
 class Worsening(LocalSteepestDescent):
-    """Method that inverts hexes step by step, slowly enough to be shown."""
+    """Method that inverts hexes step by step, and goes on after six steps once one is shown."""
+
+    shown = threading.Event()
 
     def steps(self, mesh):
         yield Step(mesh.points)
         generator = np.random.default_rng(1)
-        while True:
-            sleep(0.05)
+        for number in count():
+            assert number < 6 or self.shown.wait(PATIENCE / 1000)
             yield Step(mesh.points + generator.normal(size=mesh.points.shape) * mesh.free[:, None])
 
 
 @pytest.mark.slow
 def test_a_run_without_a_better_iteration_ends_on_the_mesh_before_it(document, run, qtbot):
     start = document.now
+    document.points_moved.connect(Worsening.shown.set)
     run_and_wait(qtbot, run, stop=StoppingCriteria(max_iterations=12, tolerance=0), smoother=Worsening())
     assert run.record.result == 0
     assert run.view.eased.active

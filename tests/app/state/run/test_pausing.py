@@ -40,15 +40,15 @@ def test_a_run_pauses_exactly_at_the_iteration_of_a_breakpoint(session, run, qtb
     with qtbot.waitSignal(smoothing.hit, timeout=PATIENCE) as hit:
         smoothing.start(Laplacian(), StoppingCriteria(max_iterations=15, tolerance=0))
     assert hit.args[0].iteration.number == pauses[0]
-    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=5000)
+    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     assert smoothing.record.newest == pauses[0] == session.timeline.shown_iteration.number
     for number in pauses[1:3]:
-        with qtbot.waitSignal(smoothing.hit, timeout=5000) as hit:
+        with qtbot.waitSignal(smoothing.hit, timeout=PATIENCE) as hit:
             smoothing.resume()
         assert hit.args[0].iteration.number == number
     assert list(smoothing.record.pauses) == pauses[:3]
     smoothing.break_at(Breakpoints())
-    with qtbot.waitSignal(smoothing.ended, timeout=5000):
+    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE):
         smoothing.resume()
     assert smoothing.record.newest == 15
 
@@ -58,5 +58,5 @@ def test_breakpoints_can_be_set_during_a_run(session, qtbot):
     session.run.start(Laplacian(), StoppingCriteria(max_iterations=10**6, tolerance=0))
     qtbot.waitUntil(lambda: session.run.phase is Phase.RUNNING, timeout=PATIENCE)
     node = int(np.flatnonzero(session.document.now.mesh.free)[0])
-    with qtbot.waitSignal(session.run.hit, timeout=5000):
+    with qtbot.waitSignal(session.run.hit, timeout=PATIENCE):
         session.run.break_at(Breakpoints(hex=0, change=-1.0, node=node))

@@ -83,13 +83,13 @@ def test_earlier_iterations_can_be_shown_during_a_run(session, qtbot):
     timeline.go(smoothing.record, 3)
     assert not timeline.live
     newest = smoothing.record.newest
-    qtbot.waitUntil(lambda: smoothing.record.newest > newest + 5, timeout=5000)
+    qtbot.waitUntil(lambda: smoothing.record.newest > newest + 5, timeout=PATIENCE)
     assert timeline.shown_iteration.number == 3
     timeline.go(smoothing.record, smoothing.record.newest)
     assert timeline.live
-    qtbot.waitUntil(lambda: timeline.shown_iteration.number > newest, timeout=5000)
+    qtbot.waitUntil(lambda: timeline.shown_iteration.number > newest, timeout=PATIENCE)
     timeline.go(smoothing.record, 3)
-    with qtbot.waitSignal(smoothing.ended, timeout=5000):
+    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE):
         smoothing.stop()
     assert timeline.shown_iteration.number == 3  # the result is recorded but not shown, as the user views an iteration
     assert session.document.undo_title == "Local steepest descent"
@@ -101,8 +101,8 @@ def test_a_paused_run_resumes_from_its_newest_iteration(session, qtbot):
     qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     timeline.go(smoothing.record, 2)
     smoothing.step(4)
-    qtbot.waitUntil(lambda: timeline.shown_iteration.number == 12, timeout=5000)
-    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=5000)
+    qtbot.waitUntil(lambda: timeline.shown_iteration.number == 12, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
 
 
 def test_playing_pauses_at_the_end(session, qtbot):
@@ -112,7 +112,7 @@ def test_playing_pauses_at_the_end(session, qtbot):
     session.timeline.speed = 100
     session.timeline.play()
     assert session.timeline.playing
-    qtbot.waitUntil(lambda: not session.timeline.playing, timeout=5000)
+    qtbot.waitUntil(lambda: not session.timeline.playing, timeout=PATIENCE)
     assert shown == list(range(13))
     session.timeline.go(record, 6)
     session.timeline.speed = 100
@@ -127,7 +127,7 @@ def test_of_several_requests_the_last_counts(session, qtbot):
     session.timeline.moved.connect(lambda: shown.append(session.timeline.shown_iteration.number))
     for number in (3, 9, 5):
         session.timeline.go_soon(record, number)
-    qtbot.waitUntil(lambda: shown == [5], timeout=2000)
+    qtbot.waitUntil(lambda: shown == [5], timeout=PATIENCE)
 
 
 def test_another_mesh_has_no_history_yet(session, qtbot):

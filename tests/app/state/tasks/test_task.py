@@ -125,5 +125,5 @@ def test_a_task_that_yields_has_a_lower_priority(qtbot, yields):
     task = Task("smoother", lambda task: os.getpriority(os.PRIO_PROCESS, threading.get_native_id()), yields=yields)
     with qtbot.waitSignal(task.ended, timeout=PATIENCE):
         task.start()
-    assert (task.result > own) == yields
+    assert (task.result > own) == (yields and own < 19)  # the lowest
     assert os.getpriority(os.PRIO_PROCESS, threading.get_native_id()) == own

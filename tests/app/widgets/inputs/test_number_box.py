@@ -1,6 +1,6 @@
 """Stepping of boxes for numbers."""
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractSpinBox
@@ -11,7 +11,6 @@ from hexmend_app.widgets.inputs.number_box import NumberBox
 _BOUNDED = Parameter("delta", float, 0.01, 0.0, 10.0, None, "", "")
 
 
-@settings(max_examples=40)
 @given(start=st.floats(0, 10), steps=st.lists(st.integers(-12, 12), max_size=6))
 def test_stepping_stays_in_bounds_and_has_the_right_sign(qapp, start, steps):
     box = NumberBox(_BOUNDED)

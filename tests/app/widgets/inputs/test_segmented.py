@@ -8,6 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QVBoxLayout, QWidget
 
 from hexmend_app.widgets.inputs.segmented import Segmented
+from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -38,7 +39,7 @@ def test_tab_reaches_only_the_checked_button_from_either_side(between, chosen, b
 def test_arrow_keys_check_buttons(between, qtbot):
     between.before.setFocus()
     QTest.keyClick(between.before, Qt.Key.Key_Tab)
-    with qtbot.waitSignal(between.choice.chosen, timeout=1000) as told:
+    with qtbot.waitSignal(between.choice.chosen, timeout=PATIENCE) as told:
         QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Right)
     assert told.args == ["middle"]
     assert between.choice.value() == "middle"

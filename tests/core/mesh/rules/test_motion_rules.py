@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.errors import MeshError, ParameterError
@@ -88,7 +88,6 @@ def assert_equal_motion(one, other):
         np.testing.assert_array_equal(getattr(one.linear_motion, name), getattr(other.linear_motion, name))
 
 
-@settings(max_examples=30, deadline=None)
 @given(st.lists(RULES, min_size=1, max_size=3), RULES, st.booleans())
 def test_rules_replace_those_before_whatever_motion_these_gave(earlier, rules, has_own):
     mesh = MESH.with_linear_motion(LinearMotion.in_planes(SIDES["y1"], [0, 1, 0])) if has_own else MESH

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.mesh.edge_length import shortest_edges
@@ -97,7 +97,6 @@ def test_shortest_edges_are_those_at_each_node(seed, amplitude):
         assert size[node] == pytest.approx(lengths.min(initial=np.inf))
 
 
-@settings(max_examples=10)
 @given(seeds)
 def test_of_no_corners_there_is_nothing(seed):
     points = np.random.default_rng(seed).normal(size=(8, 3))

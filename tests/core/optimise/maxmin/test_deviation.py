@@ -1,7 +1,7 @@
 """Where a sliding boundary and its surface are tracker, as nodes move step by step."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.boundary import SlidingBoundary
@@ -21,7 +21,6 @@ def wandering(mesh, nodes, seed, steps=4):
         yield points, moved
 
 
-@settings(max_examples=15)
 @given(seeds)
 def test_followed_distances_bound_those_that_are_looked_up_anew(seed):
     mesh = slid(ball(3), 0.2, seed)
@@ -37,7 +36,6 @@ def test_followed_distances_bound_those_that_are_looked_up_anew(seed):
             np.testing.assert_allclose(tracker.distances[went], anew.distances[went], atol=1e-12)
 
 
-@settings(max_examples=15)
 @given(seeds, st.floats(0.01, 0.3))
 def test_a_boundary_leaves_its_room_where_something_is_further_than_before(seed, share):
     mesh = slid(ball(3), 0.2, seed)
@@ -57,7 +55,6 @@ def both_ways(sliding, points):
     return sliding.boundary_deviation(points, np.arange(len(sliding.samples))), sliding.surface_deviation(points)
 
 
-@settings(max_examples=10)
 @given(seeds, st.floats(0.01, 0.1))
 def test_only_what_nodes_could_bring_out_of_the_room_is_bounded(seed, reach):
     mesh = slid(ball(3), 0.1, seed)

@@ -86,7 +86,6 @@ def test_a_scrambled_grid_is_raised_to_that_of_cubes(seed, amplitude):
     assert raising.corners.active_minimum > 0.99
 
 
-@settings(max_examples=20)
 @given(seeds)
 def test_corners_at_the_end_hold_each_other(seed):
     mesh = one_free_node(seed)
@@ -134,7 +133,6 @@ def test_nothing_is_raised_beyond_its_target():
     assert raised(raising, target=0.6)[0] == []
 
 
-@settings(max_examples=15)
 @given(seeds)
 def test_settled_corners_do_not_fall_while_others_rise(seed):
     mesh = one_free_node(seed)
@@ -172,7 +170,6 @@ def test_a_corner_that_fixed_nodes_lock_holds_back_no_other():
     assert (0, 0) not in list(zip(limit.hexes, limit.corners, strict=True))
 
 
-@settings(max_examples=15)
 @given(seeds, st.integers(0, 7), st.integers(0, 7))
 def test_coinciding_nodes_are_no_end(seed, one, other):
     mesh = scrambled(grid(3), 0.1, seed)

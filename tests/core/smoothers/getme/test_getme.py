@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -70,7 +70,6 @@ def test_degenerate_hexes_give_finite_places():
 
 
 @pytest.mark.parametrize("name", STAGES)
-@settings(max_examples=15)
 @given(seed=st.integers(0, 2**32 - 1), amplitude=st.floats(0.1, 1.2))
 def test_no_sound_hex_is_ever_inverted(name, seed, amplitude):
     mesh = scrambled(grid(4), amplitude, seed)
@@ -111,7 +110,6 @@ def test_weights_are_finite_and_grow_as_quality_falls():
         assert got[0] > got[-1]
 
 
-@settings(max_examples=15)
 @given(seed=st.integers(0, 2**32 - 1), amplitude=st.floats(0.05, 0.45))
 def test_sequential_never_lowers_q_min_of_a_valid_mesh(seed, amplitude):
     mesh = scrambled(grid(4), amplitude, seed)
@@ -122,7 +120,6 @@ def test_sequential_never_lowers_q_min_of_a_valid_mesh(seed, amplitude):
     assert least[-1] > least[0]
 
 
-@settings(max_examples=15)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_sequential_never_has_more_inverted_hexes_than_before(seed):
     mesh = scrambled(grid(4), 1.0, seed)

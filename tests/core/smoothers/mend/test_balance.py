@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, ObjectiveNorm
@@ -66,7 +66,6 @@ def test_it_is_the_default_and_p_follows_the_goal():
     assert "guard" not in Mend(goal="shape", guard=True).ignored_parameters
 
 
-@settings(max_examples=25)
 @given(
     name=st.sampled_from(sorted(MESHES)),
     amplitude=st.sampled_from([0.0, 0.05, 0.15, 0.25]),

@@ -153,7 +153,6 @@ def test_of_impeller_all_is_raised_that_is_not_locked(real_mesh):
     assert f"of the corners that can be moved is {values[movable].min():.4f}" in result.message
 
 
-@settings(max_examples=15)
 @given(
     name=st.sampled_from(["cube", "five-side", "bridge-sharp"]),
     far=st.floats(1, 6),

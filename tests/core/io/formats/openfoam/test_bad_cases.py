@@ -5,7 +5,7 @@ import shutil
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import io
@@ -117,7 +117,6 @@ def cases(tmp_path_factory):
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "binary", "gzip"])
-@settings(max_examples=60)
 @given(data=st.data())
 def test_cut_or_changed_files_give_a_mesh_or_a_clear_error(encoding, cases, data):
     mesh = cases / encoding / "constant/polyMesh"

@@ -1,0 +1,58 @@
+"""No test asks how much time passes: each waits for an event, with one limit."""
+
+import ast
+import tomllib
+
+import pytest
+from hypothesis import settings
+
+from tests.examples import ROOT
+from tests.patience import PATIENCE
+
+#: Methods of qtbot that wait for an event: those of `BLOCKS` do so where a block ends.
+BLOCKS = "waitExposed", "waitActive", "waitSignal"
+WAITING = "waitUntil", "waitSignals", "waitCallback", *BLOCKS
+FILES = sorted((ROOT / "tests").rglob("*.py"))
+
+
+def calls(node):
+    """Return calls of methods within a node, by name."""
+    return [(one.func.attr, one) for one in ast.walk(node) if isinstance(one, ast.Call) and hasattr(one.func, "attr")]
+
+
+def test_all_who_wait_for_an_event_of_qt_have_the_same_patience():
+    hasty = []
+    for path in FILES:
+        for name, call in calls(ast.parse(path.read_text(encoding="utf-8"))):
+            limits = [ast.unparse(one.value) for one in call.keywords if one.arg == "timeout"]
+            if name in WAITING and limits != ["PATIENCE"]:
+                hasty.append(f"{path.relative_to(ROOT)}:{call.lineno}: {name}")
+    assert hasty == []
+
+
+def test_no_wait_is_without_a_block_and_none_is_for_time():
+    wrong = []
+    for path in FILES:
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        statements = [
+            one.value for one in ast.walk(tree) if isinstance(one, ast.Expr) and isinstance(one.value, ast.Call)
+        ]
+        wrong += [(path, one) for one in statements if getattr(one.func, "attr", "") in BLOCKS]
+        for name, call in calls(tree):
+            if (name == "wait" and ast.unparse(call.func.value) == "qtbot") or any(
+                one.arg == "wait" for one in call.keywords
+            ):
+                wrong.append((path, call))
+    assert [f"{path.relative_to(ROOT)}:{call.lineno}: {ast.unparse(call)}" for path, call in wrong] == []
+
+
+def test_a_test_that_waits_in_vain_fails_before_it_is_ended():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    assert project["tool"]["pytest"]["ini_options"]["timeout"] > PATIENCE / 1000
+
+
+@pytest.mark.parametrize("name", ["quick", "slow"])
+def test_examples_are_the_same_each_time(name):
+    profile = settings.get_profile(name)
+    assert profile.derandomize
+    assert profile.database is None
