@@ -61,9 +61,10 @@ class FlippedHexes(Problem):
         inside_out, sound = (sigma < 0).all(axis=1), (sigma > 0).all(axis=1)
         inside_out &= ~mirrored_parts(mesh)
         rows = np.flatnonzero(inside_out)
-        neighbours = mesh.topology.face_neighbours[rows]
+        mirrored = mirror_hexes(mesh, inside_out)  # whose faces have their nodes in the order of the neighbours
+        neighbours = mirrored.topology.face_neighbours[rows]
         inner = neighbours >= 0
-        fine = ~inner | (sound | inside_out)[neighbours] & _on_opposite_sides(mesh, rows, neighbours)
+        fine = ~inner | (sound | inside_out)[neighbours] & _on_opposite_sides(mirrored, rows, neighbours)
         inside_out[rows] = fine.all(axis=1) & (inner & sound[neighbours]).any(axis=1)
         return inside_out
 

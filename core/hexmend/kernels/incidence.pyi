@@ -20,8 +20,9 @@ def face_neighbours(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8),
     The hex behind each face, (m, 6) int32, and the number of non-manifold faces; start, corners:
     `node_corners`.
 
-    -1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect
-    of the mesh, and is counted once per hex.
+    Two faces are one if they have the same nodes in opposite order and no third face has these nodes; -1
+    elsewhere. Faces that lie on the nodes of others otherwise are non-manifold, a defect of the mesh, and are
+    counted once per hex.
     """
 
 def join(parent: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], items: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], width: int) -> None:

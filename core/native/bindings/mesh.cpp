@@ -96,8 +96,9 @@ void bind_incidence(nb::module_ m) {
     m.def("face_neighbours", &face_neighbours, "hexes"_a, "start"_a, "corners"_a, ReleaseGil(),
           "The hex behind each face, (m, 6) int32, and the number of non-manifold faces; start, corners:\n"
           "`node_corners`.\n\n"
-          "-1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect\n"
-          "of the mesh, and is counted once per hex.");
+          "Two faces are one if they have the same nodes in opposite order and no third face has these nodes; -1\n"
+          "elsewhere. Faces that lie on the nodes of others otherwise are non-manifold, a defect of the mesh, and are\n"
+          "counted once per hex.");
     m.def("join", &join, "parent"_a, "items"_a, "width"_a, ReleaseGil(),
           "Connect the items of each row of `width` items; changes parent (n,) int32, at first 0 to n - 1.\n\n"
           "Union-find: parent[i] is an item of i's component, at most i.");

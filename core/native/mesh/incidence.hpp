@@ -12,7 +12,8 @@ namespace hexmend {
 // Corners at each of `nodes` nodes, ascending.
 CSR node_corners(Hexes hexes, std::int64_t nodes);
 
-// The hex behind each face, (m, 6), -1 for none; and the number of non-manifold faces, those of more than two hexes.
+// The hex behind each face, (m, 6), -1 for none; and the number of non-manifold faces, which lie on the nodes of others
+// without being one of two with opposite order.
 std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners);
 
 // Connected components by union-find with path halving: parent[i] is an item of i's component, at most i; in the

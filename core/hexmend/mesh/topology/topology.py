@@ -111,7 +111,10 @@ class Topology:
 
     @property
     def n_nonmanifold_faces(self) -> int:
-        """Number of faces shared by more than two hexes, counted once a hex; they are treated as boundary."""
+        """Number of faces of more than two hexes, or of two on the same side; they are treated as boundary.
+
+        They are counted once a hex.
+        """
         return self._faces[1]
 
     @cached_property
