@@ -90,9 +90,9 @@ class SkinSurface:
         one, other = (self.points.take(self.edges.nodes[:, end], axis=0) for end in range(2))
         return row_norms(other - one)
 
-    def distances(self, x: np.ndarray) -> np.ndarray:
-        """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit."""
-        return np.linalg.norm(self.closest(x) - x, axis=1)
+    def distances(self, x: np.ndarray, stop_distance: float = 0.0) -> np.ndarray:
+        """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit; see `find`."""
+        return np.linalg.norm(self.closest(x, stop_distance) - x, axis=1)
 
     def find(
         self,
