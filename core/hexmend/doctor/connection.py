@@ -45,8 +45,8 @@ class DisconnectedParts(Problem):
     name, title = "parts", "Parts apart"
     rank = 9
     remedy = (
-        "Each is smoothed by itself. If they should be one, merge their coincident nodes: hexmend repair MESH -o OUT "
-        "--only coincident-nodes, or Edit > Doctor in the window."
+        "Each is smoothed by itself. If they should be one, merge their coincident nodes, of one material and without "
+        "contact cards: hexmend repair MESH -o OUT --only coincident-nodes, or Edit > Doctor in the window."
     )
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
