@@ -12,10 +12,7 @@ from hexmend.mesh.fields import as_numbers
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set, set_names, unknown_set
 from hexmend.mesh.validation import as_reals
-from hexmend.parameters import Parameter
 from hexmend.quality.mesh_quality import measure_mesh
-
-_RINGS = Parameter("rings", int, 0, 0, None, None, "", "")
 
 
 def hexes_in_set(mesh: Mesh, name: str) -> np.ndarray:
@@ -77,7 +74,7 @@ def region(
         For a name that the mesh does not have (the message suggests the nearest), a hex that does not exist, and a box
         that is no two points.
     ParameterError
-        For rings that are no whole number from 0.
+        As for `hexmend.mesh.topology.Topology.hexes_around`.
 
     Examples
     --------
@@ -98,8 +95,7 @@ def region(
         centres = mesh.points[mesh.hexes].mean(axis=1)
         marks &= ((centres >= low) & (centres <= high)).all(axis=1)
     found = np.flatnonzero(marks)
-    rings = _RINGS.check(rings)
-    return np.flatnonzero(mesh.topology.hexes_around(found, rings)) if rings else found
+    return np.flatnonzero(mesh.topology.hexes_around(found, rings))
 
 
 def _hexes_of(mesh: Mesh, name: str) -> np.ndarray:

@@ -13,9 +13,12 @@ from hexmend.kernels import incidence, structure, wavefronts
 from hexmend.kernels.hex_mesh import HexMesh
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import FACES
-from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
+from hexmend.mesh.size_limits import MAX_HEXES, MAX_ITEMS, overflow_as_mesh_error
 from hexmend.mesh.topology.components import components
 from hexmend.mesh.validation import as_bools, as_hexes
+from hexmend.parameters import Parameter
+
+_RINGS = Parameter("rings", int, 0, 0, MAX_HEXES, None, "", "")
 
 
 @dataclass(frozen=True)
@@ -155,7 +158,10 @@ class Topology:
         ------
         MeshError
             For a hex that does not exist.
+        ParameterError
+            For rings that are no whole number from 0 to the largest number of hexes.
         """
+        rings = _RINGS.check(rings)
         chosen = as_set(hexes if isinstance(hexes, np.ndarray) else list(hexes), "the set of hexes", len(self.hexes))
         rows = self.node_corners
         return incidence.around(self.hexes, rows.start, rows.items, chosen.astype(np.int32), rings)

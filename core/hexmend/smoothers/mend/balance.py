@@ -215,7 +215,7 @@ def _rise_on(path: CentralPath, target: Least, config: BalanceConfig) -> Iterato
 
 
 def _message(path: CentralPath, top: Least, mean_without: float) -> str:
-    """Say what was reached, which floors hold, and what they cost: the mean of q(H) that an optimum without them has."""
+    """Say what was reached, which floors hold, and what they cost: the optimum of shape has a higher mean of q(H)."""
     kept, quality = path.least, measure(path.points, path.energy.mesh.hexes)
     mean, fixed = path.energy.mean(quality.q), path.energy.ranks.least(float(quality.scaled_jacobian.min()))
     message = (
