@@ -155,7 +155,8 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEAT
     # Where faces overlap, all boxes at a place would be searched for a piece closer than the one on which it lies.
     near = _ROUNDING * before.mean_edge_length
     if after.target is None:
-        both = mutual_distances(old, new, stop_distance=near)
+        pieces = old.pieces_of_samples
+        both = new.distances(old.samples(), near, pieces), old.distances(new.samples(), near, pieces)
     else:
         both = mutual_distances(after.target, new, spacing, near)
     was, now = old.points[old.nodes], new.points[old.nodes]
