@@ -108,12 +108,14 @@ class SurfaceChange:
         return {name: getattr(self, name) for name in names}
 
 
-def mutual_distances(one: SkinSurface, other: SkinSurface, spacing: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+def mutual_distances(
+    one: SkinSurface, other: SkinSurface, spacing: float = 0.0, stop_distance: float = 0.0
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the distances of the first surface's samples from the second, (s,), and the reverse, (t,).
 
-    Samples of the first are thinned as by `SkinSurface.samples`.
+    Samples of the first are thinned as by `SkinSurface.samples`; distances below `stop_distance` may be too large.
     """
-    return other.distances(one.samples(spacing)), one.distances(other.samples())
+    return other.distances(one.samples(spacing), stop_distance), one.distances(other.samples(), stop_distance)
 
 
 @old_keywords("surface_change")
@@ -150,7 +152,13 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEAT
     old = SkinSurface(before.points, before.topology.boundary_faces)
     new = old.with_points(after.points)
     spacing = SAMPLE_DISTANCE * before.mean_edge_length
-    both = mutual_distances(old, new) if after.target is None else mutual_distances(after.target, new, spacing)
+    # Where faces overlap, all boxes at a place would be searched for a piece closer than the one on which it lies.
+    near = _ROUNDING * before.mean_edge_length
+    if after.target is None:
+        pieces = old.pieces_of_samples
+        both = new.distances(old.samples(), near, pieces), old.distances(new.samples(), near, pieces)
+    else:
+        both = mutual_distances(after.target, new, spacing, near)
     was, now = old.points[old.nodes], new.points[old.nodes]
     sharp = np.isin(old.edges.key, old.edges.keys_of(boundary_of(before, feature_angle).segments))
     least = angle_in_degrees(feature_angle)

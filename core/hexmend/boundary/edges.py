@@ -28,6 +28,8 @@ class SurfaceEdges:
         Lower node first.
     count : (e,) int64
         Number of faces at each edge.
+    first_sides : (e,) int32
+        A side on each edge: k * w + i is that of face k from its node i to the next.
     neighbours : (e, 2) int64
         Two of these faces; an edge of one face names it twice.
     opposed : (e,) bool
@@ -40,7 +42,8 @@ class SurfaceEdges:
         self.nodes, self._sides, self._first = closest_point.edges_of_faces(corners, width, n)
         self.key, self.count = edge_keys(self.nodes, n), np.diff(self._first).astype(np.int64)
         first = self._first[:-1]
-        pair = self._sides[first], self._sides[first + (self.count > 1)]
+        self.first_sides = self._sides[first]
+        pair = self.first_sides, self._sides[first + (self.count > 1)]
         self.neighbours = np.stack([side // width for side in pair], axis=1).astype(np.int64)
         self.opposed = corners[pair[0]] != corners[pair[1]]
 

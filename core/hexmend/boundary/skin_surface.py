@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import mask, row_norms
+from hexmend.arrays import index_of, mask, row_norms
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate, vertices_of
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.near_points import NearPoints
@@ -90,9 +90,18 @@ class SkinSurface:
         one, other = (self.points.take(self.edges.nodes[:, end], axis=0) for end in range(2))
         return row_norms(other - one)
 
-    def distances(self, x: np.ndarray) -> np.ndarray:
-        """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit."""
-        return np.linalg.norm(self.closest(x) - x, axis=1)
+    @cached_property
+    def pieces_of_samples(self) -> np.ndarray:
+        """A piece of the trees of each of `samples`, without spacing, (s,) int32; for quads."""
+        sides = np.arange(self.faces.size)  # piece 4 i + k as given is that at side k of face i
+        at_node = np.empty(len(self.points), dtype=np.int64)
+        at_node[self.faces.ravel()] = sides
+        given = np.concatenate([at_node[self.nodes], self.edges.first_sides, sides[::4]])
+        return index_of(self.trees.order, sides.size)[given]
+
+    def distances(self, x: np.ndarray, stop_distance: float = 0.0, known: np.ndarray | None = None) -> np.ndarray:
+        """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit; see `find`."""
+        return np.linalg.norm(self.closest(x, stop_distance, known) - x, axis=1)
 
     def find(
         self,

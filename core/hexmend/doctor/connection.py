@@ -16,7 +16,7 @@ from hexmend.terminal_text import count_phrase
 
 @register_problem
 class NonManifoldFaces(Problem):
-    """Faces of more than two hexes."""
+    """Faces of more than two hexes, or of two on the same side."""
 
     name, title = "crowded-faces", "Non-manifold faces"
     rank = 8
@@ -27,14 +27,16 @@ class NonManifoldFaces(Problem):
             return NONE_FOUND
         faces = np.sort(mesh.hexes[:, FACES], axis=2).reshape(-1, 4)
         _, which, times = np.unique(faces, axis=0, return_inverse=True, return_counts=True)
-        return np.unique(np.flatnonzero(times[which.reshape(-1)] > 2) // 6)
+        alone = mesh.topology.face_neighbours.ravel() < 0
+        return np.unique(np.flatnonzero(alone & (times[which.reshape(-1)] > 1)) // 6)
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         count = mesh.topology.n_nonmanifold_faces
         faces = count_phrase(count, "face (counted once a hex) belongs", "faces (counted once a hex) belong")
         return self.finding(
             where,
-            f"{faces} to more than two hexes; {'it is' if count == 1 else 'they are'} treated as boundary.",
+            f"{faces} to more than two hexes, or to two on the same side; {'it is' if count == 1 else 'they are'} "
+            "treated as boundary.",
             count=count,
         )
 
@@ -68,8 +70,8 @@ class DisconnectedParts(Problem):
     name, title = "parts", "Parts apart"
     rank = 9
     remedy = (
-        "Each is smoothed by itself. If they should be one, merge their coincident nodes: hexmend repair MESH -o OUT "
-        "--only coincident-nodes, or Edit > Doctor in the window."
+        "Each is smoothed by itself. If they should be one, merge their coincident nodes, of one material and without "
+        "contact cards: hexmend repair MESH -o OUT --only coincident-nodes, or Edit > Doctor in the window."
     )
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:

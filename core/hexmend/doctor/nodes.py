@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.doctor.removal import has_repeated_node, referenced_nodes, renumber_nodes
+from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.close_pairs import close_pairs
 from hexmend.mesh.topology.components import components
@@ -17,7 +18,7 @@ MERGE_DISTANCE = 1e-6
 
 @register_problem
 class CoincidentNodes(Problem):
-    """Nodes at one position; where boundary faces coincide as well, blocks have not been merged."""
+    """Nodes of one material at one position; where boundary faces coincide as well, blocks have not been merged."""
 
     name, title = "coincident-nodes", "Coincident nodes"
     items = "nodes"
@@ -120,12 +121,17 @@ def _merge_distance(mesh: Mesh) -> float:
 def _merge_targets(mesh: Mesh) -> np.ndarray:
     """Number of the node into which each node is merged, the first at its position, (n,) int64.
 
-    Two nodes of one hex are not merged, because that would collapse the hex.
+    Two nodes of one hex are not merged, because that would collapse the hex; nor are nodes of two materials, or of a
+    file with contact, where bodies touch.
     """
     n = mesh.n_nodes
+    target = np.arange(n)
+    if CONTACT_CARDS in mesh.field_data:
+        return target
     used = np.flatnonzero(referenced_nodes(mesh))
     pairs = used[close_pairs(mesh.points[used], _merge_distance(mesh))]
-    target = np.arange(n)
+    if len(pairs) and mesh.materials is not None:
+        pairs = pairs[_have_one_material(mesh, pairs)]
     if not len(pairs):
         return target
     group = components(n, pairs)
@@ -135,3 +141,18 @@ def _merge_targets(mesh: Mesh) -> np.ndarray:
     broken = has_repeated_node(target[mesh.hexes]) & ~has_repeated_node(mesh.hexes)
     excluded = np.isin(target, target[mesh.hexes[broken]])
     return np.where(excluded, np.arange(n), target)
+
+
+def _have_one_material(mesh: Mesh, pairs: np.ndarray) -> np.ndarray:
+    """True for pairs (k, 2) of nodes that hexes of one material use, or that no hex uses, (k,) bool."""
+    from scipy.sparse import coo_array
+
+    nodes, materials = mesh.hexes, mesh.materials
+    if mesh.mid_nodes is not None:
+        nodes = np.hstack([nodes, mesh.mid_nodes])
+    hexes, place = np.nonzero(nodes >= 0)
+    uses = np.ones(hexes.size), (nodes[hexes, place], materials.of_hex[hexes])
+    uses = coo_array(uses, shape=(mesh.n_nodes, len(materials))).tocsr()
+    one, other = (uses[pairs[:, side]] for side in (0, 1))
+    by_none = (one.sum(axis=1) == 0) & (other.sum(axis=1) == 0)
+    return by_none | ((one * other).sum(axis=1) > 0)

@@ -43,7 +43,7 @@ class ContradictoryFaces(Problem):
     remedy = "No numbering makes all of them valid: correct the hexes that close a ring where the mesh was made."
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
-        return np.flatnonzero(face_parity(mesh.hexes, mesh.topology.face_neighbours)[1] == 0)
+        return np.flatnonzero(face_parity(mesh.hexes, mesh.topology.neighbours_in_any_order)[1] == 0)
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         hexes = count_phrase(where.size, "hex shares", "hexes share")
@@ -63,7 +63,7 @@ class VoxelOrder(Problem):
         if mesh.mid_nodes is not None:
             return NONE_FOUND
         # In the wrong order x- and x+ are not faces of the hex, so that no neighbour shares them.
-        alone = (mesh.topology.face_neighbours[:, :2] < 0).all(axis=1)
+        alone = (mesh.topology.neighbours_in_any_order[:, :2] < 0).all(axis=1)
         twisted = np.flatnonzero(alone & (corner_determinants(mesh.points, mesh.hexes) <= 0).any(axis=1))
         return twisted[(corner_determinants(mesh.points, mesh.hexes[twisted][:, VOXEL_ORDER]) > 0).all(axis=1)]
 

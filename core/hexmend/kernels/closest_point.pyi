@@ -153,6 +153,15 @@ def count_fans(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order=
     to the next of the face. Edge e has sides[first[e]:first[e + 1]], all int32.
     """
 
+def quantiles_around(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], some: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], most: float, share: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Quantile of the values around each of some edges (s,) int32, (s,) float64.
+
+    Around an edge are those at its two nodes and at the neighbours of these, without the edge itself and
+    without values above `most`; the quantile is 0 where none is left. edges (e, 2) int32 have values (e,);
+    those at node i are ends[start[i]:start[i + 1]] // 2. A share of the values is less than the quantile.
+    """
+
 def extremes_in_cells(cell: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], cells: int) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,))]:
     """
     True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number

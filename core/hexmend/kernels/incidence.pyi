@@ -15,13 +15,14 @@ def node_corners(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), or
     Row i is corners[start[i]:start[i + 1]]: numbers 8 * hex + corner, ascending.
     """
 
-def face_neighbours(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None, 6))], int]:
+def face_neighbours(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], opposed: bool = True) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None, 6))], int]:
     """
     The hex behind each face, (m, 6) int32, and the number of non-manifold faces; start, corners:
     `node_corners`.
 
-    -1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect
-    of the mesh, and is counted once per hex.
+    Two faces are one if they have the same nodes in opposite order and no third face has these nodes; -1
+    elsewhere. Faces that lie on the nodes of others otherwise are non-manifold, a defect of the mesh, and are
+    counted once per hex. Without `opposed` any order of the nodes counts.
     """
 
 def overlapping_corners(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:

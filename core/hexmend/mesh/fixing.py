@@ -157,6 +157,8 @@ def fix_outside(mesh: Mesh, hexes: Sequence[int] | np.ndarray, rings: int = 0) -
     ------
     MeshError
         For a hex that does not exist.
+    ParameterError
+        For rings that are no whole number from 0.
     """
     region = np.zeros(mesh.n_nodes, dtype=bool)
     inside = as_numbers(hexes, "hexes", mesh.n_hexes)

@@ -76,7 +76,7 @@ def check_orientation(mesh: Mesh) -> None:
 
 def left_handed_are(mesh: Mesh, which: np.ndarray) -> str:
     """Return the subject and verb of a sentence about left-handed hexes (m,) bool, of which there is at least one."""
-    count, neighbours = int(which.sum()), mesh.topology.face_neighbours[which]
+    count, neighbours = int(which.sum()), mesh.topology.neighbours_in_any_order[which]
     if count == mesh.n_hexes:
         return "The only hex is" if count == 1 else "All hexes are"
     if ((neighbours >= 0) & ~which[neighbours]).any():
@@ -105,7 +105,7 @@ def left_handed_hexes(mesh: Mesh, report: Callable[[float], object] = lambda sha
     volume = signed_volumes(mesh.points, mesh.hexes, report) if mesh.n_hexes else np.empty(0)
     if not (volume < 0).any():
         return np.zeros(mesh.n_hexes, dtype=bool)
-    component, sign = face_parity(mesh.hexes, mesh.topology.face_neighbours)
+    component, sign = face_parity(mesh.hexes, mesh.topology.neighbours_in_any_order)
     return are_left_handed(
         component, sign, volume, np.sign(volume), all_corners_negative(mesh.points, mesh.hexes, volume)
     )

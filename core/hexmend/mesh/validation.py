@@ -16,7 +16,9 @@ _known_ranges: dict[int, tuple[weakref.ref[np.ndarray], int, int]] = {}
 
 
 def as_array(values: object, label: str) -> np.ndarray:
-    """Convert values to an array of any type; raises `MeshError` if that fails, as for rows of different lengths."""
+    """Convert values to an array of any type; raises `MeshError` if that fails, and for a masked value."""
+    if isinstance(values, np.ndarray) and type(values) is not np.ndarray and np.ma.is_masked(values):
+        raise MeshError(f"{label}: {np.ma.count_masked(values):,} of the values are masked; fill them in")
     try:
         return np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:

@@ -137,7 +137,7 @@ def check_mesh(mesh: Mesh) -> None:
     Raises
     ------
     MeshError
-        For a two-dimensional mesh, one with faces of more than two hexes, and one with hexes that use a node twice.
+        For a two-dimensional mesh, one with non-manifold faces, and one with hexes that use a node twice.
     """
     for name, kind in mesh.side_set_types.items():
         if kind in (EMPTY, WEDGE) and len(mesh.side_sets.get(name, ())):
@@ -147,8 +147,8 @@ def check_mesh(mesh: Mesh) -> None:
             )
     if mesh.topology.n_nonmanifold_faces:
         raise MeshError(
-            f"{mesh.topology.n_nonmanifold_faces:,} faces (counted once a hex) belong to more than two hexes: find "
-            "overlapping hexes with hexmend info MESH --doctor, and remove them"
+            f"{mesh.topology.n_nonmanifold_faces:,} faces (counted once a hex) belong to more than two hexes, or to "
+            "two on the same side: find overlapping hexes with hexmend info MESH --doctor, and remove them"
         )
     rows = np.sort(mesh.hexes, axis=1)
     repeated = (rows[:, 1:] == rows[:, :-1]).any(axis=1)

@@ -12,13 +12,10 @@ from hexmend.mesh.fields import as_numbers
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set, set_names, unknown_set
 from hexmend.mesh.validation import as_reals
-from hexmend.parameters import Parameter
 from hexmend.quality.mesh_quality import measure_mesh
 
 #: Names of sets of hexes that the quality determines.
 _BY_QUALITY = ("inverted", "invalid")
-
-_RINGS = Parameter("rings", int, 0, 0, None, None, "", "")
 
 
 def hexes_in_set(mesh: Mesh, name: str) -> np.ndarray:
@@ -81,7 +78,7 @@ def region(
         For a name that the mesh does not have (the message suggests the nearest), a hex that does not exist, and a box
         that is no two points.
     ParameterError
-        For rings that are no whole number from 0.
+        As for `hexmend.mesh.topology.Topology.hexes_around`.
 
     Examples
     --------
@@ -102,8 +99,7 @@ def region(
         centres = mesh.points[mesh.hexes].mean(axis=1)
         marks &= ((centres >= low) & (centres <= high)).all(axis=1)
     found = np.flatnonzero(marks)
-    rings = _RINGS.check(rings)
-    return np.flatnonzero(mesh.topology.hexes_around(found, rings)) if rings else found
+    return np.flatnonzero(mesh.topology.hexes_around(found, rings))
 
 
 def _hexes_of(mesh: Mesh, name: str) -> np.ndarray:

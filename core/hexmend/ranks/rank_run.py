@@ -68,6 +68,7 @@ class RankRun(Iterator[RankFigures]):
     move: float = 0.0
 
     def __post_init__(self) -> None:
+        began = perf_counter()
         mesh = self.part.mesh
         self._energy = RankEnergy(self.part, self.smoother.norm)
         self._stages = RankStages(self.smoother, self.part, self.sliding)
@@ -80,6 +81,9 @@ class RankRun(Iterator[RankFigures]):
         moving = self._energy.nodes if self.sliding is None else self.sliding.nodes
         if not self._energy.ranks.any(moving.size + self._energy.nodes.size > 0):
             self.outcome = Outcome.NOTHING_FREE
+        self._setup_seconds = perf_counter() - began
+        if self.outcome is None:
+            self._end_at_a_limit()
 
     @property
     def unsound(self) -> bool:
@@ -127,8 +131,12 @@ class RankRun(Iterator[RankFigures]):
             self.best_points, self.kept, self._best_rank = points, self.number, rank
         if self.move < self.stop.tolerance and not step.intermediate:
             self._end(Outcome.CONVERGED)
-        else:  # the clocks of ranks differ
-            self._end(self.stop.reached(self.smoother, self.number, energy.ranks.greatest(self.seconds)))
+        else:
+            self._end_at_a_limit()
+
+    def _end_at_a_limit(self) -> None:
+        spent = self._energy.ranks.greatest(self._setup_seconds + self.seconds)  # the clocks of ranks differ
+        self._end(self.stop.reached(self.smoother, self.number, spent))
 
     def _judged(self, quality: ElementQuality) -> ElementQuality:
         """Quality by which the present points are judged, of the hexes that this rank counts."""

@@ -79,6 +79,7 @@ class StageRun:
         run_last: Iteration,
         predecessor: StageRun | None = None,
     ):
+        began = perf_counter()
         self.stage, self.number = stage, number
         self.start, self.run_last = start, run_last
         self.stage_start: Iteration = run_last if predecessor is None else predecessor.stage_start
@@ -98,10 +99,12 @@ class StageRun:
         self._origin_quality = measure_against_target(mesh, self._origin.points, self._origin.quality)
         self._best_rank = self._rank(self._best)
         self._update_best(start)
-        began = perf_counter()
+        setup_began = perf_counter()
         self._steps = constrained_steps(self.smoother, mesh.keeping_surface().with_points(start.points))
         self.start_surface = next(self._steps).surface
-        self.setup_seconds = perf_counter() - began
+        self.setup_seconds = perf_counter() - setup_began
+        self._spent_before = 0.0 if predecessor is None else predecessor._spent
+        self._spent = self._spent_before + perf_counter() - began  # seconds that count for the time limit
         if not mesh.free.any() and not self.smoother.movable(mesh).any():
             self.end(Outcome.NOTHING_FREE)
         else:
@@ -157,6 +160,7 @@ class StageRun:
             self._best_rank = self._rank(now)
         elif not step.infeasible:
             self._update_best(now)
+        self._spent += perf_counter() - began
         small = size < self.stage.stop.tolerance  # Algorithm A.1
         if small and not step.intermediate and (self.stage.stop.moves_only or not self._still_falls(before, now)):
             self.end(Outcome.CONVERGED)
@@ -203,9 +207,9 @@ class StageRun:
         """
         if cut and not self.n_iterations:
             return None
-        stop, before, spent = self.stage.stop, self.run_last.number - self.stage_start.number, self.run_last.seconds
+        stop, before = self.stage.stop, self.run_last.number - self.stage_start.number
         most = self.n_iterations if cut else max(stop.limit_of(self.smoother) - before, 0)
-        left = max(stop.max_seconds - (spent - self.stage_start.seconds), 1e-3) if stop.max_seconds else 0.0
+        left = max(stop.max_seconds - self._spent_before, 1e-3) if stop.max_seconds else 0.0
         last = cut or stop.keep_last  # its successor continued from the last iteration
         return Stage(self.smoother, replace(stop, max_iterations=most, max_seconds=left, keep_last=last))
 
@@ -255,7 +259,7 @@ class StageRun:
         return then - later > least
 
     def _end_at_a_limit(self) -> None:
-        stop, last, since = self.stage.stop, self.last, self.stage_start
-        outcome = stop.reached(self.smoother, last.number - since.number, last.seconds - since.seconds)
+        count = self.last.number - self.stage_start.number
+        outcome = self.stage.stop.reached(self.smoother, count, self._spent)
         if outcome is not None:
             self.end(outcome)

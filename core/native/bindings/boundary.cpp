@@ -152,6 +152,12 @@ void bind_closest_point(nb::module_ m) {
           "faces (k * width,) int32 are the nodes of faces one after the other; its side s runs from the node in place "
           "s\n"
           "to the next of the face. Edge e has sides[first[e]:first[e + 1]], all int32.");
+    m.def("quantiles_around", &quantiles_around, "edges"_a, "start"_a, "ends"_a, "values"_a, "some"_a, "most"_a,
+          "share"_a, ReleaseGil(),
+          "Quantile of the values around each of some edges (s,) int32, (s,) float64.\n\n"
+          "Around an edge are those at its two nodes and at the neighbours of these, without the edge itself and\n"
+          "without values above `most`; the quantile is 0 where none is left. edges (e, 2) int32 have values (e,);\n"
+          "those at node i are ends[start[i]:start[i + 1]] // 2. A share of the values is less than the quantile.");
     m.def("extremes_in_cells", &extremes_in_cells, "cell"_a, "values"_a, "cells"_a, ReleaseGil(),
           "True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number\n"
           "below `cells`; of equal values the last is the largest, the first the least.");

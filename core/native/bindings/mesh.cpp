@@ -115,11 +115,12 @@ void bind_incidence(nb::module_ m) {
     m.def("node_corners", &node_corners, "hexes"_a, "n"_a, ReleaseGil(),
           "Corners of hexes at each of n nodes, as compressed rows (start (n + 1,), corners (8 m,)), both int32.\n\n"
           "Row i is corners[start[i]:start[i + 1]]: numbers 8 * hex + corner, ascending.");
-    m.def("face_neighbours", &face_neighbours, "hexes"_a, "start"_a, "corners"_a, ReleaseGil(),
+    m.def("face_neighbours", &face_neighbours, "hexes"_a, "start"_a, "corners"_a, "opposed"_a = true, ReleaseGil(),
           "The hex behind each face, (m, 6) int32, and the number of non-manifold faces; start, corners:\n"
           "`node_corners`.\n\n"
-          "-1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect\n"
-          "of the mesh, and is counted once per hex.");
+          "Two faces are one if they have the same nodes in opposite order and no third face has these nodes; -1\n"
+          "elsewhere. Faces that lie on the nodes of others otherwise are non-manifold, a defect of the mesh, and are\n"
+          "counted once per hex. Without `opposed` any order of the nodes counts.");
     m.def("overlapping_corners", &overlapping_corners, "hexes"_a, "start"_a, "corners"_a, ReleaseGil(),
           "Corners at each node whose cones overlap wherever the nodes are, as compressed rows (start (n + 1,),\n"
           "corners), both int32; start, corners: `node_corners`.\n\n"

@@ -129,6 +129,36 @@ IntArray count_fans(Indices faces, int width, Indices sides, Indices first, std:
     return {std::move(count)};
 }
 
+OwnedArray<double> quantiles_around(ArrayView<const Node, 2> edges, Indices start, Indices ends, Numbers values,
+                                    Indices some, double most, double share) {
+    expect(values.size() == edges.size(), "values: one for each edge is expected");
+    std::vector<double> quantiles(some.size());
+    parallel_chunks(some.size(), ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<std::int32_t> seen(edges.size(), -1);  // the last row around which an edge was found
+        std::vector<double> around;
+        for (std::int64_t row = begin; row < end; ++row) {
+            around.clear();
+            auto each_end = [&](Node i, const auto &body) {
+                for (auto k = start[i]; k < start[i + 1]; ++k) body(ends[k]);
+            };
+            auto add = [&](std::int32_t at) {
+                const std::int32_t e = at / 2;
+                if (seen[e] == row) return;
+                seen[e] = static_cast<std::int32_t>(row);
+                if (values[e] <= most) around.push_back(values[e]);
+            };
+            seen[some[row]] = static_cast<std::int32_t>(row);
+            for (Node i : edges[some[row]])
+                each_end(i, [&](std::int32_t at) { each_end(edges[at / 2][1 - at % 2], add); });
+            if (around.empty()) continue;
+            auto place = around.begin() + static_cast<std::int64_t>(share * around.size());
+            std::nth_element(around.begin(), place, around.end());
+            quantiles[row] = *place;
+        }
+    });
+    return {std::move(quantiles)};
+}
+
 OwnedArray<bool> extremes_in_cells(Indices cell, Numbers values, std::int64_t cells) {
     expect(cells >= 0, "cells: the number of cells is expected");
     expect(cell.size() == values.size(), "values: one for each of the cells of points is expected");

@@ -1,5 +1,5 @@
-// Points and edges of large surfaces: equal points, edges of faces, fans of faces around points, and points with the
-// largest and the least value in each cell of a lattice.
+// Points and edges of large surfaces: equal points, edges of faces, fans of faces around points, values around edges,
+// and points with the largest and the least value in each cell of a lattice.
 #pragma once
 
 #include <tuple>
@@ -21,6 +21,13 @@ std::tuple<OwnedArray<std::int32_t, 2>, IntArray, IntArray> edges_of_faces(Indic
 // `width` of them; its side s runs from faces[s] to the next of the face. Edge e has sides[first[e]] to sides[first[e +
 // 1] - 1].
 IntArray count_fans(Indices faces, int width, Indices sides, Indices first, std::int64_t nodes);
+
+// Quantile of the values around each of some edges (s,): of the edges at its two nodes and at the neighbours of these,
+// without the edge itself and without values above `most`; 0 where none is left. edges (e, 2) have values (e,); those
+// at node i are ends[start[i]] / 2 to ends[start[i + 1] - 1] / 2. A share of the values, below 1, is less than the
+// quantile.
+OwnedArray<double> quantiles_around(ArrayView<const Node, 2> edges, Indices start, Indices ends, Numbers values,
+                                    Indices some, double most, double share);
 
 // True for the points with the largest and with the least value of each cell; of equal values the last is the largest,
 // the first the least. cell (k,) is below `cells`.

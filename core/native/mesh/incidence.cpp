@@ -53,25 +53,38 @@ constexpr auto SIDES_AT_CORNER = [] {
     return sides;
 }();
 
-// A face in the list of its lowest node: the other three nodes, ascending; the number of hexes behind it, and the last.
+// A face in the list of its lowest node: the other three nodes, ascending; the number of faces on the same nodes, and
+// the last of them.
 struct Face {
     Node a, b, c;
-    std::int32_t number, matches, hex;
+    std::int32_t number, matches, other;
 
-    void match(Face &other) {
-        if (a != other.a || b != other.b || c != other.c) return;
-        ++matches, ++other.matches;
-        hex = other.number / 6, other.hex = number / 6;
+    void match(Face &face) {
+        if (a != face.a || b != face.b || c != face.c) return;
+        ++matches, ++face.matches;
+        other = face.number, face.other = number;
     }
 };
 
+// True if two faces, given as 6 * hex + face, have their nodes in opposite order: their hexes are on opposite sides.
+bool are_opposed(Hexes hexes, int one, int other) {
+    auto node = [&](int face, int k) { return hexes[face / 6][FACES[face % 6][k]]; };
+    for (int last = 3; last < 7; ++last) {
+        int k = 0;
+        while (k < 4 && node(one, k) == node(other, (last - k) % 4)) ++k;
+        if (k == 4) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
-std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners) {
+std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners,
+                                                                     bool opposed) {
     expect_corners(hexes.size(), start, corners);
     std::vector<std::int32_t> neighbours(6 * hexes.size());
     const std::int64_t nodes = start.size() - 1;
-    std::vector<std::int64_t> non_manifold((nodes + ROWS_PER_CHUNK - 1) / ROWS_PER_CHUNK);
+    std::vector<std::int64_t> overlapping((nodes + ROWS_PER_CHUNK - 1) / ROWS_PER_CHUNK);
     parallel_chunks(nodes, ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         std::vector<Face> faces;  // whose lowest node is i: about six
         for (std::int64_t i = begin; i < end; ++i) {
@@ -91,12 +104,13 @@ std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes
             for (std::size_t s = 0; s < faces.size(); ++s)
                 for (std::size_t t = 0; t < s; ++t) faces[s].match(faces[t]);
             for (const Face &face : faces) {
-                neighbours[face.number] = face.matches == 1 ? face.hex : -1;
-                non_manifold[begin / ROWS_PER_CHUNK] += face.matches > 1;
+                const bool inner = face.matches == 1 && (!opposed || are_opposed(hexes, face.number, face.other));
+                neighbours[face.number] = inner ? face.other / 6 : -1;
+                overlapping[begin / ROWS_PER_CHUNK] += face.matches > 0 && !inner;
             }
         }
     });
-    return {{std::move(neighbours)}, std::reduce(non_manifold.begin(), non_manifold.end())};
+    return {{std::move(neighbours)}, std::reduce(overlapping.begin(), overlapping.end())};
 }
 
 CSR overlapping_corners(Hexes hexes, Indices start, Indices corners) {

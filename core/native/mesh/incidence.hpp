@@ -12,8 +12,10 @@ namespace hexmend {
 // Corners at each of `nodes` nodes, ascending.
 CSR node_corners(Hexes hexes, std::int64_t nodes);
 
-// The hex behind each face, (m, 6), -1 for none; and the number of non-manifold faces, those of more than two hexes.
-std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners);
+// The hex behind each face, (m, 6), -1 for none; and the number of non-manifold faces, which lie on the nodes of others
+// without being one of two with opposite order.
+std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners,
+                                                                     bool opposed);
 
 // Corners at each node whose cones overlap wherever the nodes are, ascending: two faces at the node have the same two
 // edges there, in one order as seen from their hexes. Faces that are collapsed at the node are left out.

@@ -236,7 +236,7 @@ def test_a_mesh_with_nothing_free_is_explained():
 
 @pytest.mark.parametrize(("stop", "said"), [
     (StoppingCriteria(max_iterations=3, tolerance=0), "Stopped at the limit of 3 iterations before it converged. The last one still"),
-    (StoppingCriteria(max_seconds=1e-9, tolerance=0), "Stopped at the limit of 1e-09 s, after 1 iteration, before it converged."),
+    (StoppingCriteria(max_seconds=1e-9, tolerance=0), "Stopped at the limit of 1e-09 s, after 0 iterations, before it converged."),
     (StoppingCriteria(tolerance=0.01), "no node moved further than 0.01 mean edge lengths."),
 ])  # fmt: skip
 def test_why_it_ended_is_said_with_its_limits(stop, said):

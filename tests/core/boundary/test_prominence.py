@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import NodeClass, boundary_of, classify
+from hexmend.boundary.edges import SurfaceEdges
+from hexmend.boundary.feature_edges.prominence import surrounding_angles
 from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.mesh.mesh import Mesh
@@ -53,6 +55,19 @@ def test_a_turn_is_a_corner_where_it_is_sharper_than_those_beside_it():
         rim = np.column_stack([np.arange(n), (np.arange(n) + 1) % n]) + n
         boundary = classify(points, faces, 170, turn="auto", sharp=rim)
         assert np.count_nonzero(boundary.node_class[n : 2 * n] == NodeClass.CORNER) == corners
+
+
+@pytest.mark.parametrize("n", [4, 60])
+def test_the_bend_around_an_edge_is_a_quantile_over_the_edges_at_its_nodes_and_their_neighbours(n):
+    random = np.random.default_rng(n)
+    edges = SurfaceEdges(random.integers(n, size=(40, 3), dtype=np.int32), n)
+    angle = 120 * random.random(len(edges.nodes))
+    found = surrounding_angles(edges, angle, np.arange(angle.size))
+    sets = [set(pair) for pair in edges.nodes.tolist()]
+    for i, pair in enumerate(sets):
+        near = set().union(*(other for other in sets if other & pair))
+        around = sorted(angle[k] for k, other in enumerate(sets) if k != i and other & near and angle[k] <= 75)
+        assert found[i] == (around[int(0.6 * len(around))] if around else 0)
 
 
 def test_marked_edges_are_features_whatever_is_around_them():

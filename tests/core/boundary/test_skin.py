@@ -87,3 +87,12 @@ def test_a_sample_that_is_nowhere_is_beyond_its_limit_before_and_after_one_is_kn
 def test_each_face_has_a_group(skin):
     with pytest.raises(MeshError, match="2 groups: expected one for each of"):
         SkinSurface(skin.points, skin.faces, group=np.zeros(2, dtype=np.int64))
+
+
+def test_the_known_piece_of_each_sample_has_the_sample_on_it():
+    mesh = ball(4)
+    skin = SkinSurface(mesh.points, mesh.topology.boundary_faces)
+    samples = skin.samples()
+    corners = skin.trees.points[skin.trees.pieces[skin.pieces_of_samples]]
+    places = np.concatenate([corners, (corners + np.roll(corners, 1, axis=1)) / 2], axis=1)
+    assert np.linalg.norm(places - samples[:, None], axis=2).min(axis=1).max() == pytest.approx(0, abs=1e-12)

@@ -6,7 +6,8 @@ import pytest
 from hexmend import io
 from hexmend.cli.main import main
 from hexmend.doctor import Finding
-from hexmend.mesh.hexahedron import VOXEL_ORDER
+from hexmend.mesh.hexahedron import UNIT_CUBE, VOXEL_ORDER
+from hexmend.mesh.mesh import Mesh
 from tests.core.doctor.faulty_meshes import SOUND, blocks, flipped, with_hexes
 
 
@@ -36,6 +37,19 @@ def test_repair_writes_the_mended_mesh_and_says_what_was_done(tmp_path, capsys):
     assert main(["repair", str(tmp_path / "whole.vtu"), "-o", str(tmp_path / "again.vtu")]) == 0
     assert "No problems were found." in capsys.readouterr().out
     assert main(["repair", str(tmp_path / "whole.vtu"), "-o", str(tmp_path / "x.vtu"), "--only", "fleas"]) == 2
+
+
+@pytest.mark.parametrize("also", [[], ["--boundary", "slide"]])
+def test_smoothing_names_hexes_that_are_there_twice_and_holds_their_boundary(also, tmp_path, capsys):
+    given, out = tmp_path / "twice.vtk", tmp_path / "out.vtk"
+    io.write(given, Mesh(UNIT_CUBE + 0.1 * np.sin(np.arange(24)).reshape(8, 3), [range(8), range(8)]))
+    assert main(["smooth", str(given), "-o", str(out), *also]) == 0
+    assert "1 hex stands on the nodes of others. Run: hexmend repair" in capsys.readouterr().err
+    before, after = io.read(given), io.read(out)
+    np.testing.assert_allclose(after.points, before.points, atol=0.2 * bool(also))
+    assert io.read(given).topology.boundary.all()
+    assert main(["repair", str(given), "-o", str(out), "--only", "duplicate-hexes"]) == 0
+    assert io.read(out).n_hexes == 1
 
 
 def test_nodes_without_a_place_are_put_between_their_neighbours(tmp_path, capsys):

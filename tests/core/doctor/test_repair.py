@@ -8,6 +8,7 @@ from hexmend.doctor.removal import renumber_nodes
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import EDGES, FACES, UNIT_CUBE
 from hexmend.mesh.linear_motion import LinearMotion
+from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from tests.core.doctor.faulty_meshes import SOUND, blocks, collapsed, found_in
@@ -99,6 +100,21 @@ def test_a_mesh_written_twice_is_one_mesh_again():
     assert {finding.kind for finding in mended} == {"coincident-nodes", "duplicate-hexes"}
     assert examine(after) == ()
     assert after.n_hexes == SOUND.n_hexes
+
+
+def test_bodies_of_different_materials_or_in_contact_are_not_glued():
+    touching = blocks()
+    halves = {"left": np.arange(27), "right": np.arange(27, 54)}
+    for mesh in (touching.replace(hex_sets=halves), touching.replace(field_data={CONTACT_CARDS: ["TIE"]})):
+        assert "coincident-nodes" not in found_in(mesh)
+        assert repair(mesh) == (mesh, ())
+
+
+def test_nodes_inside_a_material_are_merged_up_to_its_interface():
+    mesh = blocks()
+    material = (mesh.points[mesh.hexes].mean(axis=1)[:, 1] > np.median(mesh.points[:, 1])).astype(int)
+    after, _ = repair(mesh.replace(hex_data={"material": material}))
+    assert after.n_nodes == repair(mesh)[0].n_nodes == mesh.n_nodes - 16
 
 
 def test_a_linear_motion_follows_the_numbers_of_its_nodes():

@@ -183,6 +183,10 @@ BAD = {
     "flat.obj": (b"v 0 0 0\nv 1 0 0\nv 0 0 0\nf 1 2 3\n", "holds no surface"),
     "collinear.obj": (b"v 0.1 0.1 5\nv 0.2 0.2 5\nv 0.7 0.7 5\nf 1 2 3\n", "no triangle or quad with an area"),
     "collinear-quad.obj": (b"v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3 4\n", "no triangle or quad with an area"),
+    "far.obj": (
+        TETRAHEDRON.replace("v 1 0 0", "v 1e38 0 0").encode(),
+        r"area beside point 1 \(counted from 0\), which is far from the others at \[1e\+38, 0.0, 0.0\]",
+    ),
     "nan.obj": (TETRAHEDRON.replace("v 1 0 0", "v nan 0 0").encode(), "point 1 .counted from 0. is at .nan"),
     "range.obj": (TETRAHEDRON.replace("f 1 3 2", "f 1 3 9").encode(), "uses the point 8: expected numbers from 0 to 3"),
     "junk.ply": (b"nothing", "no head"),

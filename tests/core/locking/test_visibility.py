@@ -1,5 +1,7 @@
 """Nodes at which the boundary leaves no space for the hexes of a layer."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from scipy.optimize import linprog
@@ -17,6 +19,20 @@ def test_a_direction_below_all_faces_is_found_where_there_is_one(seed):
     direction, sine = inward_direction(normals)
     assert (sine > 1e-6) == (-found.fun > 1e-6)
     assert (normals @ direction).max() == pytest.approx(-sine)
+
+
+def test_memory_for_a_node_of_many_faces_does_not_grow_with_their_triples():
+    angle = np.linspace(0, 2 * np.pi, 120, endpoint=False)
+    shares = np.where(np.arange(120) % 2, np.random.default_rng(0).random(120), 1.0)
+    normals = np.column_stack([shares * np.cos(angle), shares * np.sin(angle), np.full(120, 0.5)])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    tracemalloc.start()
+    direction, sine = inward_direction(normals)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    np.testing.assert_allclose(direction, [0, 0, -1], atol=1e-12)
+    assert sine == pytest.approx(0.5 / np.hypot(1, 0.5))
+    assert peak < 1e7  # 280,840 triples of normals take 200 MB
 
 
 def test_faces_without_area_leave_no_space():

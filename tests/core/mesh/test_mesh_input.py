@@ -214,3 +214,16 @@ def test_more_hexes_than_corners_have_numbers_are_refused_before_anything_is_com
     with pytest.raises(MeshError, match="there are 2,147,483,648 nodes: expected 2,147,483,647 at most"):
         Mesh(np.broadcast_to(np.zeros(3), (MAX_NODES + 1, 3)), ONE)
     assert 8 * MAX_HEXES + 7 <= MAX_NODES
+
+
+def test_masked_values_are_refused_and_not_read_as_what_is_under_the_mask():
+    points, hexes = np.ma.array(UNIT_CUBE), np.ma.array(ONE)
+    assert Mesh(points, hexes).n_nodes == 8  # nothing is masked
+    points[3, 1] = np.ma.masked
+    hexes[0, :2] = np.ma.masked
+    with pytest.raises(MeshError, match="points: 1 of the values are masked; fill them in"):
+        Mesh(points, ONE)
+    with pytest.raises(MeshError, match="hexes: 2 of the values are masked"):
+        Mesh(UNIT_CUBE, hexes)
+    with pytest.raises(MeshError, match="points: 1 of the values are masked"):
+        Mesh(UNIT_CUBE, ONE).with_points(points)

@@ -60,6 +60,7 @@ def test_inverted_hexes_are_those_that_are_measured():
     ({"box": [0, 1]}, MeshError, "expected two opposite corners"),
     ({"box": [(0, 0, 0), (1, 1, np.nan)]}, MeshError, "expected two opposite corners"),
     ({"rings": -1}, ParameterError, "rings = -1 is out of range"),
+    ({"rings": 2**31}, ParameterError, "rings = 2147483648 is out of range"),
 ])  # fmt: skip
 def test_what_is_no_region_is_refused(given, error, words):
     with pytest.raises(error, match=words):

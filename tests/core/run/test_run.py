@@ -13,7 +13,7 @@ from hexmend.iteration.figures import HISTORY
 from hexmend.quality import measure, summarise
 from hexmend.report import record, to_json, write_history, write_json
 from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.smoothers import Smoother
+from hexmend.smoothers import METHODS, Smoother
 from tests.core.grids import grid, scrambled
 
 
@@ -47,10 +47,23 @@ def test_the_iteration_limit_is_kept(mesh, most):
     assert result.outcome is Outcome.MAX_ITERATIONS
 
 
-def test_the_time_limit_ends_after_the_iteration_at_hand(mesh):
-    result = smooth(mesh, "laplacian", StoppingCriteria(max_seconds=1e-9, tolerance=0))
-    assert result.iterations == 1
+@pytest.mark.parametrize(("limit", "count"), [(10, 0), (10.5, 1), (13, 3)])
+def test_the_time_limit_counts_the_preparations_and_ends_after_the_iteration_at_hand(mesh, monkeypatch, limit, count):
+    clock = [0.0]
+
+    def steps(self, mesh):
+        clock[0] += 10
+        yield Step(mesh.points)
+        while True:
+            clock[0] += 1
+            yield Step(mesh.points)
+
+    monkeypatch.setattr(METHODS["laplacian"], "steps", steps)
+    monkeypatch.setattr("hexmend.run.stage_run.perf_counter", lambda: clock[0])
+    result = smooth(mesh, "laplacian", StoppingCriteria(max_seconds=limit, tolerance=0))
+    assert result.iterations == count
     assert result.outcome is Outcome.MAX_SECONDS
+    assert (result.seconds, result.setup_seconds) == (count, 10)
 
 
 def test_a_mesh_with_nothing_free_is_said():

@@ -8,10 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.arrays import mask
 from hexmend.boundary.edges import SurfaceEdges, segment_pairs
-from hexmend.kernels import incidence
-from hexmend.mesh.topology.marked_rows import any_of_rows
+from hexmend.kernels import closest_point, incidence
 
 #: Dihedral angle, in degrees, above which an edge may stand out, and turn above which a node of a curve may.
 LEAST_ANGLE = 40.0
@@ -42,23 +40,9 @@ def surrounding_angles(edges: SurfaceEdges, angle: np.ndarray, chosen: np.ndarra
         Quantile of the dihedral angles of the edges at the nodes of each chosen edge and at their neighbours, without
         the edge itself and without edges beyond `CERTAIN_ANGLE`; 0 where no edge is left.
     """
-    near = edges.nodes[chosen].ravel()
-    for _ in range(2):  # the edges at these nodes, then those at their neighbours
-        which = np.flatnonzero(any_of_rows(mask(near, edges.n), edges.nodes))
-        near = edges.nodes[which].ravel()
-    start, order = incidence.grouped(near, edges.n)
-    number = which[order // 2]
-    row, node = np.repeat(np.arange(chosen.size), 2), edges.nodes[chosen].ravel()
-    row, first = _joined(row, node, start, number)
-    row, node = _unique_pairs(np.repeat(row, 2), edges.nodes[first].ravel(), edges.n)
-    row, around = _unique_pairs(*_joined(row, node, start, number), angle.size)
-    counts = (angle[around] <= CERTAIN_ANGLE) & (around != chosen[row])
-    row, angles = row[counts], angle[around[counts]]
-    order = np.lexsort((angles, row))
-    row, angles = row[order], angles[order]
-    count = np.bincount(row, minlength=chosen.size)
-    place = np.cumsum(count) - count + (_QUANTILE * count).astype(np.int64)
-    return np.where(count > 0, np.append(angles, 0.0)[np.minimum(place, angles.size)], 0.0)
+    start, ends = incidence.grouped(edges.nodes.ravel(), edges.n)
+    some = chosen.astype(np.int32)
+    return closest_point.quantiles_around(edges.nodes, start, ends, angle, some, CERTAIN_ANGLE, _QUANTILE)
 
 
 def is_low(chain: np.ndarray, angle: np.ndarray, around: np.ndarray) -> np.ndarray:
@@ -100,17 +84,3 @@ def standing_corners(segments: np.ndarray, turn: np.ndarray, between: np.ndarray
     found = np.zeros(turn.size, dtype=bool)
     found[node] = (turn[node] > LEAST_ANGLE) & ((turn[node] > TURN_FACTOR * lower) | (turn[node] > CERTAIN_ANGLE))
     return found
-
-
-def _joined(row: np.ndarray, key: np.ndarray, start: np.ndarray, items: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Repeat each row for all items of its key, where key k has items[start[k] : start[k + 1]]."""
-    count = start[key + 1] - start[key]
-    offset = np.repeat(start[key] - (np.cumsum(count) - count), count)
-    return np.repeat(row, count), items[offset + np.arange(count.sum())]
-
-
-def _unique_pairs(row: np.ndarray, key: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Drop repeated pairs of a row and a key below n."""
-    pairs = np.sort(row.astype(np.int64) * n + key)  # NumPy's unique takes ten times as long
-    pairs = pairs[np.append(True, pairs[1:] != pairs[:-1])] if pairs.size else pairs
-    return np.divmod(pairs, n)

@@ -15,6 +15,7 @@ from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges, ridges
 from hexmend.boundary.skin_surface import MAX_TARGET_DISTANCE, SkinSurface
+from hexmend.boundary.sliding.curved_faces import surface_of_boundary
 from hexmend.boundary.sliding.flat_parts import flat_motion
 from hexmend.boundary.sliding.restrictions import fixed_on_surface, freed_by_rules, interface_nodes, moving_with_surface
 from hexmend.boundary.sliding.sliding_nodes import SlidingNodes
@@ -79,7 +80,7 @@ class SlidingBoundary(SlidingNodes):
         boundary = whole.with_corners(np.flatnonzero(stays)).without_nodes(freed_by_rules(mesh))
         target, start = mesh.target, mesh.surface_points
         if target is None:
-            surface = PartitionedSurface(start, boundary)
+            surface = surface_of_boundary(mesh, start, boundary)
         else:
             given = _partitioned(target, feature_angle)
             surface = given.attached(start, boundary, MAX_TARGET_DISTANCE * mesh.mean_edge_length)

@@ -39,8 +39,8 @@ def print_losses(path: str, parts: Iterable[str]) -> None:
 
 
 def print_problems(path: str, mesh: Mesh) -> None:
-    """Print what the doctor finds in a mesh with inverted hexes: smoothing does not correct wrong numbering."""
-    if not measure(mesh.points, mesh.hexes).n_inverted:
+    """Print what the doctor finds in a mesh with inverted or overlapping hexes: smoothing does not correct them."""
+    if not (measure(mesh.points, mesh.hexes).n_inverted or mesh.topology.n_nonmanifold_faces):
         return
     for finding in examine(mesh):
         remedy = f"Run: hexmend repair {path} -o OUT --only {finding.kind}" if finding.mendable else finding.remedy

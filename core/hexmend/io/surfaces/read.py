@@ -69,8 +69,19 @@ def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
     faces = faces if sound.all() else faces[sound]
     if not _has_area(points, faces):
         problem = "holds no surface: it has no triangle or quad with an area"
-        raise FileError(path, problem, "Choose a file with the surface of the body.")
+        raise FileError(path, f"{problem}{_far_point(polygons.points)}", "Choose a file with the surface of the body.")
     return SkinSurface(points, _in_order_of_points(faces.astype(np.int32), len(points)), path.name)
+
+
+def _far_point(points: np.ndarray) -> str:
+    """Name the point beside whose distance the other points are all at one place; "" if there is none."""
+    if not len(points):
+        return ""
+    away = np.abs(points - np.median(points, axis=0)).max(axis=1)
+    far = int(away.argmax())
+    if not np.median(away) < _MIN_AREA * away[far]:
+        return ""
+    return f" beside point {far} (counted from 0), which is far from the others at {points[far].tolist()}"
 
 
 def _in_order_of_points(faces: np.ndarray, n: int) -> np.ndarray:

@@ -22,7 +22,7 @@ def face_parity(hexes: np.ndarray, neighbours: np.ndarray) -> tuple[np.ndarray, 
     ----------
     hexes : (m, 8) int32
     neighbours : (m, 6) int32
-        `Topology.face_neighbours`.
+        `Topology.neighbours_in_any_order`.
 
     Returns
     -------

@@ -13,9 +13,12 @@ from hexmend.kernels import incidence, structure, wavefronts
 from hexmend.kernels.hex_mesh import HexMesh
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import FACES
-from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
+from hexmend.mesh.size_limits import MAX_HEXES, MAX_ITEMS, overflow_as_mesh_error
 from hexmend.mesh.topology.components import components
 from hexmend.mesh.validation import as_bools, as_hexes
+from hexmend.parameters import Parameter
+
+_RINGS = Parameter("rings", int, 0, 0, MAX_HEXES, None, "", "")
 
 
 @dataclass(frozen=True)
@@ -111,6 +114,14 @@ class Topology:
         """Neighbour across each face of `hexmend.mesh.hexahedron.FACES`, -1 on the boundary, (m, 6) int32."""
         return self._faces[0]
 
+    @property
+    def neighbours_in_any_order(self) -> np.ndarray:
+        """As `face_neighbours`, also across faces whose nodes two hexes have in one order, as left-handed ones do."""
+        if not self.n_nonmanifold_faces:
+            return self.face_neighbours
+        rows = self.node_corners
+        return incidence.face_neighbours(self.hexes, rows.start, rows.items, opposed=False)[0]
+
     def release_faces(self) -> None:
         """Give back the memory of `face_neighbours`; they are computed again on the next use."""
         self.__dict__.pop("_faces", None)
@@ -121,7 +132,10 @@ class Topology:
 
     @property
     def n_nonmanifold_faces(self) -> int:
-        """Number of faces shared by more than two hexes, counted once a hex; they are treated as boundary."""
+        """Number of faces of more than two hexes, or of two on the same side; they are treated as boundary.
+
+        They are counted once a hex.
+        """
         return self._faces[1]
 
     @cached_property
@@ -162,7 +176,10 @@ class Topology:
         ------
         MeshError
             For a hex that does not exist.
+        ParameterError
+            For rings that are no whole number from 0 to the largest number of hexes.
         """
+        rings = _RINGS.check(rings)
         chosen = as_set(hexes if isinstance(hexes, np.ndarray) else list(hexes), "the set of hexes", len(self.hexes))
         rows = self.node_corners
         return incidence.around(self.hexes, rows.start, rows.items, chosen.astype(np.int32), rings)

@@ -37,7 +37,7 @@ def with_right_handed_hexes(
     if not ranks.any(volume < 0):
         return hexes
     of_own = owned[hexes[:, FACES]].any(axis=2)  # all hexes at such a face are here
-    component, sign = face_parity(hexes, np.where(of_own, Topology(hexes, len(points)).face_neighbours, -1))
+    component, sign = face_parity(hexes, np.where(of_own, Topology(hexes, len(points)).neighbours_in_any_order, -1))
     component, sign = _in_whole_mesh(ranks, component, sign, ids, ~owned[hexes].all(axis=1))
     group, of_hex = np.unique(3 * component + sign + 1, return_inverse=True)  # alike in the whole mesh
     counted = owned[hexes[:, 0]]

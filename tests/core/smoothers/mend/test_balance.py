@@ -135,7 +135,7 @@ def test_beside_a_locked_hex_no_figure_of_the_others_falls():
     start, end = movable_least(mesh, mesh.points), movable_least(mesh, result.mesh.points)
     assert end.jacobian > start.jacobian + 0.01
     assert end.quality > start.quality + 0.01
-    assert "The minimum scaled Jacobian of the corners that can be moved can be" in result.message
+    assert "The minimum scaled Jacobian of the corners that can be moved reached" in result.message
 
 
 def test_figures_of_a_hex_that_stays_inverted_do_not_count_but_those_of_the_others():
@@ -177,7 +177,7 @@ def test_the_result_is_said_with_what_was_possible():
     mesh = make("five-side", size=100)
     result = smooth(mesh, Mend())
     least = movable_least(mesh, result.mesh.points)
-    assert "The minimum scaled Jacobian of the corners that can be moved can be " in result.message
+    assert "The minimum scaled Jacobian of the corners that can be moved reached " in result.message
     assert f"it is kept at {least.jacobian:.4f} at least, and the least q(H) at {least.quality:.4f}." in result.message
 
 

@@ -18,6 +18,7 @@ from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
 from hexmend.io.formats.abaqus.model import Instance, Part
 from hexmend.io.formats.abaqus.sets import MemberBudget, SetLookup, name_key
+from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
 
@@ -26,7 +27,7 @@ TYPE = "abaqus:type"
 TYPES = "abaqus:types"
 
 
-def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[str]) -> Mesh:
+def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[str], contact: list[str]) -> Mesh:
     """Join instances and the assembly's own nodes and elements into one mesh.
 
     Parameters
@@ -37,6 +38,8 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
         Data outside of all parts and instances.
     notes : list of str
         Notes of the mesh; more are appended.
+    contact : list of str
+        Names of the cards by which bodies touch.
 
     Raises
     ------
@@ -73,6 +76,8 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
         notes.append(f"{members} not exist in the file: ignored.")
     blocks, node_data = tuple(elements.blocks(element_sets)), {ID: np.concatenate(node_ids)}
     fields = {TYPES: elements.types} if elements.types else {}
+    if contact:
+        fields[CONTACT_CARDS] = contact
     unread = {f"type {quoted(type)}": count for type, count in unread.items()}
     content = Content(points, blocks, node_data, node_sets, side_sets, None, fields, tuple(notes), unread)
     return mesh_of(deck.path, content)

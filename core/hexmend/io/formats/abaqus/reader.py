@@ -27,6 +27,8 @@ _GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "S
 _EXPAND = "Write the file with all nodes and elements expanded, as Abaqus/CAE does."
 #: Cards without data of the mesh, which no note mentions.
 _IGNORED = ("HEADING", "INCLUDE", "PREPRINT", "ASSEMBLY", "END ASSEMBLY")
+#: Cards by which bodies touch.
+_CONTACT = {"CONTACT", "CONTACT INCLUSIONS", "CONTACT PAIR", "TIE"}
 #: Nodes of all instances that are never too many; more need a file of as many bytes.
 _ALWAYS_ALLOWED = 1_000_000
 
@@ -64,8 +66,8 @@ class _Reader:
         self.part = self.assembly
         self.other_cards = Counter()
 
-    def model(self) -> tuple[list[Instance], Part, list[str]]:
-        """Read all cards; return the instances, the assembly and notes."""
+    def model(self) -> tuple[list[Instance], Part, list[str], list[str]]:
+        """Read all cards; return the instances, the assembly, notes, and the names of cards by which bodies touch."""
         count = 0
         for card in self.deck.cards():
             count += 1
@@ -86,7 +88,8 @@ class _Reader:
         unused = sum(all(instance.part is not part for instance in instances) for part in self.parts.values())
         if unused:
             notes.append(unread_note(count_phrase(unused, "part without an instance", "parts without an instance")))
-        return [replace(one, part=one.part.merged(one.own)) for one in instances], self.assembly, notes
+        instances = [replace(one, part=one.part.merged(one.own)) for one in instances]
+        return instances, self.assembly, notes, sorted(self.other_cards.keys() & _CONTACT)
 
     def _refuse(self, card: Card) -> NoReturn:
         """Raise the error for a card whose data have to be generated."""

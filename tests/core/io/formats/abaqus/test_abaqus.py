@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.doctor import examine, repair
 from hexmend.errors import FileError
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
@@ -215,3 +216,17 @@ def test_surfaces_stay_on_their_elements_when_blocks_are_reordered(tmp_path):
         ((hexa, face),) = one.side_sets["S"]
         assert one.hex_data["id"][hexa] == 100
         assert {tuple(p) for p in one.points[one.hexes[hexa][FACES[face]]]} == {tuple(p) for p in UNIT_CUBE[:4]}
+
+
+@pytest.mark.parametrize("card", ["*CONTACT PAIR, INTERACTION=I\nwest, east", "*Tie, name=T\nwest, east", "*CONTACT"])
+def test_touching_bodies_of_a_deck_with_contact_are_fit_and_stay_apart(card, tmp_path):
+    path, shifted = tmp_path / "contact.inp", UNIT_CUBE + [1, 0, 0]
+    nodes = "".join(f"{k + 9}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(shifted))
+    hexes = "1, 1, 2, 3, 4, 5, 6, 7, 8\n2, 9, 10, 11, 12, 13, 14, 15, 16\n"
+    deck = f"*NODE\n{cube()}{nodes}*ELEMENT, TYPE=C3D8\n{hexes}"
+    path.write_text(deck)
+    assert {finding.kind for finding in examine(io.read(path))} == {"coincident-nodes", "parts"}
+    path.write_text(f"{deck}{card}\n")
+    mesh = io.read(path)
+    assert {finding.kind for finding in examine(mesh)} == {"parts"}
+    assert repair(mesh) == (mesh, ())

@@ -1,0 +1,96 @@
+"""Curved faces of second-order hexes, divided into quads on which the boundary slides.
+
+Triangles between the corners alone would leave a curved surface by the sagitta of its chords.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hexmend.boundary.classification import Boundary, NodeClass
+from hexmend.boundary.edges import SurfaceEdges
+from hexmend.boundary.skin_faces import skin_faces
+from hexmend.boundary.surface import PartitionedSurface
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order.curved_geometry import evaluate_quads, grid, quad_nodes
+from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
+
+#: Largest sagitta of a chord between the points of divided edges, in lengths of the edges.
+_MAX_SAGITTA = 1e-3
+#: Most divisions of an edge: a face has 4 * 8^2 triangles then.
+_MAX_DIVISIONS = 8
+
+
+def surface_of_boundary(mesh: Mesh, points: np.ndarray, boundary: Boundary) -> PartitionedSurface:
+    """Return the surface of a boundary: of its faces, or of the parts of curved ones.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    points : (n, 3) float64
+        Positions of all nodes.
+    boundary : Boundary
+        With all faces of `skin_faces`.
+
+    Returns
+    -------
+    PartitionedSurface
+    """
+    faces, n = boundary.faces, len(points)
+    if mesh.mid_nodes is None or (np.diff(np.sort(faces, axis=1), axis=1) == 0).any():
+        return PartitionedSurface(points, boundary)
+    mids = face_mid_nodes(mesh.hexes, mesh.mid_nodes, skin_faces(mesh).hexes[:, 0], faces)
+    nodes = quad_nodes(points, faces, mids)
+    ends, after = nodes[:, :4], nodes[:, [1, 2, 3, 0]]
+    sagitta = np.linalg.norm(nodes[:, 4:8] - (ends + after) / 2, axis=2)
+    length = np.linalg.norm(after - ends, axis=2)
+    share = float((sagitta / np.where(length > 0, length, np.inf)).max(initial=0.0))
+    divisions = int(min(np.ceil(np.sqrt(share / _MAX_SAGITTA)), _MAX_DIVISIONS))
+    if divisions < 2:
+        return PartitionedSurface(points, boundary)
+    edges, inner = SurfaceEdges(faces, n), np.arange(divisions - 1)
+    lattice = _lattice(faces, edges, divisions)
+    vertices = np.empty((lattice.max() + 1, 3))
+    vertices[:n] = points
+    vertices[lattice.reshape(len(faces), -1)] = evaluate_quads(nodes, grid(divisions))
+    vertices[faces] = points[faces]
+    one, other = slice(None, -1), slice(1, None)
+    at = (one, one), (one, other), (other, other), (other, one)
+    quads = np.stack([lattice[:, v, u] for v, u in at], axis=-1).reshape(-1, 4)
+    segments = boundary.segments
+    on_edge = n + np.searchsorted(edges.key, edges.keys_of(segments))[:, None] * inner.size + inner
+    chain = np.column_stack([segments.min(axis=1), on_edge, segments.max(axis=1)])
+    more = len(vertices) - n
+    node_class = np.concatenate([boundary.node_class, np.full(more, NodeClass.INSIDE, boundary.node_class.dtype)])
+    component = np.concatenate([boundary.component, np.full(more, -1, boundary.component.dtype)])
+    node_class[on_edge], component[on_edge] = NodeClass.CURVE, boundary.curve_of_segment[:, None]
+    divided = replace(
+        boundary,
+        node_class=node_class,
+        component=component,
+        faces=quads.astype(np.int32),
+        patch_of_face=np.repeat(boundary.patch_of_face, divisions**2),
+        segments=np.sort(np.stack([chain[:, :-1], chain[:, 1:]], axis=-1).reshape(-1, 2), axis=1).astype(np.int32),
+        curve_of_segment=np.repeat(boundary.curve_of_segment, divisions),
+    )
+    return PartitionedSurface(vertices, divided).on_nodes(np.arange(n))
+
+
+def _lattice(faces: np.ndarray, edges: SurfaceEdges, divisions: int) -> np.ndarray:
+    """Number the points of divided faces, (k, divisions + 1, divisions + 1): nodes, then those on edges and in faces.
+
+    Points on an edge follow each other from its lower node on, those in a face as in `curved_geometry.grid`.
+    """
+    inner, last = np.arange(divisions - 1), divisions
+    sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1)
+    along = edges.n + np.searchsorted(edges.key, edges.keys_of(sides))[..., None] * inner.size + inner
+    along = np.where((sides[..., 0] < sides[..., 1])[..., None], along, along[..., ::-1])
+    number = np.empty((len(faces), divisions + 1, divisions + 1), dtype=np.int64)
+    number[:, [0, 0, last, last], [0, last, last, 0]] = faces
+    number[:, 0, 1:last], number[:, 1:last, last] = along[:, 0], along[:, 1]
+    number[:, last, 1:last], number[:, 1:last, 0] = along[:, 2, ::-1], along[:, 3, ::-1]
+    first = edges.n + len(edges.key) * inner.size
+    number[:, 1:last, 1:last] = first + np.arange(len(faces) * inner.size**2).reshape(-1, inner.size, inner.size)
+    return number
