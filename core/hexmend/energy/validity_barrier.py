@@ -14,17 +14,16 @@ from hexmend.mesh.hexahedron import UNIT_CUBE
 
 #: Places 0, 1/2 and 1 along each axis of the unit cube, (27, 3), x slowest.
 _LATTICE = np.stack(np.meshgrid(*[[0.0, 0.5, 1.0]] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
-#: Bernstein coefficients of a polynomial of degree 2 by its values there, along one axis, and those of its quarters
-#: by its own: the nearer to the values, the less the barrier asks for more than validity.
-_ALONG = np.array([[1.0, 0.0, 0.0], [-0.5, 2.0, -0.5], [0.0, 0.0, 1.0]])
-_HALVED = np.array([[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.25, 0.5, 0.25], [0.0, 0.5, 0.5], [0.0, 0.0, 1.0]])
-import os
-LEV=int(os.environ.get("LEV","1"))
-_PARTS = _HALVED
-if LEV==0: _PARTS=np.eye(3)
-if LEV==2: _PARTS=np.concatenate([_HALVED@_HALVED[:3], (_HALVED@_HALVED[2:])[1:]])
-_OF_PARTS = np.einsum("ai,bj,ck->abcijk", _PARTS, _PARTS, _PARTS).reshape(len(_PARTS)**3, 27)
-_COEFFICIENTS = _OF_PARTS @ np.einsum("ai,bj,ck->abcijk", _ALONG, _ALONG, _ALONG).reshape(27, 27)
+#: Bernstein coefficients of a polynomial of degree 2 by its values at 0, 1/2 and 1.
+_BY_VALUES = np.array([[1.0, 0.0, 0.0], [-0.5, 2.0, -0.5], [0.0, 0.0, 1.0]])
+#: Coefficients of its halves by its own: nearer to the values, so that the barrier asks for little more than validity.
+_OF_HALVES = np.array([[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.25, 0.5, 0.25], [0.0, 0.5, 0.5], [0.0, 0.0, 1.0]])
+
+
+def _along_three_axes(matrix: np.ndarray) -> np.ndarray:
+    """The matrix of polynomials of three variables by that of one."""
+    width, given = matrix.shape
+    return np.einsum("ai,bj,ck->abcijk", matrix, matrix, matrix).reshape(width**3, given**3)
 
 
 def _gradients() -> np.ndarray:
@@ -35,26 +34,23 @@ def _gradients() -> np.ndarray:
 
 
 _GRADIENTS = _gradients()
-
-
-def _coefficients(x: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    found = np.empty((len(hexes), 27))
-    kernels.jacobian_coefficients(x, hexes, found)
-    return found @ _OF_PARTS.T
+_HALVED = _along_three_axes(_OF_HALVES)
+_COEFFICIENTS = _HALVED @ _along_three_axes(_BY_VALUES)
 
 
 @dataclass(frozen=True, eq=False)
 class ValidityBarrier:
-    """Sum of weight b((B - floor)/band) over the Bernstein coefficients B of det J of some hexes, relative to `sizes`.
+    """Sum of weight b((B - floor)/band) over the Bernstein coefficients B of det J of the eighths of some hexes.
 
-    b(y) = -log y + (y - 1) - (y - 1)²/2 below y = 1, else 0, as of `FloorBarrier`. A hex is valid where its floor is 0 or
-    more. It is added to an energy as the term of its surface is (`MeshEnergy.with_surface`).
+    b(y) = -log y + (y - 1) - (y - 1)²/2 below y = 1, else 0, as of `FloorBarrier`. Coefficients are relative to
+    `sizes`; a hex is valid where its floor is 0 or more. The barrier is added to an energy as the term of its surface
+    is (`MeshEnergy.with_surface`).
 
     Parameters
     ----------
     hexes : (k, 8) int32
     sizes : (k,) float64
-        Values of det J to which coefficients are relative, in cubes of the energy's unit of length.
+        Greatest coefficient of each hex at first, in cubes of the energy's unit of length.
     floors : (k,) float64
     band, weight : float
     blocks : ElementBlocks
@@ -73,18 +69,27 @@ class ValidityBarrier:
 
     @classmethod
     def of(cls, hexes: np.ndarray, x: np.ndarray, band: float, weight: float) -> ValidityBarrier:
-        """Make the barrier of hexes (k, 8) at points x (n, 3): floors are half a band below the least."""
-        found = _coefficients(x, hexes)
+        """Make the barrier of hexes (k, 8) at points x (n, 3): floors half a band below the least coefficients."""
+        found = _coefficients(hexes, x)
         sizes = np.abs(found).max(axis=1)
         return cls(hexes, sizes, found.min(axis=1) / sizes - 0.5 * band, band, weight, ElementBlocks(hexes))
 
-    def least(self, x: np.ndarray) -> np.ndarray:
-        """Return the least coefficient of each hex at points x (n, 3), relative to `sizes`, (k,)."""
-        return self._relative(x).min(axis=1)
-
     def raised(self, x: np.ndarray, gap: float) -> ValidityBarrier:
-        least = self.least(x)
-        return replace(self, floors=np.maximum(self.floors, least - gap * np.maximum(-least, 0.02)))
+        """Return the barrier with floors raised towards the least coefficients at points x (n, 3).
+
+        Parameters
+        ----------
+        x : (n, 3) float64
+        gap : float
+            Distance that is left, as a share of the coefficient, or of a fifth of the band where that is larger.
+        """
+        least = self._relative(x).min(axis=1)
+        return replace(self, floors=np.maximum(self.floors, least - gap * np.maximum(-least, 0.2 * self.band)))
+
+    @property
+    def deficit(self) -> float:
+        """Sum of the floors below 0, positive."""
+        return float(-np.minimum(self.floors, 0.0).sum())
 
     def value(self, x: np.ndarray, norm: ObjectiveNorm) -> float:
         """Compute the barrier at points x (n, 3); +inf where a coefficient is at its floor or below."""
@@ -106,16 +111,23 @@ class ValidityBarrier:
         self.blocks.add(np.einsum("hi,hicx,hidy->hcdxy", second, by_nodes, by_nodes), matrix)
 
     def _relative(self, x: np.ndarray) -> np.ndarray:
-        """Coefficients at points x (n, 3), (k, 27), relative to `sizes`."""
-        return _coefficients(x, self.hexes) / self.sizes[:, None]
+        """Coefficients at points x (n, 3), (k, 125), relative to `sizes`."""
+        return _coefficients(self.hexes, x) / self.sizes[:, None]
 
     def _derivatives(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """First and second derivatives of the barrier by coefficients, (k, 27), and of these by nodes, (k, 27, 8, 3)."""
+        """Derivatives of the barrier by coefficients, (k, 125) twice, and of these by nodes, (k, 125, 8, 3)."""
         z = np.minimum((self._relative(x) - self.floors[:, None]) / self.band, 1.0)
         first = self.weight / self.band * (2 - z - 1 / z)
         second = self.weight / self.band**2 * (1 / z**2 - 1)
-        rows = np.einsum("qdc,hcx->hqdx", _GRADIENTS, x[self.hexes])
-        cofactors = np.cross(rows[:, :, [1, 2, 0]], rows[:, :, [2, 0, 1]])
-        by_nodes = np.einsum("hqdx,qdc->hqcx", cofactors, _GRADIENTS)
-        by_nodes = np.einsum("iq,hqcx->hicx", _COEFFICIENTS, by_nodes) / self.sizes[:, None, None, None]
+        maps = np.einsum("qdc,hcx->hqdx", _GRADIENTS, x[self.hexes])
+        cofactors = np.cross(maps[:, :, [1, 2, 0]], maps[:, :, [2, 0, 1]])
+        of_values = np.einsum("hqdx,qdc->hqcx", cofactors, _GRADIENTS)
+        by_nodes = np.einsum("iq,hqcx->hicx", _COEFFICIENTS, of_values) / self.sizes[:, None, None, None]
         return first, second, by_nodes
+
+
+def _coefficients(hexes: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Bernstein coefficients of det J of the eighths of hexes (k, 8) at points x (n, 3), (k, 125)."""
+    found = np.empty((len(hexes), 27))
+    kernels.jacobian_coefficients(x, hexes, found)
+    return found @ _HALVED.T

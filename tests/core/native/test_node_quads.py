@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend.energy.element_blocks import ElementBlocks
 from hexmend.energy.norm import ObjectiveNorm
-from hexmend.energy.quads.surface_term import QuadBlocks, SurfaceTerm
+from hexmend.energy.quads.surface_term import SurfaceTerm
 from tests.core.native.extension import extension
 
 kernels = extension().node_quads
@@ -25,7 +26,7 @@ def random_term(seed, delta, lengths):
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     counted = random.random((4, 4)) < 0.8
     scales = random.uniform(0.5, 2, (2, 4, 4)) if lengths else np.ones((2, 4, 4))
-    return points, SurfaceTerm(QUADS, counted, normals, scales, 1.7, delta, QuadBlocks(QUADS), lengths)
+    return points, SurfaceTerm(QUADS, counted, normals, scales, 1.7, delta, ElementBlocks(QUADS), lengths)
 
 
 def at_node(points, term, norm, y, factor=1.0):

@@ -9,9 +9,10 @@ import numpy as np
 from hexmend.arrays import row_norms
 from hexmend.boundary import SlidingBoundary
 from hexmend.boundary.sliding.quad_normals import QuadNormals
+from hexmend.energy.element_blocks import ElementBlocks
 from hexmend.energy.norm import ObjectiveNorm, SurfaceObjective
 from hexmend.energy.quads.quad_energy import QuadCorners
-from hexmend.energy.quads.surface_term import QuadBlocks, SurfaceTerm
+from hexmend.energy.quads.surface_term import SurfaceTerm
 from hexmend.energy.regularisation import DeltaPolicy
 from hexmend.energy.target import wanted_lengths
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
@@ -66,7 +67,9 @@ class SurfaceQuads:
         lengths = wanted_lengths(mesh)
         scales = _scales(mesh.hexes, quads, lengths, self.unit)
         counted, normals = _counted_corners(sliding), np.zeros((len(quads), 3))
-        self._term = SurfaceTerm(quads, counted, normals, scales, weight, 0.0, QuadBlocks(quads), lengths is not None)
+        self._term = SurfaceTerm(
+            quads, counted, normals, scales, weight, 0.0, ElementBlocks(quads), lengths is not None
+        )
         self._last: tuple[np.ndarray | None, SurfaceTerm] = None, self._term
 
     def at(self, points: np.ndarray, delta: float, policy: DeltaPolicy) -> SurfaceTerm:

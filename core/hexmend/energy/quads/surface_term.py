@@ -6,55 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.arrays import index_of
 from hexmend.energy.assembled_hessian import AssembledHessian
+from hexmend.energy.element_blocks import ElementBlocks
 from hexmend.energy.norm import ObjectiveNorm
 from hexmend.energy.quads.quad_energy import QuadCorners, power_derivatives
-from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import sliding_surface
-
-#: Places of xx xy xz yy yz zz in a matrix of 3 rows.
-_UPPER = [0, 1, 2, 4, 5, 8]
-
-
-class QuadBlocks:
-    """Places of pairs of a quad's nodes in assembled Hessians; they are found once for each sparsity pattern.
-
-    Parameters
-    ----------
-    quads : (f, 4) int32
-    """
-
-    def __init__(self, quads: np.ndarray):
-        self._quads, self._known = quads, None
-
-    def of(self, sparsity: BlockSparsity) -> tuple[np.ndarray, ...]:
-        """Find the places in matrices of a sparsity pattern.
-
-        Returns
-        -------
-        quad, corner, slot : (d,) int
-            Corners with a free node, and its slot.
-        quad, row, column, block : (b,) int
-            Pairs of corners with free nodes, and the block above the diagonal to which their second derivatives belong:
-            that of the corner `row` comes first.
-        """
-        known = self._known
-        if known is not None and known[0] is sparsity:
-            return known[1]
-        slots = index_of(sparsity.nodes, int(max(sparsity.nodes.max(initial=-1), self._quads.max(initial=-1))) + 1)
-        slots = slots[self._quads].astype(np.int64)
-        count = sparsity.nodes.size
-        rows = np.repeat(np.arange(len(sparsity.row_start) - 1, dtype=np.int64), np.diff(sparsity.row_start))
-        keys = rows * count + sparsity.columns  # ascending
-        row, column = (corner.ravel() for corner in np.indices((4, 4)))
-        first, second = slots[:, row], slots[:, column]
-        quad, pair = np.nonzero((first >= 0) & (first < second))
-        block = np.searchsorted(keys, first[quad, pair] * count + second[quad, pair])
-        free = np.nonzero(slots >= 0)
-        places = (*free, slots[free], quad, row[pair], column[pair], block)
-        self._known = sparsity, places
-        return places
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +31,7 @@ class SurfaceTerm:
     weight : float
     delta : float
         Softens the barrier: in squares of the energy's unit of length.
-    blocks : QuadBlocks
+    blocks : ElementBlocks
         Of the quads.
     has_lengths : bool
         True if the edges are to have lengths of their own, with a target.
@@ -87,7 +43,7 @@ class SurfaceTerm:
     scales: np.ndarray
     weight: float
     delta: float
-    blocks: QuadBlocks
+    blocks: ElementBlocks
     has_lengths: bool = False
 
     @property
@@ -117,11 +73,7 @@ class SurfaceTerm:
         outer = np.einsum("fai,fbj->fabij", gradients, gradients)
         pairs = first[:, None, None, None, None] * corners.hessians() + second[:, None, None, None, None] * outer
         pairs *= self.weight
-        own_quad, corner, slot, quad, row, column, block = self.blocks.of(matrix.sparsity)
-        diagonal = pairs[own_quad, corner, corner].reshape(-1, 9)[:, _UPPER]
-        np.add.at(matrix.diagonal, slot, diagonal.astype(matrix.diagonal.dtype))
-        above = pairs[quad, row, column].reshape(-1, 9)
-        np.add.at(matrix.off_diagonal, block, above.astype(matrix.dtype))
+        self.blocks.add(pairs, matrix)
 
     def corners(self, x: np.ndarray) -> QuadCorners:
         """Compute the corners of the quads at points x (n, 3) in the energy's unit."""

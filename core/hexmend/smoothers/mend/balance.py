@@ -215,11 +215,12 @@ def _rise_on(path: CentralPath, target: Least, config: BalanceConfig) -> Iterato
 
 
 def _message(path: CentralPath, top: Least, mean_without: float) -> str:
-    """Say which floors hold, and what they cost: the mean of q(H) at the optimum of shape is higher, without them."""
+    """Say what was reached, which floors hold, and what they cost: the optimum of shape has a higher mean of q(H)."""
     kept, quality = path.least, measure(path.points, path.energy.mesh.hexes)
     mean, fixed = path.energy.mean(quality.q), path.energy.ranks.least(float(quality.scaled_jacobian.min()))
+    reached = max(top.jacobian, kept.jacobian)
     message = (
-        f"The minimum scaled Jacobian of the corners that can be moved can be {top.jacobian:.4f}; it is kept at "
+        f"The minimum scaled Jacobian of the corners that can be moved reached {reached:.4f}; it is kept at "
         f"{kept.jacobian:.4f} at least, and the least q(H) at {kept.quality:.4f}."
     )
     if 0 < fixed < kept.jacobian - 5e-5:

@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Generator
 from dataclasses import dataclass
 
-import os
 import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.energy import MeshEnergy
 from hexmend.energy.validity_barrier import ValidityBarrier
 from hexmend.iteration import Step
-from hexmend.kernels.line_search import LineSearch
+from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import descend
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.floors.region import Region
-from hexmend.optimise.search_direction import TruncatedNewton, TruncatedNewtonConfig
 from hexmend.quality import ElementQuality, measure
-from hexmend.quality.validity import Validity
+from hexmend.smoothers.mend.newton_steps import NEWTON, SEARCH
 
 
 @dataclass(frozen=True)
@@ -32,28 +30,27 @@ class CertificationConfig:
         until all hexes are valid.
     rings : int
         Layers of hexes around the invalid ones whose nodes move.
-    band, weight : float
-        Of the barriers; the band of Bernstein coefficients is in the greatest coefficient of a hex.
-    share : float
-        Share of the distance between its floor and the least coefficient by which the floor rises after a step.
+    band : float
+        Width of the barriers above their floors, in scaled Jacobian, q(H), and det J over the greatest in the hex.
+    gap, min_gap : float
+        Of `ValidityBarrier.raised`, and the least to which it is halved where the floors no longer rise.
     steps : int
         Most Newton steps with one share.
-    min_rise, window : float, int
-        The steps end where so many of them raise the floor by less than this.
+    window, min_rise : int, float
+        The floors no longer rise where they have risen by less than this in so many steps.
     """
 
-    kept_shares: tuple[float, ...] = tuple(map(float, os.environ.get("SH","0.98,0.9,0.5,0.0").split(",")))
+    kept_shares: tuple[float, ...] = (0.98, 0.9, 0.5, 0.0)
     rings: int = 2
     band: float = 0.1
-    weight: float = 1.0
-    share: float = 0.9
-    steps: int = int(os.environ.get("STEPS","60"))
-    min_rise: float = 1e-3
+    gap: float = 0.25
+    min_gap: float = 0.02
+    steps: int = 60
     window: int = 5
+    min_rise: float = 1e-3
 
 
 CERTIFICATION = CertificationConfig()
-_SEARCH = LineSearch(backtrack_factor=0.5)
 
 
 def certify_hexes(
@@ -61,8 +58,8 @@ def certify_hexes(
 ) -> Generator[Step, None, np.ndarray]:
     """Make hexes valid that are invalid between positive corners.
 
-    The energy is minimised around them, with barriers of the lowest values of all hexes there, and of the Bernstein
-    coefficients of det J of the invalid ones, whose floor rises until the certificate holds.
+    The energy is minimised around them, above floors of the scaled Jacobians and of q(H), while floors of the Bernstein
+    coefficients of their det J rise, until the certificate holds.
 
     Parameters
     ----------
@@ -78,82 +75,96 @@ def certify_hexes(
     Returns
     -------
     (n, 3) float64
-        Points with fewer invalid hexes; `points` where there are none.
+        Points with fewer invalid hexes, or `points`.
     """
-    hexes = energy.mesh.hexes
-    best, quality, reached = points, measure(points, hexes), points
+    best, reached = points, points
     for share in config.kept_shares:
-        if not _curable(energy, quality).any():
+        if not curable_hexes(energy.mesh, measure(best, energy.mesh.hexes)).any():
             break
-        found, reached = yield from _raise_coefficients(energy, reached, measure(reached, hexes), share, config)
-        now = measure(found, hexes)
-        if now.n_invalid < quality.n_invalid and now.n_inverted <= quality.n_inverted:
-            best, quality = found, now
-            yield Step(best, intermediate=True, quality=now)
+        best, reached = yield from _Certification(energy, reached, best, share, config).steps()
     return best
 
 
-def _curable(energy: MeshEnergy, quality: ElementQuality) -> np.ndarray:
+def curable_hexes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
     """Mark the hexes that are invalid between positive corners and have a free node, (m,) bool."""
-    inside = (quality.validity != Validity.VALID) & ~quality.inverted
-    return inside & energy.mesh.free[energy.mesh.hexes].any(axis=1)
+    return quality.invalid & ~quality.inverted & mesh.free[mesh.hexes].any(axis=1)
 
 
-def _raise_coefficients(
-    energy: MeshEnergy, points: np.ndarray, quality: ElementQuality, share: float, config: CertificationConfig
-) -> Generator[Step, None, np.ndarray]:
-    """Take Newton steps from points (n, 3) on until all hexes that can be cured are valid, or the floor no longer rises.
+class _Certification:
+    """Newton steps from points (n, 3) on, with a share of the least values that is kept.
 
-    Hexes that become invalid on the way join the others.
+    `best` are the points with the fewest invalid hexes so far.
     """
-    mesh, x = energy.mesh, energy.to_edge_units(points)
-    cured, best, fewest = _curable(energy, quality), points, quality.n_invalid
-    values = MovableHexes(energy)
-    least = [float(of.min(initial=np.inf)) for of in (values.jacobians(x), values.qualities(x))]
-    floors = [value - (1 - share) * max(abs(value), config.band * 0.1) for value in least]
-    left = config.steps
-    while left > 0:
-        around = cured
-        for _ in range(config.rings):
-            around = mask(mesh.hexes[around], mesh.n_nodes)[mesh.hexes].any(axis=1)
-        region = Region(energy, np.flatnonzero(around), x)
-        part, y = region.energy, region.inside(x)
-        barrier = MovableHexes(part).barrier(*floors, config.band, config.band, config.weight)
-        some = np.flatnonzero(cured[region.hexes])
-        validity = ValidityBarrier.of(part.mesh.hexes[some], y, config.band, config.weight)
-        direction = TruncatedNewton(TruncatedNewtonConfig(200, loosest=0.1))
-        history = [float(np.minimum(validity.floors, 0).sum())]
-        more = False
-        gap = float(os.environ.get("GAP","0.25"))
-        while left > 0:
-            left -= 1
-            step = descend(part.with_barrier(barrier).with_surface(validity), y, 0.0, direction, _SEARCH, 1.5)
+
+    def __init__(
+        self, energy: MeshEnergy, points: np.ndarray, best: np.ndarray, share: float, config: CertificationConfig
+    ):
+        self._energy, self._config, self._points = energy, config, points
+        self._best, self._fewest = best, measure(best, energy.mesh.hexes).n_invalid
+        values, x = MovableHexes(energy), energy.to_edge_units(points)
+        least = [float(of.min(initial=np.inf)) for of in (values.jacobians(x), values.qualities(x))]
+        self._floors = [value - (1 - share) * max(abs(value), 0.1 * config.band) for value in least]
+
+    def steps(self) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
+        """Step until all hexes are valid that can be, or their coefficients no longer rise.
+
+        Returns
+        -------
+        best, reached : (n, 3) float64
+        """
+        mesh = self._energy.mesh
+        cured = curable_hexes(mesh, measure(self._points, mesh.hexes))
+        left, joined = self._config.steps, cured
+        while joined.any() and left > 0:
+            cured = cured | joined
+            used, joined = yield from self._raise_coefficients(cured, left)
+            left -= used
+        return self._best, self._points
+
+    def _raise_coefficients(self, cured: np.ndarray, most: int) -> Generator[Step, None, tuple[int, np.ndarray]]:
+        """Raise the floors of some hexes (m,) bool, by `most` steps at most, until others become invalid too.
+
+        Returns the number of steps, and a mark of these others, (m,) bool.
+        """
+        energy, config, none = self._energy, self._config, np.zeros(len(cured), dtype=bool)
+        x = energy.to_edge_units(self._points)
+        region = Region(energy, np.flatnonzero(self._around(cured)), x)
+        barrier = MovableHexes(region.energy).barrier(*self._floors, config.band, config.band, 1.0)
+        part, y = region.energy.with_barrier(barrier), region.inside(x)
+        validity = ValidityBarrier.of(part.mesh.hexes[cured[region.hexes]], y, config.band, 1.0)
+        direction, gap, history = NEWTON.direction(), config.gap, [validity.deficit]
+        for number in range(1, most + 1):
+            step = descend(part.with_surface(validity), y, 0.0, direction, SEARCH, NEWTON.max_step)
             if step is None or step.alpha == 0:
-                return best, energy.to_mesh_units(x)
-            y = step.x
-            validity = validity.raised(y, gap)
-            floor = float(np.minimum(validity.floors, 0).sum())
-            history.append(floor)
-            now = measure(y, part.mesh.hexes)
-            x = region.merged(x, y)
-            print("   ", share, len(some), round(floor, 4), now.n_invalid, round(step.alpha, 4), round(now.scaled_jacobian.min(), 4))
-            invalid = _curable(part, now)
-            whole = energy.to_mesh_units(x)
-            yield Step(whole, {"floor": floor}, intermediate=True)
+                return most, none
+            y, validity = step.x, validity.raised(step.x, gap)
+            history.append(validity.deficit)
+            yield self._take(energy.to_mesh_units(region.merged(x, y)), validity)
+            invalid = curable_hexes(part.mesh, measure(y, part.mesh.hexes))
             if not invalid.any():
-                return whole, whole
-            if measure(whole, mesh.hexes).n_invalid < fewest:
-                best, fewest = whole, measure(whole, mesh.hexes).n_invalid
-            new = region.hexes[invalid & ~cured[region.hexes]]
-            if new.size:
-                cured = cured.copy()
-                cured[new] = True
-                more = True
-                break
-            if len(history) > config.window and history[-1] - history[-1 - config.window] < config.min_rise:
-                gap /= 2
-                history = history[-1:]
-                if gap < float(os.environ.get("GMIN","0.02")): return best, whole
-        if not more:
-            return best, whole
-    return best, whole
+                return most, none
+            joined = none.copy()
+            joined[region.hexes[invalid]] = True
+            joined &= ~cured
+            if joined.any():
+                return number, joined
+            if len(history) > config.window and history[-1 - config.window] - history[-1] < config.min_rise:
+                gap, history = gap / 2, history[-1:]
+                if gap < config.min_gap:
+                    return most, none
+        return most, none
+
+    def _around(self, hexes: np.ndarray) -> np.ndarray:
+        """Mark hexes (m,) bool and those in the rings around them."""
+        mesh = self._energy.mesh
+        for _ in range(self._config.rings):
+            hexes = mask(mesh.hexes[hexes], mesh.n_nodes)[mesh.hexes].any(axis=1)
+        return hexes
+
+    def _take(self, points: np.ndarray, validity: ValidityBarrier) -> Step:
+        """Take over points (n, 3), and return the step to them."""
+        quality = measure(points, self._energy.mesh.hexes)
+        if quality.n_invalid < self._fewest:
+            self._best, self._fewest = points, quality.n_invalid
+        self._points = points
+        return Step(points, {"deficit": validity.deficit}, intermediate=True, quality=quality)

@@ -7,12 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.maxmin.slp_config import SLP
 from hexmend.quality import ElementQuality, measure
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.base import Steps
 from hexmend.smoothers.mend.balance import balance
+from hexmend.smoothers.mend.certification import certify_hexes, curable_hexes
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.maxmin import active_set
 from hexmend.smoothers.mend.messages import freed_message, limit_message
@@ -69,6 +72,7 @@ class Stages(MaxMinStages):
         if self.settings.maximises_minimum:
             active = active_set(result.optimiser, result.active)
             sentences.append(limit_message(result.optimiser, result.active))
+        points = yield from self._certify(mesh, points, leaving, result)
         if slides:
             quality = measure(points, mesh.hexes)
             sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
@@ -116,6 +120,30 @@ class Stages(MaxMinStages):
         balanced = yield from infeasible(steps, every=1)  # steps with released nodes may leave their band
         returned = yield from infeasible(leaving.returned(result, balanced.points))
         return returned.points, balanced.message
+
+    def _certify(
+        self, mesh: Mesh, points: np.ndarray, leaving: LeavingSurface | None, result: MaxMinResult | None
+    ) -> Generator[Step, None, np.ndarray]:
+        """Make hexes valid that are invalid between positive corners, from points (n, 3) on.
+
+        Where the boundary holds them, its nodes at these hexes leave the surface within the tolerance.
+        """
+        around = None if leaving is None else leaving.boundary(result)
+        energy = self._sound_energy(mesh if around is None else around.mesh, points, around)
+        points = yield from certify_hexes(energy, points)
+        if leaving is None:
+            return points
+        held = curable_hexes(around.mesh, measure(points, mesh.hexes))
+        for wider, limit in leaving.released(result, mask(mesh.hexes[held], mesh.n_nodes)):
+            energy = self._sound_energy(wider.mesh, points, wider)
+            found = yield from infeasible(certify_hexes(energy, points), every=1)
+            fewer = measure(found, mesh.hexes).n_invalid < measure(points, mesh.hexes).n_invalid
+            if fewer and leaving.deviation(found) <= limit * (1 + SLP.band_excess):
+                points = found
+                yield Step(points, intermediate=True)
+            if not curable_hexes(around.mesh, measure(points, mesh.hexes)).any():
+                break
+        return points
 
 
 def _is_lower(now: ElementQuality, kept: ElementQuality) -> bool:

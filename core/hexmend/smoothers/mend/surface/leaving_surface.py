@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -130,6 +130,21 @@ class LeavingSurface:
         if envelope.released.any():
             return envelope.sliding.without_nodes(np.flatnonzero(envelope.off_surface), width)
         return self.sliding.with_band(width) if width > self.sliding.max_deviation else self.sliding
+
+    def released(self, result: MaxMinResult | None, nodes: np.ndarray) -> Iterator[tuple[SlidingBoundary, float]]:
+        """Yield the boundary with some more nodes (n,) bool free as far as they may be, and their greatest distance.
+
+        First within the band of a result, then at the distances that are tried where hexes are inverted.
+        """
+        around, width = self.boundary(result), 0.0 if result is None else self._width(result)
+        freed = np.flatnonzero(nodes & around.leavable)
+        if self._tolerance > 0 and freed.size:
+            for limit in sorted({max(limit, width) for limit in self._limits}):
+                yield around.without_nodes(freed, limit), limit
+
+    def deviation(self, points: np.ndarray) -> float:
+        """Return the largest distance of the boundary at points (n, 3) from the surface, in the mesh's unit."""
+        return MaxMinOptimiser(self.mesh, points, self.sliding).envelope.largest_deviation(points)
 
     def returned(self, result: MaxMinResult, points: np.ndarray) -> Generator[Step, None, MaxMinOptimiser]:
         """Go on from a result to points (n, 3), whose boundary returns to the band of the result if it is outside.
