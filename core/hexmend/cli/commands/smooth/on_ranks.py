@@ -90,8 +90,8 @@ def _checked(args: argparse.Namespace, comm: MPI.Comm) -> tuple[Smoother, Stoppi
                 option = f"--{name.replace('_', '-')}"
                 raise ParameterError(f"{option} does not work on several MPI ranks yet: run it in one process")
         check_method(method)
-        Checkpoints(args.output, args.checkpoint)
         writer_for(args.output, None if args.rewrite else args.mesh)
+        Checkpoints(args.output, args.checkpoint)
         check_not_included(args.output, args.mesh)
         check_targets(args.mesh, args.output, args.json)
     return method, limits

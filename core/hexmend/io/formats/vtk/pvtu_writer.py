@@ -2,8 +2,9 @@
 
 Pieces are new files: no file is overwritten that the folder has, so that the file that is replaced is whole until the
 new one is, and files of the same names that belong to others stay. The pieces of the file that is replaced are removed
-if Hexmend has written them for it, which a comment in it says, and no other PVTU file of the folder names them. Pieces number their nodes and cells by `NODE_ID` and
-`CELL_ID`, from which the order of the mesh is restored.
+if Hexmend has written them for it, which a comment in it says, and no other PVTU file of the folder names them.
+
+Pieces number their nodes and cells by `NODE_ID` and `CELL_ID`, from which the order of the mesh is restored.
 """
 
 from __future__ import annotations
