@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.io.base.cell_kinds import from_vtk_order
 from hexmend.io.base.content import ID, Block, Content, from_mesh, merge_blocks
 from hexmend.io.base.fixed_marks import with_marks
-from hexmend.io.base.numbering import set_combinations
+from hexmend.io.base.numbering import fit_64_bits, set_combinations
 from hexmend.io.base.unique_names import altered_names
 from hexmend.io.formats.med.elements import GEOMETRY_NUMBERS, ORDER, TYPE_OF_KIND
 from hexmend.io.formats.med.fields import NO_PROFILE, NO_STEP, field_titles, type_code, write_fields
@@ -74,10 +74,12 @@ def limitations(mesh: Mesh) -> list[str]:
     """List the ids, data and names of a mesh that a file cannot hold as they are, in words."""
     content = from_mesh(mesh)
     left = []
-    if ID in content.node_data and not _has_ids(content.node_data, len(content.points)):
-        left.append("ids of nodes (no whole numbers)")
-    if any(ID in block.data and not _has_ids(block.data, len(block)) for block in content.blocks):
-        left.append("ids of elements (no whole numbers)")
+    of_elements = [(block.data, len(block)) for block in content.blocks]
+    for label, parts in (("nodes", [(content.node_data, len(content.points))]), ("elements", of_elements)):
+        odd = [np.asarray(data[ID]) for data, count in parts if ID in data and not _has_ids(data, count)]
+        if odd:
+            large = all(ids.dtype.kind == "u" for ids in odd)
+            left.append(f"ids of {label} ({'some of 2^63 and above' if large else 'no whole numbers'})")
     fields = _fields(replace(content, node_data=with_marks(mesh)))
     of_cells = [arrays for entity, arrays in fields.items() if entity != "NOE"]
     for label, tables in (("point data", [fields["NOE"]]), ("cell data", of_cells)):
@@ -121,7 +123,7 @@ def _set_names(content: Content) -> list[str]:
 def _has_ids(data: Mapping[str, np.ndarray], count: int) -> bool:
     """Return True if data hold ids that can be written."""
     ids = np.asarray(data.get(ID, ()))
-    return ID in data and ids.shape == (count,) and ids.dtype.kind in "iu"
+    return ID in data and ids.shape == (count,) and ids.dtype.kind in "iu" and fit_64_bits(ids)
 
 
 def _write_families(
