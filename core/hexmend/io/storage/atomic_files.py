@@ -93,9 +93,10 @@ class AtomicFiles:
 
     def path_of(self, error: OSError) -> Path | None:
         """Return the path that an error is about: the first where the error names none, None for another file's."""
-        if error.filename is None:
+        names = [name for name in (error.filename, error.filename2) if name is not None]  # both of one that is copied
+        if not names:
             return next(iter(self._named.values()), None)
-        return self._named.get(Path(error.filename))
+        return next((self._named[Path(name)] for name in names if Path(name) in self._named), None)
 
     @uninterrupted
     def remove(self) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from hexmend.io.base.cell_kinds import from_vtk_order
 from hexmend.io.base.content import ID, Block, Content, from_mesh, merge_blocks
 from hexmend.io.base.fixed_marks import with_marks
+from hexmend.io.base.hdf5_output import writable_file
 from hexmend.io.base.numbering import fit_64_bits, set_combinations
 from hexmend.io.base.unique_names import altered_names
 from hexmend.io.formats.med.elements import GEOMETRY_NUMBERS, ORDER, TYPE_OF_KIND
@@ -21,11 +22,9 @@ from hexmend.mesh.mesh import Mesh
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write a mesh, under its name, with its data as fields without a time."""
-    import h5py
-
     content = _with_group_titles(replace(from_mesh(mesh), node_data=with_marks(mesh)))
     title = "".join(c if c.isalnum() or c in "_-" else "_" for c in mesh.name)[:64] or "mesh"
-    with h5py.File(path, "w", track_order=True) as file:
+    with writable_file(path) as file:
         _group(file, "INFOS_GENERALES", MAJ=4, MIN=1, REL=0)
         group = _group(_group(file, "ENS_MAA"), title, DIM=3, ESP=3, NXI=-1, NXT=-1, REP=0, SRT=0, TYP=0)
         axes = np.bytes_("".join(f"{axis:<16}" for axis in "XYZ"))
