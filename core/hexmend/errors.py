@@ -52,4 +52,4 @@ class FileError(HexmendError):
         self.problem = problem.rstrip(".")
         self.remedy = remedy
         end = "" if self.problem.endswith("?") else "."
-        super().__init__(f"{self.path.name}: {self.problem}{end} {remedy}".rstrip())
+        super().__init__(f"{self.path.name or self.path}: {self.problem}{end} {remedy}".rstrip())

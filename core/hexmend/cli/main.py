@@ -58,6 +58,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     if argv is None:
         exit_on_signals()
+    _open_closed_streams()
     _replace_unencodable()
     try:
         status = _main(list(sys.argv[1:] if argv is None else argv))
@@ -78,6 +79,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         _discard_output()
         print(f"hexmend: the output cannot be written: {error.strerror or error}", file=sys.stderr)
         return 3
+
+
+def _open_closed_streams() -> None:
+    """Let standard streams that the caller has closed lead nowhere; files would get their numbers otherwise."""
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):  # in the order of their numbers
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, mode))  # noqa: SIM115  (open to the end)
 
 
 def _replace_unencodable() -> None:

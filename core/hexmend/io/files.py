@@ -232,7 +232,7 @@ def _write_as_given(path: Path, mesh: Mesh, original: Original | None) -> Writte
 
 
 def check_not_included(path: str | os.PathLike[str], source: str | os.PathLike[str]) -> None:
-    """Check that a file to write is none that the mesh's own file includes.
+    """Check that a file to write is none that the mesh's own file includes, and that it does not include that one.
 
     Parameters
     ----------
@@ -244,14 +244,20 @@ def check_not_included(path: str | os.PathLike[str], source: str | os.PathLike[s
     Raises
     ------
     FileError
-        For a file that `source` includes: it would no longer have what `source` needs.
+        For a file that `source` includes: it would no longer have what `source` needs. For a file that includes
+        `source`, as one of several files: it would have the mesh of this one alone.
     """
     path, source = Path(path), Path(source)
     if not (path.is_file() and source.is_file()) or is_same_file(path, source):
         return
-    format = format_of(source)
-    if format.included is not None and any(is_same_file(path, one) for one in format.included(source)):
+    if _includes(format_of(source), source, path):
         raise IncludedFileError(path, f"is included by {source.name}", "Choose another name.")
+    if _includes(writable_format(path, source), path, source):
+        raise IncludedFileError(path, f"includes {source.name}, the given mesh", "Choose another name.")
+
+
+def _includes(format: Format, path: Path, other: Path) -> bool:
+    return format.included is not None and any(is_same_file(other, one) for one in format.included(path))
 
 
 def _check_content(path: Path, original: Original, reason: str) -> None:

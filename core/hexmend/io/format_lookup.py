@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from codecs import BOM_UTF8
 from collections.abc import Iterable, Iterator
 from itertools import count
 from pathlib import Path
@@ -14,6 +15,8 @@ from hexmend.io.base.plugins import plugin_formats
 
 #: Bytes from which the format of a file is recognised.
 _HEAD = 4096
+#: First bytes of compressed files, by the program that compresses.
+_COMPRESSIONS = {"gzip": b"\x1f\x8b", "bzip2": b"BZh", "xz": b"\xfd7zXZ\0", "zstd": b"\x28\xb5\x2f\xfd"}
 
 
 def every_format() -> tuple[Format, ...]:
@@ -41,9 +44,10 @@ def format_of(path: Path) -> Format:
         return placed
     named = [format for format in FORMATS.values() if path.suffix.lower() in format.suffixes]
     with open(path, "rb") as file:
-        head = file.read(_HEAD)
+        head = file.read(_HEAD).removeprefix(BOM_UTF8)
+    compression = next((name for name, magic in _COMPRESSIONS.items() if head.startswith(magic)), "")
     for format in named:
-        if format.matches is None or format.matches(head):
+        if format.matches(head) if format.matches is not None else not compression:
             return format
     for format in FORMATS.values():
         if format.matches is not None and format.matches(head):
@@ -53,6 +57,8 @@ def format_of(path: Path) -> Format:
             return format
         if not named and path.suffix.lower() in format.suffixes:
             return format
+    if compression:
+        raise FileError(path, f"is compressed by {compression}", "Decompress it first.")
     return named[0] if named else _unknown(path, "read", every_format())
 
 

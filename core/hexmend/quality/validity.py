@@ -17,6 +17,7 @@ from hexmend.kernels import validity as kernels
 from hexmend.mesh.second_order.curved_geometry import hex_nodes
 from hexmend.mesh.second_order.mid_nodes import NODE_POSITIONS
 from hexmend.mesh.second_order.shape_functions import lagrange
+from hexmend.mesh.validation import as_hexes, as_points
 
 #: Row of `NODE_POSITIONS` of each node of a lattice 3 x 3 x 3, x slowest and z fastest, as the kernels take them.
 _LATTICE = np.lexsort(NODE_POSITIONS.T[::-1])
@@ -58,6 +59,7 @@ def certify(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None 
     >>> certify(UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
     array([0], dtype=uint8)
     """
+    points, hexes = _checked(points, hexes)
     found = np.empty(len(hexes), dtype=np.uint8)
     kernels.certify(points, hexes, found)
     for some in _second_order(mid_nodes):
@@ -84,6 +86,7 @@ def jacobian_bounds(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray
     >>> jacobian_bounds(2 * UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
     array([[8., 8.]])
     """
+    points, hexes = _checked(points, hexes)
     bounds = np.empty((len(hexes), 2))
     kernels.jacobian_bounds(points, hexes, bounds)
     for some in _second_order(mid_nodes):
@@ -98,6 +101,7 @@ def least_jacobian(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray 
 
     Parameters are those of `certify`. 1 for parallelepipeds; 0 or less if a hex is invalid.
     """
+    points, hexes = _checked(points, hexes)
     if mid_nodes is None:
         return kernels.least_jacobian(points, hexes)
     linear = np.ascontiguousarray(hexes[(mid_nodes < 0).all(axis=1)])
@@ -132,6 +136,12 @@ def jacobian_field(nodes: np.ndarray, divisions: int = 16) -> tuple[np.ndarray, 
     determinants = np.linalg.det(np.einsum("gnd,nx->gdx", gradients, nodes))
     shape = (divisions + 1,) * 3
     return (values @ nodes).reshape(*shape, 3), determinants.reshape(shape)
+
+
+def _checked(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Check the arguments of `certify`; raises `MeshError` for arrays of another shape or type."""
+    points = as_points(points)
+    return points, as_hexes(hexes, len(points))
 
 
 def _trilinear(at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

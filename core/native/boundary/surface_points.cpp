@@ -132,6 +132,7 @@ IntArray count_fans(Indices faces, int width, Indices sides, Indices first, std:
 OwnedArray<double> quantiles_around(ArrayView<const Node, 2> edges, Indices start, Indices ends, Numbers values,
                                     Indices some, double most, double share) {
     expect(values.size() == edges.size(), "values: one for each edge is expected");
+    expect(are_csr(start, ends.size()), "start: its last number is expected to be the length of ends");
     std::vector<double> quantiles(some.size());
     parallel_chunks(some.size(), ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         std::vector<std::int32_t> seen(edges.size(), -1);  // the last row around which an edge was found

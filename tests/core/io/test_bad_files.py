@@ -1,5 +1,8 @@
 """Bad files: one clear error that names file, place and remedy; whatever is cut or flipped, never another failure."""
 
+import bz2
+import gzip
+import lzma
 import os
 
 import numpy as np
@@ -115,3 +118,30 @@ def test_targets_that_cannot_be_written_are_said(name, tmp_path):
     with pytest.raises(FileError):
         io.write(tmp_path / name, grid(1))
     assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize("suffix", [".inp", ".msh", ".mesh", ".bdf", ".su2", ".vtk", ".ovm"])
+def test_a_byte_order_mark_is_no_part_of_the_text(suffix, tmp_path):
+    path, mesh = tmp_path / f"a{suffix}", scrambled(grid(2), 0.2)
+    io.write(path, mesh, encoding="ascii")
+    text = path.read_bytes()
+    if suffix == ".inp":
+        text = text[text.index(b"*NODE") :]  # a heading before it would be lost with the mark, unnoticed
+    path.write_bytes(b"\xef\xbb\xbf" + text)
+    given = io.read(path)
+    assert given.n_hexes == 8
+    if FORMATS[io.format_lookup.format_of(path).name].locate is not None:
+        io.write(tmp_path / f"b{suffix}", given.with_points(given.points + 1), like=path)
+        np.testing.assert_allclose(io.read(tmp_path / f"b{suffix}").points, given.points + 1, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("compress", "program"), [(gzip.compress, "gzip"), (bz2.compress, "bzip2"), (lzma.compress, "xz")]
+)
+@pytest.mark.parametrize(
+    "name", [*(f"a{one.suffixes[0]}" for one in FORMATS.values() if one.write and not one.place), "a.vtk.gz"]
+)
+def test_compressed_files_are_called_compressed_whatever_their_names(name, compress, program, tmp_path):
+    (tmp_path / name).write_bytes(compress(b"anything"))
+    with pytest.raises(FileError, match=f"is compressed by {program}. Decompress it first."):
+        io.read(tmp_path / name)

@@ -11,6 +11,7 @@ from hexmend.cli.arguments.checks import check_memory
 from hexmend.cli.arguments.run_arguments import method_and_limits, with_surface
 from hexmend.cli.output.progress import follow, show_count
 from hexmend.io import read
+from hexmend.io.storage.atomic import check_writable
 from hexmend.run import iterate
 from hexmend_app.cli.numbers import invalid_value, parse_integer, parse_size
 from hexmend_app.cli.scene_options import look_of, view_of
@@ -27,10 +28,11 @@ def run(args: argparse.Namespace) -> int:
     size, view, path = parse_size(args.size), view_of(args), Path(args.output)
     max_frames, rate = parse_integer(args.frames, "--frames", 2, 1000), parse_integer(args.rate, "--rate", 1, 50)
     method, stop = method_and_limits(args)
+    format_of(path)  # raises for an unknown suffix before the run
+    check_writable(path)
     mesh = with_surface(args, read(args.mesh), method)
     check_memory(args, [method], mesh)
     look = replace(look_of(args, mesh), movement=_traces(args))
-    format_of(path)  # raises for an unknown suffix before the run
     run, history = iterate(mesh, method, stop), History()
     record = history.begin(method.title, State.of(mesh))
     history.add(record, run.start)

@@ -127,7 +127,7 @@ class History:
             self.remove(record)
 
     def to_data(self, states: Iterable[State]) -> HistoryData:
-        """Return the data for a session file, with the iterations that some states show; no run is active."""
+        """Return the data for a session file, with the iterations that some states show."""
         with self._lock:
             started = [record for record in self.records if record.rows]
             at = {record: number for number, record in enumerate(started)}

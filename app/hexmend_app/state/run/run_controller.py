@@ -107,6 +107,11 @@ class RunController(QObject):
     blocks_editing = busy
 
     @property
+    def newest(self) -> IterationFrame | None:
+        """Newest iteration of the active run; None without one."""
+        return None if self._worker is None else self._worker.last
+
+    @property
     def iterating(self) -> bool:
         """True while another iteration is shown and nothing else has changed."""
         return self.view.iterating

@@ -29,20 +29,24 @@ from hexmend_app.state.session.recovery_folder import (
     remove_session,
     write_session,
 )
+from hexmend_app.state.session.running import ended_now
 from hexmend_app.state.settings.paths import state_folder
 from hexmend_app.state.tasks.task import Task
 
 if TYPE_CHECKING:
+    from hexmend_app.state.run.worker import IterationFrame
     from hexmend_app.state.session.session import Session
 
 #: Milliseconds between two checks for changes.
 PERIOD = 180_000
+#: Milliseconds between two of them during a run.
+RUN_PERIOD = 10_000
 
 _FOLDER = "windows"
 
 
 class Recovery(QObject):
-    """Saves the session automatically: periodically if it has changed and no run is active, and after every run.
+    """Saves the session automatically: periodically if it has changed, during a run and after it.
 
     Parameters
     ----------
@@ -73,6 +77,9 @@ class Recovery(QObject):
         self._recoverable: list[RecoveredSession] = []
         self._timer = QTimer(self, interval=PERIOD)
         self._timer.timeout.connect(self.write)
+        self._newest: IterationFrame | None = None  # of a run, as last written
+        self._run_timer = QTimer(self)
+        self._run_timer.timeout.connect(self._write_run)
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self.write)
         session.data_changed.connect(self._on_change)
@@ -112,6 +119,7 @@ class Recovery(QObject):
         self._recoverable = sorted(filter(None, found), key=lambda session: session.when, reverse=True)
         self._changed = True
         self._timer.start()
+        self._run_timer.start(RUN_PERIOD)
 
     def _on_eased(self) -> None:
         """Write what an eased run has put off."""
@@ -120,16 +128,30 @@ class Recovery(QObject):
 
     def write(self) -> None:
         """Write the session if it has unsaved data and no run is active; if it is being written, write it again."""
+        if not (self._session.run.busy or self._session.run.view.eased.active):
+            self._write(None)
+
+    def _write_run(self) -> None:
+        """Write the session with the newest iteration of the active run, unless it is being written."""
+        newest = self._session.run.newest
+        if newest is not None and newest.iteration.number and newest is not self._newest and self._task is None:
+            self._changed = True
+            self._write(newest)
+
+    def _write(self, newest: IterationFrame | None) -> None:
+        """Write the session, with the newest iteration of the active run if that is not None."""
         session = self._session
-        active = session.run.busy or session.node_sweep.sweep is not None or session.opener.busy
-        active = active or session.time_reader.busy or session.run.view.eased.active
+        active = session.node_sweep.sweep is not None or session.opener.busy or session.time_reader.busy
         if not (self.watching and self._changed and self._has_unsaved_data) or active:
             return
         if self._task is not None:
             self._write_again = True
             return
-        self._changed = False
-        write = partial(write_session, self._folder, self._session_folder, session.to_data())
+        self._changed, self._newest = False, newest
+        data = session.to_data()
+        if newest is not None:
+            data = ended_now(data, session.run.record, newest)
+        write = partial(write_session, self._folder, self._session_folder, data)
         self._task = Task("autosaving the session", write)
         self._task.ended.connect(self._on_written)
         self._task.start()
@@ -147,6 +169,7 @@ class Recovery(QObject):
     def end(self) -> None:
         """End the autosave and delete its folder: the window closes normally."""
         self._timer.stop()
+        self._run_timer.stop()
         self._soon.stop()
         self._after_writing.clear()
         for crashed in self._recoverable:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -87,9 +88,9 @@ def check_targets(source: str, output: str, *targets: str | None) -> None:
     FileError
         For the first target that cannot be written or is another of the files.
     """
-    taken = {Path(source).resolve(), Path(output).resolve()}
+    taken = {os.path.realpath(source), os.path.realpath(output)}
     for path in (Path(target) for target in targets if target is not None):
-        if path.resolve() in taken:
+        if os.path.realpath(path) in taken:
             raise FileError(path, "is the mesh, or another file to be written", "Choose another name for it.")
         check_writable(path)
-        taken.add(path.resolve())
+        taken.add(os.path.realpath(path))

@@ -30,6 +30,10 @@ class Parser(argparse.ArgumentParser):
         known, unknown = self.parse_known_args(words)
         if unknown:
             self.error(self._unknown(unknown[0]))
+        for action in self._actions:
+            value = getattr(known, action.dest, None)
+            if value != action.default and (value == "" or (isinstance(value, list) and "" in value)):
+                self.error(f"{_name(action)} is empty: expected a value")
         return known
 
     def error(self, message: str) -> NoReturn:
@@ -46,9 +50,8 @@ class Parser(argparse.ArgumentParser):
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is None or value in action.choices:
             return
-        name = action.option_strings[-1] if action.option_strings else action.dest.upper()
         known = [str(one) for one in action.choices]
-        self.error(f"{name} {value} is unknown: {_nearest(str(value), known)}expected {' or '.join(known)}")
+        self.error(f"{_name(action)} {value} is unknown: {_nearest(str(value), known)}expected {' or '.join(known)}")
 
     def _unknown(self, word: str) -> str:
         """Return the sentence for a word that is neither an option nor the place of an argument."""
@@ -68,6 +71,11 @@ def _nearest(name: str, known: Iterable[str]) -> str:
     names = {one.casefold(): one for one in known}
     near = difflib.get_close_matches(name.casefold(), names, n=1)
     return f"did you mean {names[near[0]]}? " if near else ""
+
+
+def _name(one: argparse.Action) -> str:
+    """Return the name of an option, or of an argument in upper case."""
+    return one.option_strings[-1] if one.option_strings else one.dest.upper()
 
 
 def _identity(one: argparse.Action) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from codecs import BOM_UTF8
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -53,7 +54,8 @@ class ByteCursor:
     """
 
     def __init__(self, path: Path, data: bytes | FileBytes, is_text: bool = True):
-        self.path, self.data, self.is_text, self.pos = path, data, is_text, 0
+        self.path, self.data, self.is_text = path, data, is_text
+        self.pos = len(BOM_UTF8) if is_text and data[: len(BOM_UTF8)] == BOM_UTF8 else 0
 
     def error(self, problem: str, remedy: str = DAMAGED) -> FileError:
         """Make the error to raise; `problem` and `remedy` are as of `FileError`."""
@@ -300,12 +302,18 @@ def _numeric_end(data: bytes, begin: int, is_all: bool = True) -> int:
 
 
 def read_text_bytes(path: Path) -> bytes:
-    """Read a text file as bytes; raises `FileError` if its first 4,096 bytes hold a zero."""
+    """Read a text file as bytes, without a byte-order mark.
+
+    Raises
+    ------
+    FileError
+        If its first 4,096 bytes hold a zero.
+    """
     with open(path, "rb") as file:
         if b"\0" in file.read(4096):
             raise FileError(path, "holds bytes that are not text", "Check its suffix, or write the file again.")
         file.seek(0)
-        return file.read()
+        return file.read().removeprefix(BOM_UTF8)
 
 
 def quoted(word: str) -> str:

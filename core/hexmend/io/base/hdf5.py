@@ -27,6 +27,9 @@ _FAILURES = (OSError, RuntimeError, ValueError, LookupError, TypeError, Attribut
 #: A compressed array may be this many times the size of the file; arrays of up to so many bytes are always read.
 _LARGEST_RATIO, _ALWAYS_READ = 100, 1 << 28
 
+#: Bytes of the name of a link that are kept for messages.
+_LONGEST_TITLE = 400
+
 
 def read_content(reader: str, path: Path) -> Content:
     """Read a file in a subprocess, which the HDF5 library may crash on a damaged file.
@@ -64,6 +67,8 @@ def library_errors(path: Path) -> Iterator[None]:
     try:
         yield
     except _FAILURES as error:
+        if getattr(error, "filename", None):  # of a file that is written
+            raise
         detail = " ".join(str(error).split())[:160]
         raise FileError(path, f"the HDF5 library cannot read it ({detail})", DAMAGED) from None
 
@@ -97,33 +102,55 @@ def _check_self_contained(path: Path, file: object) -> None:
     Soft links stay inside the file. A virtual dataset is refused even if its sources lie in the same file: no writer
     of these formats makes one, and a dataset that refers to itself crashes the library.
     """
-    links: list[tuple[bytes, int]] = []
-
-    def visit(name: bytes, link: object) -> None:  # without calls of the library, whose errors would be lost here
-        links.append((name, link.type))
-
     with library_errors(path):
-        file.id.links.visit(visit, info=True)
-        problems = (f"{_title(name)} {problem}" for name, kind in links if (problem := _external(file, name, kind)))
-        problem = next(problems, "")
+        problem = next((f"{_title(name)} {problem}" for name, problem in _external_links(file)), "")
     if problem:
         raise FileError(path, f"its {problem}: no other file is opened", _ONE_FILE)
 
 
-def _external(file: object, name: bytes, kind: int) -> str:
-    """Describe how a link or its dataset refers to another file; empty if it does not."""
+def _external_links(file: object) -> Iterator[tuple[bytes, str]]:
+    """Yield the names of links that refer to another file, and how they do.
+
+    The library would look up each link from the root: in a time that is quadratic in the depth of groups.
+    """
+    import h5py
+
+    seen, groups = set(), [(b"", file.id, b"/")]  # name, group and link in it
+    while groups:
+        prefix, parent, name = groups.pop()
+        group = h5py.h5g.open(parent, name)
+        address = h5py.h5o.get_info(group).addr
+        if address in seen:
+            continue
+        seen.add(address)
+        links: list[tuple[bytes, int]] = []
+
+        def visit(name: bytes, link: object, links: list[tuple[bytes, int]] = links) -> None:
+            links.append((name, link.type))  # without calls of the library, whose errors would be lost here
+
+        group.links.iterate(visit, info=True)
+        for name, kind in links:
+            title = (prefix + name)[:_LONGEST_TITLE]
+            if problem := _external(group, name, kind):
+                yield title, problem
+            elif kind == h5py.h5l.TYPE_HARD and h5py.h5o.get_info(group, name).type == h5py.h5o.TYPE_GROUP:
+                groups.append((title + b"/", group, name))
+
+
+def _external(group: object, name: bytes, kind: int) -> str:
+    """Describe how a link of a group, or its dataset, refers to another file; empty if it does not."""
     import h5py
 
     if kind == h5py.h5l.TYPE_SOFT:
         return ""
     if kind == h5py.h5l.TYPE_EXTERNAL:
-        other, place = file.id.links.get_val(name)
+        other, place = group.links.get_val(name)
         return f"is an external link to {_title(place)} in the file {_title(other)}"
     if kind != h5py.h5l.TYPE_HARD:
         return f"is a link of the type {kind}, which a program has defined for itself"
-    if h5py.h5o.get_info(file.id, name).type != h5py.h5o.TYPE_DATASET:
+    if h5py.h5o.get_info(group, name).type != h5py.h5o.TYPE_DATASET:
         return ""
-    layout = h5py.h5d.open(file.id, name).get_create_plist()
+    layout = h5py.h5d.open(group, name).get_create_plist()
     if layout.get_external_count():
         return f"has its values in another file, {_title(layout.get_external(0)[0])} (external storage)"
     if layout.get_layout() == h5py.h5d.VIRTUAL:

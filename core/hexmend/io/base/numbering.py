@@ -202,6 +202,11 @@ def set_combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[l
     return found, which
 
 
+def fit_64_bits(ids: np.ndarray) -> bool:
+    """Return True if whole numbers are below 2^63, as formats with signed numbers hold them."""
+    return ids.dtype.kind != "u" or not ids.size or int(ids.max()) < 2**63
+
+
 def unsupported_ids(mesh: Mesh, limit: int = ID_LIMIT) -> list[str]:
     """Describe the ids that a file numbered from 1 cannot store, so that nodes or elements are renumbered.
 

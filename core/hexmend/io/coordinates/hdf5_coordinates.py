@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base import hdf5
+from hexmend.io.base.hdf5_output import writable_file
 from hexmend.io.coordinates.binary_coordinates import BinaryCoordinates, BinaryPiece, check_columns, precision_notes
 
 
@@ -77,13 +78,11 @@ class HDF5Coordinates:
 
     def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
-        import h5py
-
         changed = ~(points == self.points)
         columns = [slice(one["column"], one["column"] + one["width"]) for one in self.datasets]
         check_columns(changed, columns)
         shutil.copyfile(self.path, file)
-        with hdf5.library_errors(self.path), h5py.File(file, "r+") as out:
+        with hdf5.library_errors(self.path), writable_file(file, "r+") as out:
             for one, part in zip(self.datasets, columns, strict=True):
                 dataset = out[one["name"]]
                 dataset[...] = points[:, part].T.reshape(dataset.shape)

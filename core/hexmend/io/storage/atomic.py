@@ -19,7 +19,7 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     If the block raises, the temporary file is removed and the old file stays unchanged. The content is flushed to the
     disk before the file is renamed, and the folder before the block ends, so that a power cut leaves the old file or
     the new one. A new file gets the permissions of the user's umask; a replaced file keeps its own. Links are followed.
-    A path that is not a regular file (a pipe, /dev/stdout) cannot be replaced and is written to directly.
+    A stream (/dev/stdout, a pipe of the shell) cannot be replaced and is written to directly.
 
     Parameters
     ----------
@@ -34,12 +34,13 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     Raises
     ------
     FileError
-        Where the folder is missing or not writable, `path` is a folder or read-only, or the disk is full.
+        Where the folder is missing or not writable, `path` is a folder, a named pipe, a link to itself or read-only,
+        or the disk is full.
     """
     path = Path(path)
     temporary: TemporaryFile | None = None
     try:
-        if path.exists() and not path.is_file() and not path.is_dir():
+        if is_stream(path):
             yield path
             return
         target, mode = writable_target(path)
@@ -63,8 +64,23 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
 def check_writable(path: str | os.PathLike[str]) -> None:
     """Raise the `FileError` that `atomic_write` would raise, as far as it is known before writing."""
     path = Path(path)
-    if not path.exists() or path.is_file() or path.is_dir():
+    if not is_stream(path):
         writable_target(path)
+
+
+def is_stream(path: Path) -> bool:
+    """Return True for a stream, such as /dev/stdout or a pipe of the shell, which is written to and never replaced.
+
+    Raises
+    ------
+    FileError
+        For a named pipe: writing would wait until another program reads it.
+    """
+    if not path.exists() or path.is_file() or path.is_dir():
+        return False
+    if path.is_fifo() and not os.path.realpath(path).startswith(("/dev/", "/proc/")):
+        raise FileError(path, "is a named pipe: expected the name of a file to write", "Choose another name.")
+    return True
 
 
 def writable_target(path: Path) -> tuple[Path, int | None]:
@@ -90,6 +106,8 @@ def writable_target(path: Path) -> tuple[Path, int | None]:
         raise FileError(path, "is a folder: expected the name of a file to write", "Add a file name.")
     target = Path(os.path.realpath(path))
     folder = target.parent
+    if target.is_symlink():
+        raise FileError(path, "is a link to itself", "Remove it, or choose another name.")
     if not folder.is_dir():
         raise FileError(path, f"cannot be written: there is no folder {folder}", "Create the folder or choose another.")
     if not os.access(folder, os.W_OK | os.X_OK):

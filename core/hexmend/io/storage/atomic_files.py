@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hexmend.errors import FileError
-from hexmend.io.storage.atomic import writable_target
+from hexmend.io.storage.atomic import is_stream, writable_target
 from hexmend.io.storage.temporary_files import TemporaryFile, flush_file, flush_folder
 from hexmend.signal_guard import uninterrupted
 
@@ -46,8 +46,8 @@ class AtomicFiles:
         FileError
             Where the file cannot be replaced, see `hexmend.io.storage.atomic.atomic_write`.
         """
-        if path.exists() and not path.is_file() and not path.is_dir():
-            return path  # a pipe
+        if is_stream(path):
+            return path
         target, mode = writable_target(path)
         for one in self._replacements:
             if one.target == target:
@@ -93,9 +93,10 @@ class AtomicFiles:
 
     def path_of(self, error: OSError) -> Path | None:
         """Return the path that an error is about: the first where the error names none, None for another file's."""
-        if error.filename is None:
+        names = [name for name in (error.filename, error.filename2) if name is not None]  # both of one that is copied
+        if not names:
             return next(iter(self._named.values()), None)
-        return self._named.get(Path(error.filename))
+        return next((self._named[Path(name)] for name in names if Path(name) in self._named), None)
 
     @uninterrupted
     def remove(self) -> None:

@@ -23,6 +23,8 @@ def check_readable(path: Path, expected: str) -> None:
     try:
         if path.is_dir():
             raise FileError(path, f"is a folder: expected {expected}", "Choose a file in it.")
+        if path.is_symlink() and not path.exists():
+            raise FileError(path, "is a link to a file that does not exist", "Choose the file itself.")
         if not path.exists():
             raise FileError(path, f"there is no such file in {path.absolute().parent}", _nearest(path))
         if not path.is_file():

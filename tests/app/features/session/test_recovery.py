@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import sys
 import pytest
 from PySide6.QtWidgets import QPushButton
 
+from hexmend.errors import HexmendError
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
@@ -28,6 +30,7 @@ _PROGRAM = """
 import hashlib, json, sys
 from pathlib import Path
 from hexmend.run.recipe import Stage
+from hexmend.errors import HexmendError
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.shell.start.program import application
@@ -124,6 +127,42 @@ def test_recovery_is_offered_until_discarded(killed, fresh_window, own_state):
     press(choice(fresh_window, "Discard"))
     feature.close()
     assert list(own_state.iterdir()) == []
+
+
+def test_a_run_is_recovered_at_its_newest_iteration(fresh_window, qtbot, own_state, tmp_path, monkeypatch):
+    monkeypatch.setattr(recovery_module, "RUN_PERIOD", 10)
+    session, recovery = fresh_window.session, fresh_window.features["session"].recovery
+    recovery.begin()
+    session.run.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=10), iterations=3)
+    wait_for_run(own_state, qtbot, lambda record: record.result == 3)
+    (written,) = own_state.glob("*/session.hexmend")
+    left = shutil.copytree(written, tmp_path / "left.hexmend")
+    points = session.run.newest.iteration.points
+    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+        session.run.resume()
+    wait_for_run(
+        own_state, qtbot, lambda record: len(record.rows) == 11 and record.message == session.run.record.message
+    )
+    recovery.end()
+    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
+        session.opener.open(left, recovers=True)
+    assert (session.document.now.mesh.points == points).all()
+    assert session.document.modified
+    assert session.document.undo_title == METHODS["laplacian"].title
+    assert session.history.records[0].message == "Hexmend ended unexpectedly during this run."
+
+
+def wait_for_run(own_state, qtbot, is_written):
+    """Wait until the session on the disk has a run of which a function is true."""
+
+    def found():
+        try:
+            (path,) = own_state.glob("*/session.hexmend/*.json")
+            return is_written(session_data.read(path.parent).history.records[0])
+        except (ValueError, HexmendError):  # not written yet, or being written
+            return False
+
+    qtbot.waitUntil(found, timeout=PATIENCE)
 
 
 def test_a_closed_window_leaves_no_files(fresh_window, qtbot, own_state, mesh_file):

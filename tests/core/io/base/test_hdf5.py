@@ -1,10 +1,13 @@
 """Formats on HDF5: what is none is refused at once, and what is one is read in a process of its own."""
 
+import signal
+
 import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
 from hexmend.io.storage import subprocess_reader
+from tests.core.grids import grid
 
 h5py = pytest.importorskip("h5py")
 SUFFIXES = (".med", ".vtkhdf", ".cgns", ".exo")
@@ -29,3 +32,20 @@ def test_a_library_that_ends_takes_only_its_own_process_along(suffix, block, tmp
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(FileError, match="ends the library that reads it"):
         io.read(path)
+
+
+@pytest.mark.parametrize("suffix", [".med", ".vtkhdf"])
+def test_a_full_disk_is_said_of_the_file_in_a_few_words(suffix, tmp_path):
+    """A limit of the size of files stands for the disk; the library keeps what it could not write until it closes."""
+    resource = pytest.importorskip("resource")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
+    try:
+        with pytest.raises(FileError) as problem:
+            io.write(tmp_path / f"a{suffix}", grid(6))
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, handler)
+    assert str(problem.value).startswith(f"a{suffix}: cannot be written: File too large. Check free space")
+    assert list(tmp_path.iterdir()) == []

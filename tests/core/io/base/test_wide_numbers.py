@@ -1,4 +1,4 @@
-"""Whole numbers at the ends of what 32 bits hold are kept exactly by ExodusII's classic container."""
+"""Whole numbers at the ends of what 32 bits hold are kept exactly by ExodusII's classic container; ids of 2^63 by none."""
 
 import numpy as np
 import pytest
@@ -38,6 +38,20 @@ def test_ids_at_the_ends_of_32_bits_are_read_again_and_the_file_says_how_wide_th
     wide = not -(2**31) <= number < 2**31
     value = begins + 4 + (8 if data[3] == 5 else 4)  # behind the attribute's type and count
     assert int.from_bytes(data[value : value + 4], "big") == (0x0400 if wide else 0)  # EX_MAPS_INT64_DB
+
+
+@pytest.mark.parametrize("suffix", [".exo", ".med"])
+@pytest.mark.parametrize(("data", "label"), [("node_data", "nodes"), ("hex_data", "elements")])
+def test_ids_that_signed_numbers_cannot_hold_are_left_out_and_reported(data, label, suffix, tmp_path):
+    mesh = grid(2)
+    largest = np.arange(mesh.n_nodes if label == "nodes" else mesh.n_hexes).astype(np.uint64) + np.uint64(2**63 - 100)
+    for above in (0, 100):
+        numbered = mesh.replace(**{data: {"id": largest + np.uint64(above)}})
+        lost = [f"ids of {label} (some of 2^63 and above)"] if above else []
+        assert io.unsupported_data(tmp_path / f"a{suffix}", numbered) == lost
+        io.write(tmp_path / f"a{suffix}", numbered)
+        read = getattr(io.read(tmp_path / f"a{suffix}"), data)
+        assert {name: values.tolist() for name, values in read.items()} == ({} if above else {"id": largest.tolist()})
 
 
 @pytest.mark.parametrize("length", [5, 31, 32, 33, 80])

@@ -45,7 +45,7 @@ def _incidence() -> Iterator[Row]:
     n, nodes, k = case().n, case().nodes, 10
     yield row("hex_mesh.HexMesh")
     yield row("incidence.node_corners", listed="hexes", n=n)
-    yield row("incidence.face_neighbours")
+    yield row("incidence.face_neighbours", opposed=True)
     yield row("incidence.overlapping_corners")
     yield row("incidence.join", "parent", empty="items", parent=np.arange(n), items=[1, 2, 3, 4], width=2)
     yield row("incidence.component_numbers", listed="parent", parent=np.arange(n))

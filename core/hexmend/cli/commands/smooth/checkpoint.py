@@ -76,6 +76,7 @@ class Checkpoints:
 
 def _free_path(output: Path) -> Path:
     """Return a name beside the output that no file has."""
+    output = output if output.name else output.absolute()  # the case in the working folder
     suffix = output.suffix if format_by_place(output) is None and output.suffix else ".vtu"
     names = (f"{output.stem}.checkpoint{end}{suffix}" for end in chain([""], (f"-{number}" for number in count(2))))
     return next(path for path in map(output.with_name, names) if not os.path.lexists(path))

@@ -22,6 +22,7 @@ from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.io import writer_for
+from hexmend.io.files import check_not_included
 from hexmend.kernels import cores, cores_for, set_threads, threads
 from hexmend.ranks.launching import local_ranks
 from hexmend.ranks.rank_run import RankRun
@@ -89,8 +90,9 @@ def _checked(args: argparse.Namespace, comm: MPI.Comm) -> tuple[Smoother, Stoppi
                 option = f"--{name.replace('_', '-')}"
                 raise ParameterError(f"{option} does not work on several MPI ranks yet: run it in one process")
         check_method(method)
-        Checkpoints(args.output, args.checkpoint)
         writer_for(args.output, None if args.rewrite else args.mesh)
+        Checkpoints(args.output, args.checkpoint)
+        check_not_included(args.output, args.mesh)
         check_targets(args.mesh, args.output, args.json)
     return method, limits
 

@@ -43,8 +43,8 @@ def run(args: argparse.Namespace) -> int:
     if _is_one_of_several_ranks():
         return _run_on_ranks(args)
     method, limits = method_and_limits(args)
-    checkpoints = Checkpoints(args.output, args.checkpoint)
     writer_for(args.output, None if args.rewrite else args.mesh)  # raises before the run, and not after it
+    checkpoints = Checkpoints(args.output, args.checkpoint)
     check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
     rings = _rings(args)
     mesh = read(args.mesh, as_is=args.as_is)

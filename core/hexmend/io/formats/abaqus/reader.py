@@ -25,6 +25,8 @@ from hexmend.terminal_text import count_phrase
 #: Cards that generate nodes or elements from others.
 _GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL")
 _EXPAND = "Write the file with all nodes and elements expanded, as Abaqus/CAE does."
+#: Cards of conditions at nodes, which hold wherever the nodes are.
+_CONDITIONS = ("BOUNDARY", "CLOAD", "EQUATION", "MPC")
 #: Cards without data of the mesh, which no note mentions.
 _IGNORED = ("HEADING", "INCLUDE", "PREPRINT", "ASSEMBLY", "END ASSEMBLY")
 #: Cards by which bodies touch.
@@ -84,6 +86,9 @@ class _Reader:
         if self.other_cards:
             names = some_names(f"*{quoted(name)[1:-1]}" for name in self.other_cards)
             notes.append(unread_note(f"keywords that define no mesh ({names})"))
+        conditions = [f"*{name}" for name in _CONDITIONS if name in self.other_cards]
+        if conditions:
+            notes.append(f"Nodes named in {', '.join(conditions)} move with the mesh: these keywords fix no node.")
         instances = self.instances or [Instance(part.name, part) for part in self.parts.values()]
         unused = sum(all(instance.part is not part for instance in instances) for part in self.parts.values())
         if unused:

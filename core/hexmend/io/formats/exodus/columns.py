@@ -9,6 +9,7 @@ from itertools import chain, count
 import numpy as np
 
 from hexmend.io.base.content import ID
+from hexmend.io.base.numbering import fit_64_bits
 from hexmend.io.base.unique_names import make_unique
 
 _FIRST_COLUMN = re.compile(r"(.+)_(x|1)$", re.IGNORECASE)
@@ -20,7 +21,11 @@ def clean_name(name: str, end: str) -> str:
 
 
 def are_ids(values: object) -> bool:
-    """Return True for an array of one whole number for each node or cell."""
+    """Return True for an array of one whole number below 2^63 for each node or cell."""
+    return _are_whole(values) and fit_64_bits(np.asarray(values))
+
+
+def _are_whole(values: object) -> bool:
     return values is not None and np.asarray(values).dtype.kind in "iu" and np.ndim(values) == 1
 
 
@@ -109,7 +114,7 @@ def join_columns(found: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
 
 def _variables(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Arrays that are written: numbers other than ids."""
-    arrays = {name: np.asarray(values) for name, values in data.items() if not (name == ID and are_ids(values))}
+    arrays = {name: np.asarray(values) for name, values in data.items() if not (name == ID and _are_whole(values))}
     return {name: values for name, values in arrays.items() if values.dtype.kind in "biuf"}
 
 

@@ -13,6 +13,7 @@ from hexmend.io.base.capabilities import non_numeric_data, rounded_integers
 from hexmend.io.base.cell_kinds import from_vtk_order
 from hexmend.io.base.content import ID, Block, hex_blocks, unused_name
 from hexmend.io.base.fixed_marks import FIXED, needs_marks, redundant_marks
+from hexmend.io.base.numbering import fit_64_bits
 from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.exodus.columns import are_ids, clean_name, column_titles, columns
 from hexmend.io.formats.exodus.elements import ORDER, PINS_PROPERTY, SIDE_OF_FACE, TYPE_OF_KIND
@@ -59,6 +60,9 @@ def limitations(mesh: Mesh) -> list[str]:
     """List the data and names of a mesh that a file cannot hold as they are, in words."""
     left, titles = rounded_integers(mesh) + non_numeric_data(mesh), {}
     cell_data = [mesh.hex_data, *(cells.data for cells in mesh.cells)]
+    for label, data in (("nodes", [mesh.node_data]), ("elements", cell_data)):
+        if any(not fit_64_bits(np.asarray(one[ID])) for one in data if ID in one):
+            left.append(f"ids of {label} (some of 2^63 and above)")
     left += altered_names(column_titles([_node_data(mesh)]), "point data")
     left += altered_names(column_titles(cell_data), "cell data")
     sets = [name for one in mesh.cells for name in one.sets]

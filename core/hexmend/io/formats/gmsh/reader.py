@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from codecs import BOM_UTF8
 from pathlib import Path
 
 from hexmend.errors import FileError
@@ -44,7 +45,7 @@ def read(path: Path) -> Mesh:
         From `Mesh`.
     """
     with open(path, "rb") as file:
-        if not file.read(4096).lstrip().startswith(b"$"):  # found out before a large file is read
+        if not file.read(4096).removeprefix(BOM_UTF8).lstrip().startswith(b"$"):  # before all is read
             raise FileError(path, "does not begin with $MeshFormat", check_suffix("a Gmsh file"))
     source = ByteCursor(path, FileBytes(path))
     version, order, sections, skipped = 0, "", Sections(), {}

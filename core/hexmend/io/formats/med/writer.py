@@ -11,7 +11,8 @@ import numpy as np
 from hexmend.io.base.cell_kinds import from_vtk_order
 from hexmend.io.base.content import ID, Block, Content, from_mesh, merge_blocks
 from hexmend.io.base.fixed_marks import with_marks
-from hexmend.io.base.numbering import set_combinations
+from hexmend.io.base.hdf5_output import writable_file
+from hexmend.io.base.numbering import fit_64_bits, set_combinations
 from hexmend.io.base.unique_names import altered_names
 from hexmend.io.formats.med.elements import GEOMETRY_NUMBERS, ORDER, TYPE_OF_KIND
 from hexmend.io.formats.med.fields import NO_PROFILE, NO_STEP, field_titles, type_code, write_fields
@@ -21,11 +22,9 @@ from hexmend.mesh.mesh import Mesh
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write a mesh, under its name, with its data as fields without a time."""
-    import h5py
-
     content = _with_group_titles(replace(from_mesh(mesh), node_data=with_marks(mesh)))
     title = "".join(c if c.isalnum() or c in "_-" else "_" for c in mesh.name)[:64] or "mesh"
-    with h5py.File(path, "w", track_order=True) as file:
+    with writable_file(path) as file:
         _group(file, "INFOS_GENERALES", MAJ=4, MIN=1, REL=0)
         group = _group(_group(file, "ENS_MAA"), title, DIM=3, ESP=3, NXI=-1, NXT=-1, REP=0, SRT=0, TYP=0)
         axes = np.bytes_("".join(f"{axis:<16}" for axis in "XYZ"))
@@ -74,10 +73,12 @@ def limitations(mesh: Mesh) -> list[str]:
     """List the ids, data and names of a mesh that a file cannot hold as they are, in words."""
     content = from_mesh(mesh)
     left = []
-    if ID in content.node_data and not _has_ids(content.node_data, len(content.points)):
-        left.append("ids of nodes (no whole numbers)")
-    if any(ID in block.data and not _has_ids(block.data, len(block)) for block in content.blocks):
-        left.append("ids of elements (no whole numbers)")
+    of_elements = [(block.data, len(block)) for block in content.blocks]
+    for label, parts in (("nodes", [(content.node_data, len(content.points))]), ("elements", of_elements)):
+        odd = [np.asarray(data[ID]) for data, count in parts if ID in data and not _has_ids(data, count)]
+        if odd:
+            large = all(ids.dtype.kind == "u" for ids in odd)
+            left.append(f"ids of {label} ({'some of 2^63 and above' if large else 'no whole numbers'})")
     fields = _fields(replace(content, node_data=with_marks(mesh)))
     of_cells = [arrays for entity, arrays in fields.items() if entity != "NOE"]
     for label, tables in (("point data", [fields["NOE"]]), ("cell data", of_cells)):
@@ -121,7 +122,7 @@ def _set_names(content: Content) -> list[str]:
 def _has_ids(data: Mapping[str, np.ndarray], count: int) -> bool:
     """Return True if data hold ids that can be written."""
     ids = np.asarray(data.get(ID, ()))
-    return ID in data and ids.shape == (count,) and ids.dtype.kind in "iu"
+    return ID in data and ids.shape == (count,) and ids.dtype.kind in "iu" and fit_64_bits(ids)
 
 
 def _write_families(

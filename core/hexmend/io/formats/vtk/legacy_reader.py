@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from codecs import BOM_UTF8
 from collections.abc import Mapping
 from pathlib import Path
 from urllib.parse import unquote
@@ -51,7 +52,7 @@ class _LegacyReader:
 
     def __init__(self, path: Path):
         with open(path, "rb") as file:
-            head = file.read(_HEAD)
+            head = file.read(_HEAD).removeprefix(BOM_UTF8)
             if not re.match(rb"\s*#\s*vtk\s+datafile", head, re.IGNORECASE):
                 first = head.split(b"\n", 1)[0].decode("utf-8", errors="replace").strip()
                 problem = f"line 1 is {quoted(first)}: expected '# vtk DataFile Version ...'"

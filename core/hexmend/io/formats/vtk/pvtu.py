@@ -41,6 +41,14 @@ def piece_paths(path: Path) -> list[Path]:
     return [_piece_path(path, name) for name in piece_names(path)]
 
 
+def included_files(path: Path) -> set[Path]:
+    """Find the files of the pieces, with links resolved; none for a file that is missing or cannot be read."""
+    try:
+        return {piece.resolve() for piece in piece_paths(path)}
+    except (FileError, OSError):
+        return set()
+
+
 def _read_piece(path: Path, name: str) -> list[Grid]:
     """Read the grids of a piece."""
     piece = _piece_path(path, name)
@@ -74,5 +82,6 @@ register(
     capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
     limitations=names_not_kept,
     matches=_matches,
+    included=included_files,
     remove=remove,
 )

@@ -1,8 +1,10 @@
 """Writing of PVTU: pieces in a folder of their own, and then the file that names them.
 
 Pieces are new files: no file is overwritten that the folder has, so that the file that is replaced is whole until the
-new one is, and files of the same names that belong to others stay. Pieces number their nodes and cells by `NODE_ID` and
-`CELL_ID`, from which the order of the mesh is restored.
+new one is, and files of the same names that belong to others stay. The pieces of the file that is replaced are removed
+if Hexmend has written them for it, which a comment in it says, and no other PVTU file of the folder names them.
+
+Pieces number their nodes and cells by `NODE_ID` and `CELL_ID`, from which the order of the mesh is restored.
 """
 
 from __future__ import annotations
@@ -27,6 +29,8 @@ from hexmend.mesh.mesh import Mesh
 
 #: Characters that the name of a piece cannot have: those that XML or UTF-8 has not, and those of paths of Windows.
 _UNSUITABLE = re.compile("[:\\\\\x00-\x1f\ud800-\udfff\ufffe\uffff]")
+#: Comment of a PVTU file whose pieces Hexmend has written.
+_OWN_PIECES = "<!-- Hexmend has written the pieces, and removes them with this file -->"
 
 
 @dataclass(frozen=True)
@@ -40,7 +44,7 @@ class PieceFiles:
     folder, prefix : str
         Piece k is the file `folder`/`prefix`k.vtu beside it.
     replaced : tuple of Path
-        Pieces of the file that is replaced, which Hexmend has written.
+        Pieces of the file that is replaced, which Hexmend has written for it and no other file names.
     """
 
     path: Path
@@ -53,10 +57,6 @@ class PieceFiles:
         """Choose names that no file has."""
         stem = _UNSUITABLE.sub("_", path.stem)
         stem = stem if stem.strip(".") else "mesh"
-        named: list[str] = []
-        with suppress(FileError, OSError):  # a file that lists no pieces has none that are to be removed
-            named = piece_names(path)
-        own = re.compile(re.escape(f"{stem}/{stem}") + r"(-\d+)?_\d+\.vtu")
         folder = path.parent / stem
         there = [file.name for file in folder.iterdir()] if folder.is_dir() else []
         prefixes = (f"{stem}{end}_" for end in chain([""], (f"-{number}" for number in count(2))))
@@ -65,7 +65,7 @@ class PieceFiles:
             for prefix in prefixes
             if not any(re.fullmatch(re.escape(prefix) + r"\d+\.vtu", name, re.IGNORECASE) for name in there)
         )
-        return cls(path, stem, free, tuple(path.parent / name for name in named if own.fullmatch(name)))
+        return cls(path, stem, free, tuple(_own_pieces(path, stem)))
 
     def name(self, k: int) -> str:
         """Return the name of a piece in the file."""
@@ -117,13 +117,36 @@ class PieceFiles:
 
     def _header(self, count: int, grid: Grid) -> str:
         root = 'VTKFile type="PUnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"'
-        lines = ['<?xml version="1.0" encoding="utf-8"?>', f"<{root}>", '<PUnstructuredGrid GhostLevel="0">']
+        lines = ['<?xml version="1.0" encoding="utf-8"?>', _OWN_PIECES]
+        lines += [f"<{root}>", '<PUnstructuredGrid GhostLevel="0">']
         sections = ("PPoints", {"Points": grid.points}), ("PPointData", grid.node_data), ("PCellData", grid.cell_data)
         for section, arrays in sections:
             lines += [f"<{section}>", *_declarations(self.path, arrays), f"</{section}>"]
         sources = (array_attributes(Source=self.name(k)) for k in range(count))
         lines += [f"<Piece {source}/>" for source in sources]
         return "\n".join([*lines, "</PUnstructuredGrid>", "</VTKFile>", ""])
+
+
+def _own_pieces(path: Path, stem: str) -> list[Path]:
+    """List the pieces that Hexmend has written for a file, and that no other file in its folder names."""
+    own, named = re.compile(re.escape(f"{stem}/{stem}") + r"(-\d+)?_\d+\.vtu"), _named_pieces(path)
+    try:
+        if not named or _OWN_PIECES.encode() not in path.read_bytes():
+            return []
+        files, itself = [one for one in path.parent.iterdir() if one.suffix.lower() == ".pvtu"], path.resolve()
+        others = [one for one in files if one.resolve() != itself]
+    except OSError:
+        return []
+    shared = {name for other in others for name in _named_pieces(other)}
+    return [path.parent / name for name in named if own.fullmatch(name) and name not in shared]
+
+
+def _named_pieces(path: Path) -> list[str]:
+    """List the names of the pieces of a file; none for a file that is missing or lists none."""
+    try:
+        return piece_names(path)
+    except (FileError, OSError):
+        return []
 
 
 def _declarations(path: Path, arrays: Mapping[str, np.ndarray]) -> list[str]:

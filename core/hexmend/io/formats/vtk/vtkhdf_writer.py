@@ -9,6 +9,7 @@ import numpy as np
 
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.fixed_marks import with_marks
+from hexmend.io.base.hdf5_output import writable_file
 from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.vtk.grid import from_mesh
 from hexmend.io.formats.vtk.vtu_writer import writable
@@ -26,10 +27,8 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     FileError
         For an array of a type that VTK does not have.
     """
-    import h5py
-
     grid = from_mesh(mesh, "biuf")
-    with h5py.File(path, "w", track_order=True) as file:
+    with writable_file(path) as file:
         root = file.create_group("VTKHDF", track_order=True)
         root.attrs["Version"] = _VERSION
         root.attrs["Type"] = np.bytes_("UnstructuredGrid")

@@ -11,6 +11,7 @@ from hexmend.errors import FileError
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from hexmend.quality import summarise
+from tests.core.grids import grid
 from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
 
 FILES = Path(__file__).parents[2] / "files"
@@ -230,3 +231,12 @@ def test_touching_bodies_of_a_deck_with_contact_are_fit_and_stay_apart(card, tmp
     mesh = io.read(path)
     assert {finding.kind for finding in examine(mesh)} == {"parts"}
     assert repair(mesh) == (mesh, ())
+
+
+def test_a_note_says_that_nodes_with_conditions_move(tmp_path):
+    io.write(tmp_path / "a.inp", grid(2))
+    text = (tmp_path / "a.inp").read_text()
+    note = "Nodes named in *BOUNDARY, *CLOAD move with the mesh: these keywords fix no node."
+    assert note not in io.read(tmp_path / "a.inp").notes
+    (tmp_path / "a.inp").write_text(text + "*STEP\n*CLOAD\n14, 1, 5.0\n*BOUNDARY\n1, 1, 3\n2, 1, 3\n*END STEP\n")
+    assert note in io.read(tmp_path / "a.inp").notes

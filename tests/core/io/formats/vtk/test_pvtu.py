@@ -1,11 +1,14 @@
 """PVTU: the pieces in its folder, merged without ghost cells, and written again."""
 
 import os
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.cli.main import main
 from hexmend.errors import FileError
 from hexmend.io.files import remove
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
@@ -230,6 +233,34 @@ def test_a_file_that_was_renamed_keeps_its_pieces(tmp_path):
         io.write(tmp_path / "a.pvtu", grid(3))
     assert io.read(tmp_path / "b.pvtu").n_hexes == 8
     assert len(list((tmp_path / "a").iterdir())) == 2
+
+
+def test_pieces_that_a_copy_of_the_file_names_stay(tmp_path):
+    io.write(tmp_path / "a.pvtu", grid(2))
+    (tmp_path / "b.pvtu").write_bytes((tmp_path / "a.pvtu").read_bytes())
+    io.write(tmp_path / "a.pvtu", grid(3))
+    assert io.read(tmp_path / "b.pvtu").n_hexes == 8
+
+
+def test_pieces_of_other_programs_stay_whatever_their_names(tmp_path):
+    io.write(tmp_path / "a.pvtu", grid(2))
+    text = (tmp_path / "a.pvtu").read_text()
+    (tmp_path / "a.pvtu").write_text(re.sub("<!--.*-->", "", text))  # as another program writes it
+    io.write(tmp_path / "a.pvtu", grid(3))
+    assert io.read(tmp_path / "a" / "a_0.vtu").n_hexes == 8
+
+
+def test_a_piece_is_no_place_for_the_result_of_its_file_and_the_file_none_for_that_of_its_piece(tmp_path, capsys):
+    io.write(tmp_path / "a.pvtu", grid(2))
+    whole, piece = str(tmp_path / "a.pvtu"), str(tmp_path / "a" / "a_0.vtu")
+    before = [Path(path).read_bytes() for path in (whole, piece)]
+    assert main(["smooth", piece, "-o", whole]) == 3
+    assert "a.pvtu: includes a_0.vtu, the given mesh. Choose another name." in capsys.readouterr().err
+    assert main(["smooth", whole, "-o", piece]) == 3
+    assert "a_0.vtu: is included by a.pvtu. Choose another name." in capsys.readouterr().err
+    assert [Path(path).read_bytes() for path in (whole, piece)] == before
+    assert main(["smooth", whole, "-o", whole, "--max-iterations", "1"]) == 0
+    assert io.read(whole).n_hexes == 8
 
 
 def test_a_file_that_cannot_be_written_leaves_no_pieces(tmp_path, monkeypatch):

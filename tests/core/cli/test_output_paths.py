@@ -1,0 +1,98 @@
+"""Files to write that are none: folders, links to themselves, pipes, empty names; and streams that are closed."""
+
+import os
+import shlex
+import subprocess
+import sys
+
+import pytest
+
+from hexmend import io
+from hexmend.cli.main import main
+from tests.core.grids import grid
+
+
+@pytest.fixture
+def mesh(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    io.write("mesh.vtu", grid(2))
+    return "mesh.vtu"
+
+
+WRITING = {
+    "smooth": ["smooth", "mesh.vtu", "-o"],
+    "pad": ["pad", "mesh.vtu", "-o"],
+    "repair": ["repair", "mesh.vtu", "-o"],
+    "gallery": ["gallery", "cube", "--size", "8", "-o"],
+    "report of a run": ["smooth", "mesh.vtu", "-o", "out.vtu", "--json"],
+}
+
+
+@pytest.mark.parametrize("words", WRITING.values(), ids=WRITING)
+def test_a_folder_cannot_be_written(words, mesh, capsys):
+    assert main([*words, "."]) == 3
+    assert capsys.readouterr().err.startswith("hexmend: .: is a folder: expected the name of a file to write.")
+    assert os.listdir() == [mesh]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows lets few users make links")
+@pytest.mark.parametrize("words", WRITING.values(), ids=WRITING)
+def test_a_link_to_itself_cannot_be_written(words, mesh, capsys):
+    os.symlink("loop.vtu", "loop.vtu")
+    assert main([*words, "loop.vtu"]) == 3
+    assert "loop.vtu: is a link to itself. Remove it, or choose another name." in capsys.readouterr().err
+    assert sorted(os.listdir()) == ["loop.vtu", mesh]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows lets few users make links")
+def test_a_link_to_itself_cannot_be_read(mesh, capsys):
+    os.symlink("loop.vtu", "loop.vtu")
+    assert main(["smooth", "loop.vtu", "-o", "out.vtu"]) == 3
+    assert "loop.vtu: is a link to a file that does not exist." in capsys.readouterr().err
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names on this system")
+@pytest.mark.parametrize("words", WRITING.values(), ids=WRITING)
+def test_a_named_pipe_is_not_waited_for(words, mesh):
+    os.mkfifo("pipe.vtu")
+    done = run(shlex.join([*words, "pipe.vtu"]))
+    assert done.returncode == 3
+    assert "pipe.vtu: is a named pipe: expected the name of a file to write." in done.stderr
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/stdout"), reason="there is no /dev/stdout on this system")
+def test_a_report_is_written_to_a_pipe_of_the_shell(mesh):
+    done = run("smooth mesh.vtu -o out.vtu --json /dev/stderr 2>&1 >/dev/null | cat")
+    assert '"method": "mend"' in done.stdout
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["info", ""],
+        ["smooth", "mesh.vtu", "-o", ""],
+        ["smooth", "mesh.vtu", "-o", "out.vtu", "--recipe", ""],
+        ["smooth", "mesh.vtu", "-o", "out.vtu", "--fix", ""],
+        ["study", "recipe.toml", "mesh.vtu", "--scheduler", ""],
+    ],
+)
+def test_empty_words_are_refused(words, mesh, capsys):
+    assert main(words) == 2
+    assert "is empty: expected a value." in capsys.readouterr().err
+    assert os.listdir() == [mesh]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the shell of Windows does not close streams")
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_a_command_works_without_the_streams_that_are_closed(closed, mesh):
+    done = run(f"smooth mesh.vtu -o out.vtu {closed}")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert io.read("out.vtu").n_hexes == 8
+    assert run(f"info mesh.vtu {closed}").returncode == 0
+    assert run(f"info missing.vtu {closed}").returncode == 3
+
+
+def run(words):
+    return subprocess.run(
+        f"{shlex.quote(sys.executable)} -m hexmend {words}", shell=True, capture_output=True, text=True, timeout=100
+    )
