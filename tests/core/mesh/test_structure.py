@@ -30,7 +30,7 @@ def tetrahedron():
     points = np.array([corners[sorted(place)].mean(axis=0) for place in _PLACES])
     hexes = []
     for a in range(4):
-        b, c, d = (k for k in range(4) if k != a)
+        b, c, d = sorted((k for k in range(4) if k != a), reverse=a % 2 == 1)  # right-handed
         sets = ({a}, {a, b}, {a, b, c}, {a, c}, {a, d}, {a, b, d}, {0, 1, 2, 3}, {a, c, d})
         hexes.append([_PLACES.index(place) for place in sets])
     return Mesh(points, hexes)
