@@ -5,9 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
+from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import declared
+from hexmend.quality import ElementQuality, locked_hexes
+from hexmend.quality.file_ids import hex_ids, with_ids
 from hexmend.run.recipe import Stage
 from hexmend.terminal_text import count_phrase
+
+#: Invalid hexes that a message names.
+_NAMED = 8
 
 
 def describe_change(old: Stage, new: Stage) -> str:
@@ -42,6 +50,24 @@ def invalid_phrase(inverted: int, invalid: int) -> str:
         return f"{count_phrase(between, 'hex', 'hexes')} still invalid inside"
     more = f" and {between:,} invalid inside" if between else ""
     return f"{count_phrase(inverted, 'hex', 'hexes')} still inverted{more}"
+
+
+def name_invalid(mesh: Mesh, quality: ElementQuality) -> str:
+    """Name the invalid hexes of a mesh, and say how many of them fixed nodes lock; "" where there are none.
+
+    >>> from hexmend.gallery import make
+    >>> from hexmend.quality import measure
+    >>> mesh = make("cube", size=8)
+    >>> name_invalid(mesh, measure(mesh.points, mesh.hexes))
+    ''
+    """
+    hexes = np.flatnonzero(quality.invalid)
+    if not hexes.size:
+        return ""
+    more = f" and {hexes.size - _NAMED:,} more" if hexes.size > _NAMED else ""
+    locked = int(np.count_nonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)))
+    why = f"; fixed nodes keep {count_phrase(locked, 'hex', 'hexes')} inverted" if locked else ""
+    return f"Invalid: {with_ids(hexes[:_NAMED].tolist(), hex_ids(mesh))}{more}{why}."
 
 
 def kept_message(number: int) -> str:

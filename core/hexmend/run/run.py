@@ -19,7 +19,7 @@ from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
 from hexmend.quality.material_volumes import MaterialVolume, volume_changes
 from hexmend.run.interface_messages import interface_message
-from hexmend.run.messages import describe_change, invalid_phrase, kept_message
+from hexmend.run.messages import describe_change, invalid_phrase, kept_message, name_invalid
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.shape_watch import ShapeWatch
 from hexmend.run.stage_run import StageRun
@@ -223,7 +223,9 @@ class Run(Iterator[Iteration]):
         words.append(describe_regressions(before, after, target_q))
         if not invalid:
             words.append(self.stage.smoother.regression_hint(regressions(before, after, target_q)))
-        elif overlapping := PROBLEMS["overlapping-corners"].find(self.mesh):
+        else:
+            words.append(name_invalid(self.mesh.with_points(self.best.points), self.best.quality))
+        if invalid and (overlapping := PROBLEMS["overlapping-corners"].find(self.mesh)):
             words.append(overlapping.message)
         result = None if self.outcome is None else self._result_mesh
         words.append(self._shapes.message(self.stage.smoother, walls, result))

@@ -15,7 +15,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import descend
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.floors.region import Region
-from hexmend.quality import ElementQuality, measure
+from hexmend.quality import ElementQuality, locked_hexes, measure
 from hexmend.smoothers.mend.newton_steps import NEWTON, SEARCH
 
 
@@ -86,8 +86,18 @@ def certify_hexes(
 
 
 def curable_hexes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
-    """Mark the hexes that are invalid between positive corners and have a free node, (m,) bool."""
-    return quality.invalid & ~quality.inverted & mesh.free[mesh.hexes].any(axis=1)
+    """Mark the invalid hexes that can become valid, (m,) bool.
+
+    They have a free node, and no corner that fixed nodes lock in inversion. Of hexes that overlap at a node wherever it
+    is, the worst stays invalid.
+    """
+    locked = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)
+    curable = quality.invalid & ~locked & mesh.free[mesh.hexes].any(axis=1)
+    overlapping = mesh.topology.overlapping_corners
+    for node in np.flatnonzero(np.diff(overlapping.start)):
+        hexes = np.unique(overlapping[node] // 8)
+        curable[hexes[quality.scaled_jacobian[hexes].argmin()]] = False
+    return curable
 
 
 class _Certification:

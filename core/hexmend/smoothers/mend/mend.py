@@ -11,7 +11,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend.quality.corner_heights import least_heights
 from hexmend.quality.regressions import WORSE_BY
-from hexmend.smoothers.base import Steps, method, objective_of_sound
+from hexmend.smoothers.base import Steps, method, objective_of_sound, rank_by_validity
 from hexmend.smoothers.mend.balance import BALANCE
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.stages import Stages
@@ -43,7 +43,7 @@ class Mend(MendSettings):
     def rank_on(self, ranks: Ranks, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
-        Invalid hexes come first, then inverted ones, then whether a guarded figure is lower than at the start, then
+        `rank_by_validity` comes first, then whether a guarded figure is lower than at the start, then
         whether the objective of the sound hexes, with the highest p that was asked for, is higher. With a target a fall
         counts from `BalanceConfig.target_fall` on: as given, a mesh may have better corners than hexes of the lengths
         that are asked for. The goal balanced guards the figures of all hexes but those that are inverted at the start
@@ -61,7 +61,7 @@ class Mend(MendSettings):
         tuple of float
             The same on all ranks.
         """
-        counts = ranks.sum(now.n_invalid), ranks.sum(now.n_inverted)
+        counts = rank_by_validity(start, now, ranks)
         if self.balances:
             return *counts, self._lowers(ranks, start, now)
         share = 1 - BALANCE.target_fall if now.against_target and not self.guard else 1.0

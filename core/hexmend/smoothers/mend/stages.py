@@ -43,8 +43,9 @@ class Stages(MaxMinStages):
         energy = self._energy(mesh, self.settings.first_norm_on(mesh))
         steps = self._shape(mesh, energy, intermediate or mesh.linear_motion is not None)
         del energy  # large meshes have no memory for what is no longer needed
-        shape = yield from steps
+        shape = yield from steps if intermediate else until_valid(steps, mesh)
         if not intermediate:
+            yield from self._certify(mesh, shape.points, None, None)
             return shape.outcome
         sliding = None
         kept = None  # quality of the result with the boundary fixed, which is that of the run until sliding is better
@@ -144,6 +145,18 @@ class Stages(MaxMinStages):
             if not curable_hexes(around.mesh, measure(points, mesh.hexes)).any():
                 break
         return points
+
+
+def until_valid(steps: Generator[Step, None, T], mesh: Mesh) -> Generator[Step, None, T]:
+    """Yield steps, as intermediate ones while hexes are invalid that can become valid: these are made so afterwards."""
+    while True:
+        try:
+            step = next(steps)
+        except StopIteration as end:
+            return end.value
+        quality = step.quality if step.quality is not None else measure(step.points, mesh.hexes)
+        curable = not step.intermediate and curable_hexes(mesh, quality).any()
+        yield replace(step, quality=quality, intermediate=step.intermediate or bool(curable))
 
 
 def _is_lower(now: ElementQuality, kept: ElementQuality) -> bool:

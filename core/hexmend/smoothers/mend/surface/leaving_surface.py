@@ -138,8 +138,9 @@ class LeavingSurface:
         """
         around, width = self.boundary(result), 0.0 if result is None else self._width(result)
         freed = np.flatnonzero(nodes & around.leavable)
-        if self._tolerance > 0 and freed.size:
-            for limit in sorted({max(limit, width) for limit in self._limits}):
+        limits = sorted({max(limit, width) for limit in self._limits}) if self._tolerance > 0 else []
+        for limit in limits:
+            if freed.size or limit > width:
                 yield around.without_nodes(freed, limit), limit
 
     def deviation(self, points: np.ndarray) -> float:
