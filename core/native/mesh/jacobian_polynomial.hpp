@@ -69,7 +69,7 @@ template <class T, int d> struct JacobianPolynomial {
             for (int j = 0; j < n; ++j)
                 for (int k = 0; k < n; ++k)
                     coefficients.at[i][j][k] *= 1 / (binomial(n - 1, i) * binomial(n - 1, j) * binomial(n - 1, k));
-        size = (d * d * d) * sqrt(longest[0] * longest[1] * longest[2]);
+        size = (d * d * d) * (sqrt(longest[0]) * sqrt(longest[1]) * sqrt(longest[2]));  // no overflow of the squares
     }
 };
 
