@@ -176,6 +176,18 @@ def test_a_hex_with_positive_corners_may_be_invalid_inside():
     assert least_jacobian(points, hexes) < 0
 
 
+@pytest.mark.parametrize("stretch", [1.5, 2.0, 3.0])
+def test_a_hex_whose_upper_face_is_turned_by_180_degrees_and_stretched_is_invalid_at_half_its_height(stretch):
+    """The layer at z has the map (1 - z) I + z diag(-s, -1/s), of determinant 1 - (2 + s + 1/s) z (1 - z)."""
+    x = UNIT_CUBE.copy()
+    x[4:, :2] *= [-stretch, -1 / stretch]
+    least = 1 - (2 + stretch + 1 / stretch) / 4
+    points, hexes = separate([x])
+    assert corner_determinants(points, hexes).min() == pytest.approx(1)
+    assert certify(points, hexes)[0] == Validity.INVALID_INSIDE
+    np.testing.assert_allclose(jacobian_bounds(points, hexes), [[least, 1]], rtol=0.01, atol=1e-7)
+
+
 def test_middles_of_edges_and_faces_do_not_show_every_invalid_hex():
     values, _ = values_on_grid(BETWEEN[None], 2)
     assert values.min() > 0
