@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "mesh/hexahedron.hpp"
 
@@ -116,6 +117,14 @@ template <int n> struct Box {
                 }
             }
         return part;
+    }
+
+    // Add its eight halves along all axes to `parts`.
+    void halve(std::vector<Box> &parts) const {
+        for (int part = 0; part < 8; ++part) {
+            parts.push_back(half(0, part & 1).half(1, part & 2).half(2, part & 4));
+            ++parts.back().level;
+        }
     }
 };
 

@@ -260,3 +260,11 @@ def test_the_field_of_a_hex_is_the_determinant_at_each_point():
     positions, determinants = jacobian_field(BETWEEN.astype(float), 4)
     np.testing.assert_allclose(determinants, values_on_grid(BETWEEN[None], 4)[0][0], rtol=1e-12, atol=1e-12)
     np.testing.assert_array_equal(positions[4, 0, 4], BETWEEN[5])
+
+
+def test_bounds_do_not_depend_on_the_corner_that_is_the_first():
+    points, hexes = separate(random_hexes(5000, 17, 28))
+    bounds = jacobian_bounds(points, hexes)
+    scale = np.abs(bounds).max(axis=1, keepdims=True)
+    for turned in rotations():
+        assert (np.abs(jacobian_bounds(points, np.ascontiguousarray(hexes[:, turned])) - bounds) <= 1e-12 * scale).all()

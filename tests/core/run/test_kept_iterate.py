@@ -200,7 +200,7 @@ def test_smooth_and_compare_tell_other_programs(bridge, tmp_path, capsys, words)
     (row,) = json.loads((tmp_path / "tables/comparison.json").read_text())["rows"]
     assert row["worse"] == fallen
     said = capsys.readouterr().out
-    assert ("Worse than before: laplacian (inverted, q min, scaled Jacobian min)." in said) == bool(words)
+    assert ("Worse than before: laplacian (inverted, invalid, q min, scaled Jacobian min)." in said) == bool(words)
 
 
 @pytest.mark.parametrize("words", [[], ["--keep-last"]])
