@@ -81,7 +81,9 @@ def solvers() -> str:
             for one in solver.checks
         )
         head = ("check", "limit", "unit", "beyond it", "definition", "source")
-        parts.append(f"## {solver.title}\n`--for {solver.name}`. {solver.tests_validity} {solver.omitted}\n\n{table(head, rows)}")
+        parts.append(
+            f"## {solver.title}\n`--for {solver.name}`. {solver.tests_validity} {solver.omitted}\n\n{table(head, rows)}"
+        )
     return "\n\n".join(parts)
 
 

@@ -8,7 +8,7 @@ Converged: in the last of 48 iterations no node moved further than 0.0001 mean e
 >>> print(advice.left)
 12 of 864 hexes are inverted. None was at the start.
 >>> print(advice.worse)
-Worse than at the start: inverted 0 → 12, q min 0.2522 → 0.1774, scaled Jacobian min 0.1625 → -0.8854.
+Worse than at the start: inverted 0 → 12, invalid 0 → 12, q min 0.2522 → 0.1774, scaled Jacobian min 0.1625 → -0.8854.
 >>> [suggestion.title for suggestion in advice.suggestions]
 ['Mend', 'Undo, then Smart Laplacian']
 """

@@ -25,7 +25,7 @@ _LEFT, _MESSAGE = "text-align: left", "max-width: 60em; margin: 0.3em 0"
 _QUIET = "opacity: 0.7; font-size: 90%"
 
 #: Figures with a small curve over the iterations.
-_LINES = ("q_min", "q_mean", "inverted", "objective")
+_LINES = ("q_min", "q_mean", "inverted", "invalid", "objective")
 
 
 def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:

@@ -16,7 +16,6 @@ import numpy as np
 from hexmend.kernels import validity as kernels
 from hexmend.mesh.second_order.curved_geometry import hex_nodes
 from hexmend.mesh.second_order.mid_nodes import NODE_POSITIONS
-from hexmend.mesh.second_order.shape_functions import lagrange
 from hexmend.mesh.validation import as_hexes, as_points
 
 #: Row of `NODE_POSITIONS` of each node of a lattice 3 x 3 x 3, x slowest and z fastest, as the kernels take them.
@@ -53,6 +52,11 @@ def certify(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None 
     (m,) uint8
         Numbers of `Validity`.
 
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type, and for a node that does not exist.
+
     Examples
     --------
     >>> from hexmend.mesh.hexahedron import UNIT_CUBE
@@ -72,7 +76,7 @@ def certify(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None 
 def jacobian_bounds(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None = None) -> np.ndarray:
     """Compute a lower bound of the least det J of each hex and an upper bound of the greatest.
 
-    Parameters are those of `certify`.
+    Parameters and errors are those of `certify`.
 
     Returns
     -------
@@ -99,7 +103,7 @@ def jacobian_bounds(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray
 def least_jacobian(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None = None) -> float:
     """Compute a lower bound of the least det J over the greatest of the same hex, of all hexes: from -1 to 1.
 
-    Parameters are those of `certify`. 1 for parallelepipeds; 0 or less if a hex is invalid.
+    Parameters and errors are those of `certify`. 1 for parallelepipeds; 0 or less if a hex is invalid.
     """
     points, hexes = _checked(points, hexes)
     if mid_nodes is None:
@@ -127,30 +131,26 @@ def jacobian_field(nodes: np.ndarray, divisions: int = 16) -> tuple[np.ndarray, 
     determinants : (d + 1, d + 1, d + 1) float64
         In the cube of the nodes' unit of length.
     """
-    line = np.linspace(0.0, 1.0, divisions + 1)
-    at = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    t = np.linspace(0.0, 1.0, divisions + 1)
     if len(nodes) == 27:
-        values, gradients = lagrange(at, NODE_POSITIONS)
+        values = np.column_stack([(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)])
+        slopes = np.column_stack([4 * t - 3, 4 - 8 * t, 4 * t - 1])
     else:
-        values, gradients = _trilinear(at)
-    determinants = np.linalg.det(np.einsum("gnd,nx->gdx", gradients, nodes))
-    shape = (divisions + 1,) * 3
-    return (values @ nodes).reshape(*shape, 3), determinants.reshape(shape)
+        values, slopes = np.column_stack([1 - t, t]), np.tile([-1.0, 1.0], (len(t), 1))
+    order = np.lexsort(NODE_POSITIONS[: len(nodes)].T[::-1])
+    lattice = nodes[order].reshape(*[values.shape[1]] * 3, 3)
+
+    def evaluate(*along: np.ndarray) -> np.ndarray:
+        return np.einsum("ia,jb,kc,abcx->ijkx", *along, lattice, optimize=True)
+
+    gradients = [evaluate(*(slopes if axis == other else values for other in range(3))) for axis in range(3)]
+    return evaluate(values, values, values), np.linalg.det(np.stack(gradients, axis=-2))
 
 
 def _checked(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Check the arguments of `certify`; raises `MeshError` for arrays of another shape or type."""
+    """Points and hexes as kernels take them; raises `MeshError`."""
     points = as_points(points)
     return points, as_hexes(hexes, len(points))
-
-
-def _trilinear(at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Shape functions of the eight corners, (k, 8), and their derivatives, (k, 8, 3), at points (k, 3)."""
-    upper = NODE_POSITIONS[:8] > 0
-    factors = np.where(upper, at[:, None], 1 - at[:, None])
-    slopes = np.where(upper, 1.0, -1.0)
-    gradients = [slopes[:, axis] * np.delete(factors, axis, axis=2).prod(axis=2) for axis in range(3)]
-    return factors.prod(axis=2), np.stack(gradients, axis=-1)
 
 
 def _second_order(mid_nodes: np.ndarray | None) -> list[np.ndarray]:

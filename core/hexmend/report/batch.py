@@ -83,32 +83,38 @@ def cases_table(study: Mapping[str, Any]) -> Table:
     head = ("", "results", "valid", "untangled", "worse", *quality, "s: median", "s in all", "peak MB")
     lines = [[case, *_line([row for row in study["rows"] if row["case"] == case])] for case in study["cases"]]
     notes = (
-        "Results: of how many tasks. Valid: results without an inverted hex. Untangled: of the results of meshes "
-        "that had inverted hexes. Worse: results with more inverted hexes, a lower q min or a lower minimum scaled "
-        "Jacobian than the mesh as given. A gain is after minus before.",
+        "Results: of how many tasks. Valid: results without an invalid hex. Untangled: of the results of meshes "
+        "that had invalid hexes. Worse: results with more inverted or invalid hexes, a lower q min or a lower minimum "
+        "scaled Jacobian than the mesh as given. A gain is after minus before.",
     )
     return Table(study["title"], head, lines, notes)
 
 
 def meshes_table(rows: Rows) -> Table:
-    """Make the table with a row for each mesh and its best case: fewest inverted hexes, then highest q min."""
-    head = ("", "hexes", "inverted", "q min", "valid", "best by", "inverted then", "q min then", "sc. Jacobian then")
+    """Make the table with a row for each mesh and its best case: fewest invalid hexes, then highest q min."""
+    head = (
+        *("", "hexes", "inverted", "invalid", "q min", "valid"),
+        *("best by", "inverted then", "invalid then", "q min then", "sc. Jacobian then"),
+    )
     lines, names = [], mesh_names(rows)
     for mesh in dict.fromkeys(row["mesh"] for row in rows):
         mine = [row for row in rows if row["mesh"] == mesh]
         done = [row for row in mine if row["status"] == "done"]
         known = next((row for row in mine if row["hexes"] is not None), None)
-        best = min(done, key=lambda row: (row["inverted_after"], -row["q_min_after"]), default=None)
-        given = _figures(known, "hexes", "inverted_before", "q_min_before")
-        then = _figures(best, "case", "inverted_after", "q_min_after", "scaled_jacobian_min_after")
-        valid = sum(not row["inverted_after"] for row in done)
+        best = min(done, key=lambda row: (row["invalid_after"], -row["q_min_after"]), default=None)
+        given = _figures(known, "hexes", "inverted_before", "invalid_before", "q_min_before")
+        then = _figures(
+            best, "case", *(f"{key}_after" for key in ("inverted", "invalid", "q_min", "scaled_jacobian_min"))
+        )
+        valid = sum(not row["invalid_after"] for row in done)
         lines.append([names[mesh], *given, f"{valid} of {len(mine)}", *then])
     return Table("The meshes", head, lines)
 
 
 def _figures(row: Mapping[str, Any] | None, *keys: str) -> list[str]:
     """Format counts and qualities of a row; a dash for each without a row."""
-    formats = {"case": str, "hexes": format_count, "inverted_before": format_count, "inverted_after": format_count}
+    counts = ("hexes", *(f"{key}_{when}" for key in ("inverted", "invalid") for when in ("before", "after")))
+    formats = {"case": str, **dict.fromkeys(counts, format_count)}
     return ["–" if row is None else formats.get(key, format_quality)(row[key]) for key in keys]
 
 
@@ -144,11 +150,11 @@ def mesh_names(rows: Rows) -> dict[str, str]:
 
 def _line(rows: Rows) -> list[str]:
     done = [row for row in rows if row["status"] == "done"]
-    valid = [row for row in done if not row["inverted_after"]]
-    inverted = [row for row in done if row["inverted_before"]]
+    valid = [row for row in done if not row["invalid_after"]]
+    invalid = [row for row in done if row["invalid_before"]]
     seconds = [row["seconds"] for row in done]
     peaks = [row["peak_mb"] for row in rows if row["peak_mb"] is not None]
-    untangled = f"{sum(bool(row['inverted_before']) for row in valid)} of {len(inverted)}"
+    untangled = f"{sum(bool(row['invalid_before']) for row in valid)} of {len(invalid)}"
     worse = sum(bool(row["worse"]) for row in done)
     cells = [f"{len(done)} of {len(rows)}", str(len(valid)), untangled, str(worse)]
     for key in ("q_min", "q_mean", "scaled_jacobian_min"):

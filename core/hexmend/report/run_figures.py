@@ -22,8 +22,9 @@ _DPI = 160.0
 #: Characters of the longest name in a legend.
 _MAX_LABEL = 24
 
-#: Figures that are drawn over the iterations.
-_DRAWN = ("q_min", "objective", "inverted")
+#: Figures that are drawn over the iterations, the counts from 0 on.
+_COUNTS = ("inverted", "invalid")
+_DRAWN = ("q_min", "objective", *_COUNTS)
 
 
 def write_distributions(path: Path, counts: Mapping[str, Sequence[int]], *, title: str, width_mm: float) -> None:
@@ -70,7 +71,7 @@ def write_convergence(
         For another suffix, and if matplotlib is not installed or the file cannot be written.
     """
     charts = [
-        DrawnChart(HISTORY[key].label, _curves(histories, key), key == "objective", key == "inverted")
+        DrawnChart(HISTORY[key].label, _curves(histories, key), key == "objective", key in _COUNTS)
         for key in _DRAWN
         if _has(histories, key)
     ]
@@ -97,4 +98,4 @@ def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> l
 def _has(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> bool:
     """Return False for a figure without information: an objective that is always infinite, a count always 0."""
     values = [row[key] for rows in histories.values() for row in rows]
-    return any(values) if key == "inverted" else any(value is not None for value in values)
+    return any(values) if key in _COUNTS else any(value is not None for value in values)

@@ -13,6 +13,7 @@ from hexmend.energy.target import node_sizes
 from hexmend.iteration import ActiveSet, Iteration, Outcome, StageResult, StoppingCriteria
 from hexmend.kernels import release_free_memory, return_freed_arrays
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.validation import points_like
 from hexmend.quality import ElementQuality, measure, measure_against_target
 from hexmend.run.recipe import Stage
@@ -139,7 +140,7 @@ class StageRun:
         seconds = self.last.seconds + perf_counter() - began
         before = self.current
         label = f"{self.smoother.name}: the points of a step"
-        points = as_immutable(points_like(step.points, before.points.shape, label))
+        points = self._moved(points_like(step.points, before.points.shape, label))
         move, size = self._sizes_of_moves(before.points, points)
         if not np.isfinite(move):
             self.end(Outcome.NOT_FINITE)
@@ -167,6 +168,14 @@ class StageRun:
         else:
             self._end_at_a_limit()
         return now
+
+    def _moved(self, points: np.ndarray) -> np.ndarray:
+        """Return points (n, 3) of a step, which moves corners, with the mid-nodes moved with the corners; immutable."""
+        mesh = self._mesh
+        if mesh.mid_nodes is not None:
+            with np.errstate(invalid="ignore"):  # points that are not finite end the run
+                points = move_mid_nodes(mesh.points, points, mesh.hexes, mesh.mid_nodes)
+        return as_immutable(points)
 
     def _sizes_of_moves(self, before: np.ndarray, after: np.ndarray) -> tuple[float, float]:
         """Return the longest move from points (n, 3) to others, and the largest as the limits measure it.

@@ -87,7 +87,7 @@ def compare(
     >>> [row.after.inverted > 0 for row in answer.rows]
     [True, False]
     >>> answer.rows[0].worse
-    ('inverted', 'q_min', 'scaled_jacobian')
+    ('inverted', 'invalid', 'q_min', 'scaled_jacobian')
     """
     stop = stop or StoppingCriteria()
     smoothers = [METHODS[method]() if isinstance(method, str) else method for method in methods]

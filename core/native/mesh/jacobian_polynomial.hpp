@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "mesh/hexahedron.hpp"
 
@@ -69,7 +70,7 @@ template <class T, int d> struct JacobianPolynomial {
             for (int j = 0; j < n; ++j)
                 for (int k = 0; k < n; ++k)
                     coefficients.at[i][j][k] *= 1 / (binomial(n - 1, i) * binomial(n - 1, j) * binomial(n - 1, k));
-        size = (d * d * d) * sqrt(longest[0] * longest[1] * longest[2]);
+        size = (d * d * d) * (sqrt(longest[0]) * sqrt(longest[1]) * sqrt(longest[2]));  // no overflow of the squares
     }
 };
 
@@ -116,6 +117,14 @@ template <int n> struct Box {
                 }
             }
         return part;
+    }
+
+    // Add its eight halves along all axes to `parts`.
+    void halve(std::vector<Box> &parts) const {
+        for (int part = 0; part < 8; ++part) {
+            parts.push_back(half(0, part & 1).half(1, part & 2).half(2, part & 4));
+            ++parts.back().level;
+        }
     }
 };
 

@@ -8,7 +8,8 @@ namespace {
 
 // Halvings of a hex along each axis after which it is undecided, and most boxes that are halved: where det J touches 0
 // along a line or a surface there would be any number of them.
-constexpr int MAX_LEVEL = 12, MAX_BOXES = 4096;
+constexpr int MAX_LEVEL = 12;
+constexpr std::size_t MAX_BOXES = 4096;
 // Rounding errors of coefficients, as a share of the product of the columns' lengths: some ten roundings.
 constexpr double ROUNDING = 16 * std::numeric_limits<double>::epsilon();
 // Shares of the extreme and of the greatest coefficient by which a bound may differ from the extreme.
@@ -49,43 +50,40 @@ template <int n, class T> Box<n> box(const Coefficients<T, n, n, n> &of, int lan
     return whole;
 }
 
-// Visit a hex's boxes depth first: accept(box) is true where a box needs no subdivision.
-template <int n, class Accept> void subdivide(const Box<n> &whole, const Accept &accept) {
-    std::vector<Box<n>> open{whole};
-    for (int boxes = 0; !open.empty(); ++boxes) {
-        Box<n> one = open.back();
-        open.pop_back();
-        if (accept(one, boxes >= MAX_BOXES || one.level >= MAX_LEVEL)) continue;
-        ++one.level;
-        for (int part = 0; part < 8; ++part) open.push_back(one.half(0, part & 1).half(1, part & 2).half(2, part & 4));
-    }
-}
-
 template <int n> Validity decide(const Box<n> &whole, double margin) {
     if (!whole.positive_at_corners()) return INVERTED;
     if (!whole.finite()) return UNDECIDED;
     Validity found = VALID;
-    subdivide(whole, [&](const Box<n> &box, bool last) {
-        if (found == INVALID_INSIDE || box.least() > margin) return true;
-        if (!box.positive_at_corners()) found = INVALID_INSIDE;
-        else if (last) found = UNDECIDED;
-        return last || found == INVALID_INSIDE;
-    });
+    std::vector<Box<n>> open{whole};  // depth first
+    for (std::size_t boxes = 0; !open.empty(); ++boxes) {
+        Box<n> box = open.back();
+        open.pop_back();
+        if (box.least() > margin) continue;
+        if (!box.positive_at_corners()) return INVALID_INSIDE;
+        if (boxes >= MAX_BOXES || box.level >= MAX_LEVEL) found = UNDECIDED;
+        else box.halve(open);
+    }
     return found;
 }
 
-// A lower bound of the least value.
+// A lower bound of the least value. All boxes of a level are compared with the same value, so that the bound does not
+// depend on the corner at which the numbering of the hex begins.
 template <int n> double least_value(const Box<n> &whole) {
     double scale = 0, bound = INF, value = INF;  // a value that is taken, which the least is no greater than
     for (double c : whole.coefficients) scale = std::max(scale, std::abs(c));
     if (!whole.finite()) return -INF;
-    subdivide(whole, [&](const Box<n> &box, bool last) {
-        double least = box.least();
-        value = std::min(value, box.least_at_corners());
-        if (!last && least < value - std::max(BOUND_SHARE * std::abs(value), BOUND_SCALE * scale)) return false;
-        bound = std::min(bound, least);
-        return true;
-    });
+    std::vector<Box<n>> open{whole}, halved;
+    for (int level = 0; !open.empty(); ++level) {
+        for (const auto &box : open) value = std::min(value, box.least_at_corners());
+        double near = value - std::max(BOUND_SHARE * std::abs(value), BOUND_SCALE * scale);
+        bool last = level == MAX_LEVEL || open.size() > MAX_BOXES;
+        halved.clear();
+        for (const auto &box : open) {
+            if (last || box.least() >= near) bound = std::min(bound, box.least());
+            else box.halve(halved);
+        }
+        open.swap(halved);
+    }
     return bound;
 }
 

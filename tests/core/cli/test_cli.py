@@ -13,8 +13,8 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, metric_statistics, summarise
 
 SUMMARY = [
-    "hexes", "nodes", "free_nodes", "inverted", "locked_inverted", "q_min", "q_mean", "q_max", "q_std", "q_norm",
-    "scaled_jacobian_min", "objective",
+    "hexes", "nodes", "free_nodes", "inverted", "locked_inverted", "invalid", "min_jacobian", "q_min", "q_mean",
+    "q_max", "q_std", "q_norm", "scaled_jacobian_min", "objective",
 ]  # fmt: skip
 
 

@@ -27,10 +27,8 @@ def ended(path, mesh, capsys, *words):
 def test_a_good_mesh_is_fit(tmp_path, capsys):
     path = tmp_path / "cube.vtu"
     line, record = ended(path, gallery.make("cube", size=8), capsys)
-    assert (
-        line
-        == f"Fit for solving: no hex is inverted or has a scaled Jacobian below 0.2. Next: hexmend {quote(str(path))}"
-    )
+    fit = "Fit for solving: no hex is invalid or has a scaled Jacobian below 0.2."
+    assert line == f"{fit} Next: hexmend {quote(str(path))}"
     assert record["fit"] is True
 
 
@@ -72,11 +70,11 @@ def test_parts_that_are_not_connected_may_be_meant_so(tmp_path, capsys):
     mesh = gallery.make("cube", size=8)
     two = Mesh(np.vstack([mesh.points, mesh.points + [5, 0, 0]]), np.vstack([mesh.hexes, mesh.hexes + mesh.n_nodes]))
     line, record = ended(tmp_path / "assembly.vtu", two, capsys)
-    assert line.startswith("Fit for solving, if its parts need not be connected: no hex is inverted")
+    assert line.startswith("Fit for solving, if its parts need not be connected: no hex is invalid")
     assert record["fit"] is True
 
 
-def test_hexes_that_are_inverted_between_their_corners_are_not_fit(tmp_path, capsys):
+def test_hexes_that_are_invalid_between_their_corners_are_not_fit(tmp_path, capsys):
     path, out, repaired = tmp_path / "bent.vtu", tmp_path / "out.vtu", tmp_path / "repaired.vtu"
     line, record = ended(path, bent(inside=True), capsys)
     assert line == f"To be repaired before solving: mid nodes. Next: hexmend repair {quote(str(path))} -o OUT"
@@ -88,4 +86,4 @@ def test_hexes_that_are_inverted_between_their_corners_are_not_fit(tmp_path, cap
     assert main(["repair", str(out), "-o", str(repaired), "--only", "mid-nodes"]) == 0
     assert main(["smooth", str(repaired), "-o", str(out)]) == 0
     line, record = ended(tmp_path / "edge.vtu", bent(inside=False), capsys)
-    assert line.startswith("Not fit for solving: of the hexes of second order 1 of 8 have a Jacobian that is not posit")
+    assert line.startswith("Not fit for solving: of the hexes of second order 1 of 8 are invalid")

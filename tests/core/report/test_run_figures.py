@@ -7,9 +7,11 @@ import pytest
 from hexmend.report.run_figures import write_convergence, write_distributions
 
 ROWS = [
-    {"iteration": k, "q_min": 0.1 * k, "objective": None if k == 0 else 9.0 / k, "inverted": 3 - k} for k in range(4)
+    {"iteration": k, "q_min": 0.1 * k, "objective": None if k == 0 else 9.0 / k, "inverted": 3 - k, "invalid": 4 - k}
+    for k in range(4)
 ]
-SOUND = [row | {"inverted": 0} for row in ROWS]
+INVALID = [row | {"inverted": 0} for row in ROWS]
+VALID = [row | {"inverted": 0, "invalid": 0} for row in ROWS]
 
 
 def draw(path, name, width=120.0, rows=ROWS):
@@ -35,7 +37,7 @@ def test_names_from_files_are_plain_text(tmp_path, stem, name):
 
 def test_a_count_that_is_always_0_is_left_out(tmp_path):
     heights = []
-    for rows in (ROWS, SOUND):
+    for rows in (ROWS, INVALID, VALID):
         root = ET.parse(draw(tmp_path / "convergence.svg", "mend", rows=rows)).getroot()
         heights.append(float(root.get("height").removesuffix("pt")))
-    assert heights[0] > heights[1]
+    assert heights[0] > heights[1] > heights[2]

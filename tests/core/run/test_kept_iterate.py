@@ -55,11 +55,12 @@ def meshes():
 @pytest.mark.parametrize("name", METHODS)
 @settings(max_examples=8)
 @given(mesh=meshes(), most=st.integers(0, 12))
-def test_no_method_ends_with_more_inverted_hexes_or_a_lower_q_min(name, mesh, most):
+def test_no_method_ends_with_more_invalid_hexes_or_a_lower_q_min(name, mesh, most):
     result = smooth(mesh, name, StoppingCriteria(max_iterations=most))
     before, after = result.before, result.after
-    assert after.inverted <= before.inverted
-    if name != "mend" and after.inverted == before.inverted:
+    bad_before, bad_after = ((one.invalid, one.inverted) for one in (before, after))
+    assert bad_after <= bad_before
+    if name != "mend" and bad_after == bad_before:
         assert after.q_min >= before.q_min - (SLACK if METHODS[name].optimises else 0)
 
 
@@ -68,7 +69,7 @@ def test_no_method_ends_with_more_inverted_hexes_or_a_lower_q_min(name, mesh, mo
 @given(mesh=meshes())
 def test_a_method_without_an_objective_keeps_its_best_iterate_of_equals_the_last(name, mesh):
     result = smooth(mesh, name, SHORT)
-    ranks = [(row["inverted"], -row["q_min"]) for row in result.history]
+    ranks = [(row["invalid"], row["inverted"], -row["q_min"]) for row in result.history]
     assert ranks[result.kept] == min(ranks)
     assert min(ranks) not in ranks[result.kept + 1 :]
 
@@ -80,7 +81,7 @@ def test_a_method_without_an_objective_keeps_its_best_iterate_of_equals_the_last
 def test_an_optimiser_keeps_its_last_iterate_unless_that_is_worse(name, mesh):
     result = smooth(mesh, name, SHORT)
     first = result.history[0]
-    ranks = [(row["inverted"], row["q_min"] < first["q_min"] - SLACK) for row in result.history]
+    ranks = [(row["invalid"], row["inverted"], row["q_min"] < first["q_min"] - SLACK) for row in result.history]
     assert ranks[result.kept] == min(ranks)
     assert min(ranks) not in ranks[result.kept + 1 :]
 
@@ -94,6 +95,7 @@ def test_worse_tells_exactly_what_is_worse(name, stop, mesh):
     before, after = measure(mesh.points, mesh.hexes), measure(result.mesh.points, mesh.hexes)
     rise = {
         "inverted": before.n_inverted - after.n_inverted,
+        "invalid": before.n_invalid - after.n_invalid,
         "q_min": after.q.min() - before.q.min(),
         "scaled_jacobian": after.scaled_jacobian.min() - before.scaled_jacobian.min(),
     }
@@ -192,13 +194,13 @@ def test_smooth_and_compare_tell_other_programs(bridge, tmp_path, capsys, words)
     status = main(["smooth", paths["bridge.vtu"], "-o", paths["out.vtu"], "--json", paths["report.json"],
                    "--method", "laplacian", *words])  # fmt: skip
     assert status == (4 if words else 0)
-    fallen = ["inverted", "q_min", "scaled_jacobian"] if words else []
+    fallen = ["inverted", "invalid", "q_min", "scaled_jacobian"] if words else []
     assert json.loads((tmp_path / "report.json").read_text())["worse"] == fallen
     assert main(["compare", paths["bridge.vtu"], "-o", paths["tables"], "--methods", "laplacian", *words]) == 0
     (row,) = json.loads((tmp_path / "tables/comparison.json").read_text())["rows"]
     assert row["worse"] == fallen
     said = capsys.readouterr().out
-    assert ("Worse than before: laplacian (inverted, q min, scaled Jacobian min)." in said) == bool(words)
+    assert ("Worse than before: laplacian (inverted, invalid, q min, scaled Jacobian min)." in said) == bool(words)
 
 
 @pytest.mark.parametrize("words", [[], ["--keep-last"]])

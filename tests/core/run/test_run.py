@@ -37,7 +37,7 @@ def test_history_has_a_row_an_iteration_and_one_before(mesh):
     assert seconds == sorted(seconds)
     assert result.seconds == seconds[-1]
     assert "Converged" in result.message
-    assert "no hex is inverted" in result.message
+    assert "no hex is invalid" in result.message
 
 
 @pytest.mark.parametrize("most", [0, 1, 4])
@@ -181,7 +181,9 @@ def test_a_step_that_is_no_number_ends_the_run_and_the_last_good_one_is_kept():
     assert "not finite" in result.message
 
 
-@pytest.mark.parametrize(("inverted", "said"), [(0, "no hex is"), (1, "1 hex still"), (2, "2 hexes still")])
+@pytest.mark.parametrize(
+    ("inverted", "said"), [(0, "no hex is invalid"), (1, "1 hex still inverted"), (2, "2 hexes still inverted")]
+)
 def test_the_message_counts_iterations_and_inverted_hexes(inverted, said):
     """Corners of the solid, whose nodes are all fixed, are pushed in."""
     mesh = make("cube", size=64)
@@ -189,7 +191,7 @@ def test_the_message_counts_iterations_and_inverted_hexes(inverted, said):
     ends = [int((sign * points.sum(axis=1)).argmax()) for sign in (1, -1)][:inverted]
     points[ends] += 0.7 * (points.mean(axis=0) - points[ends])
     run = iterate(mesh.with_points(points), "laplacian", StoppingCriteria(max_iterations=2, tolerance=0))
-    assert f"{said} inverted" in run.message
+    assert said in run.message
     assert "moved nodes" not in run.message
     assert run.message.startswith("Running. 0 iterations in 0 s; ")
     next(run)

@@ -110,7 +110,7 @@ def test_the_page_names_failures_and_programs_that_are_not_installed(bench):
     text = (bench.out / "collection.md").read_text(encoding="utf-8")
     assert "| TMOP | not installed |" in text
     assert "Mesquite: msqshape: ShapeImprovementWrapper with its defaults. Not installed: there is no msqshape" in text
-    assert "| cube.mesh | hexsmoothing | – | – | – | – | – | – | – | failed: it does not like eight |" in text
+    assert "| cube.mesh | hexsmoothing | – | – | – | – | – | – | – | – | failed: it does not like eight |" in text
     torn = next(line for line in text.splitlines() if line.startswith("| torn.vtk | – "))
     assert "torn.vtk: " in torn
     html = (bench.out / "collection.html").read_text(encoding="utf-8")
@@ -146,11 +146,11 @@ def test_a_second_run_repeats_nothing_and_another_build_runs_again(bench, capsys
 OURS = Program("ours", "", own=True, shape=True)
 SLIDING = Program("sliding", "", own=True, slides=True)
 THEIRS = Program("theirs", "1.0", shape=True)
-GIVEN = MappingProxyType({"hexes": 8, "inverted_before": 0, "locked_inverted_before": 0, "q_min_before": 0.5,
+GIVEN = MappingProxyType({"hexes": 8, "inverted_before": 0, "locked_inverted_before": 0, "invalid_before": 0, "q_min_before": 0.5,
                           "q_mean_before": 0.8, "scaled_jacobian_min_before": 0.4,
                           "objective_p1_before": 12.0})  # fmt: skip
-RESULT = MappingProxyType({"mesh": "a.vtk", "status": "done", "reason": "", "inverted_after": 0, "q_min_after": 0.6,
-                           "q_mean_after": 0.9, "scaled_jacobian_min_after": 0.5, "objective_p1_after": 10.0,
+RESULT = MappingProxyType({"mesh": "a.vtk", "status": "done", "reason": "", "inverted_after": 0, "invalid_after": 0,
+                           "q_min_after": 0.6, "q_mean_after": 0.9, "scaled_jacobian_min_after": 0.5, "objective_p1_after": 10.0,
                            "boundary_distance": 0.0, "seconds": 1.0})  # fmt: skip
 
 
@@ -167,8 +167,10 @@ def recorded(*rows):
     ({}, {"scaled_jacobian_min_after": 0.7, "q_min_after": 0.61},
      "lower scaled Jacobian min: theirs 0.7000; lower q min: theirs 0.6100"),
     ({}, {"scaled_jacobian_min_after": 0.7, "boundary_distance": 1.0}, ""),  # it moved the boundary
-    ({}, {"scaled_jacobian_min_after": 0.7, "inverted_after": 1}, ""),  # it left a hex inverted
-    ({"inverted_after": 2}, {"inverted_after": 1}, "higher inverted: as given 0, theirs 1"),
+    ({}, {"scaled_jacobian_min_after": 0.7, "invalid_after": 1}, ""),  # it left a hex invalid
+    ({"inverted_after": 2, "invalid_after": 2}, {"inverted_after": 1, "invalid_after": 2},
+     "higher inverted: as given 0, theirs 1; higher invalid: as given 0"),
+    ({"invalid_after": 2}, {"invalid_after": 1}, "higher invalid: as given 0, theirs 1"),
     ({}, {"objective_p1_after": 9.9}, "higher Σ η: theirs 9.9"),
     ({}, {"objective_p1_after": 9.999999}, ""),
     ({}, {"scaled_jacobian_min_after": 0.7, "status": "failed"}, ""),
@@ -185,7 +187,7 @@ def test_a_sliding_boundary_is_compared_with_every_result():
 
 
 def test_programs_are_counted_against_the_first():
-    record = recorded((OURS, {}), (THEIRS, {"scaled_jacobian_min_after": 0.45, "inverted_before": 3}))
+    record = recorded((OURS, {}), (THEIRS, {"scaled_jacobian_min_after": 0.45, "invalid_before": 3}))
     (_, *ours), (_, *theirs) = programs_table(record).rows
     assert ours == ["1 of 1", "1", "0 of 0", "0.5000", "–", "–", "1"]
     assert theirs == ["1 of 1", "1", "1 of 1", "0.4500", "0 of 1", "1 of 1", "1"]

@@ -10,7 +10,7 @@ from typing import Any
 from hexmend.report.batch import mesh_names
 
 #: Figures of a mesh as given, in the rows of all programs, with the key that a result has.
-_GIVEN = ("inverted", "locked_inverted", "q_min", "q_mean", "scaled_jacobian_min", "objective_p1")
+_GIVEN = ("inverted", "locked_inverted", "invalid", "q_min", "q_mean", "scaled_jacobian_min", "objective_p1")
 
 #: Distance of a boundary, in per cent of the diagonal, up to which it counts as fixed.
 FIXED = 1e-4

@@ -11,6 +11,7 @@ from hexmend.report.collection.record import FIXED, CollectionRecord, Program
 #: Figures that are compared: key, label, whether higher is better, and format.
 _COMPARED = (
     ("inverted_after", "inverted", False, format_count),
+    ("invalid_after", "invalid", False, format_count),
     ("scaled_jacobian_min_after", "scaled Jacobian min", True, format_quality),
     ("q_min_after", "q min", True, format_quality),
     ("q_mean_after", "q mean", True, format_quality),
@@ -29,7 +30,7 @@ _OBJECTIVE_DIFFERENCE = 1e-6
 def remark(record: CollectionRecord, mesh: str, program: Program) -> str:
     """Describe the figures in which a result of Hexmend is worse.
 
-    It is compared with the mesh as given, and with results of other programs that leave no more inverted hexes and, for
+    It is compared with the mesh as given, and with results of other programs that leave no more invalid hexes and, for
     a fixed boundary, leave the boundary where it was.
 
     Parameters
@@ -67,7 +68,7 @@ def _comparable(
     yield "as given", record.given(mesh), False
     for other in record.run:
         row = record.result(mesh, other)
-        if other.own or row is None or row["inverted_after"] > ours["inverted_after"]:
+        if other.own or row is None or row["invalid_after"] > ours["invalid_after"]:
             continue
         if program.slides or row["boundary_distance"] <= FIXED:
             yield other.title, row, other.shape

@@ -43,8 +43,8 @@ def programs_table(record: CollectionRecord) -> Table:
     )
     lines = [_program_line(record, program) for program in record.programs]
     notes = [
-        "Results: of how many meshes. Valid: results without an inverted hex. Untangled: of the results of meshes "
-        "that had inverted hexes. Better and worse: meshes on which the minimum scaled Jacobian is higher, or lower, "
+        "Results: of how many meshes. Valid: results without an invalid hex. Untangled: of the results of meshes "
+        "that had invalid hexes. Better and worse: meshes on which the minimum scaled Jacobian is higher, or lower, "
         "than that of mend with a fixed boundary. Seconds: of whole processes, over all results."
     ]
     for program in record.programs:
@@ -57,8 +57,8 @@ def _program_line(record: CollectionRecord, program: Program) -> list[str]:
     if program.missing:
         return [program.title, "not installed", *[_NONE] * 6]
     done = {mesh: row for mesh in record.names if (row := record.result(mesh, program))}
-    valid = {mesh for mesh, row in done.items() if not row["inverted_after"]}
-    inverted = {mesh for mesh, row in done.items() if row["inverted_before"]}
+    valid = {mesh for mesh, row in done.items() if not row["invalid_after"]}
+    invalid = {mesh for mesh, row in done.items() if row["invalid_before"]}
     least = {mesh: row["scaled_jacobian_min_after"] for mesh, row in done.items()}
     ours = {mesh: row["scaled_jacobian_min_after"] for mesh in done if (row := record.result(mesh, record.programs[0]))}
     gains = [round(least[mesh], 4) - round(value, 4) for mesh, value in ours.items()]
@@ -67,7 +67,7 @@ def _program_line(record: CollectionRecord, program: Program) -> list[str]:
         program.title,
         f"{len(done)} of {len(record.names)}",
         str(len(valid)),
-        f"{len(valid & inverted)} of {len(inverted)}",
+        f"{len(valid & invalid)} of {len(invalid)}",
         format_quality(median(least.values())) if least else _NONE,
         f"{sum(gain > 0 for gain in gains)} of {len(gains)}" if other else _NONE,
         f"{sum(gain < 0 for gain in gains)} of {len(gains)}" if other else _NONE,
@@ -79,7 +79,7 @@ def meshes_table(record: CollectionRecord) -> Table:
     """Make the table with a row for each mesh: as given, the results of Hexmend, and those of other programs."""
     fixed, others = record.programs[0], [program for program in record.run if not program.own]
     sliding = [program for program in record.run if program.own and program.slides]
-    head = ["mesh", "hexes", "inverted", "locked", "sc. Jacobian min as given", fixed.title]
+    head = ["mesh", "hexes", "inverted", "locked", "invalid", "sc. Jacobian min as given", fixed.title]
     for program in sliding:
         head += [program.title, "distance, %"]
     head += ["q min", "q mean", "s", *(program.title for program in others), "worse with mend, fixed"]
@@ -95,10 +95,10 @@ def meshes_table(record: CollectionRecord) -> Table:
         line += [_jacobian(record.result(mesh, program), record.row(mesh, program)) for program in others]
         lines.append([*line, record.reason(mesh) or remark(record, mesh, fixed)])
     notes = (
-        "Columns with the name of a program: the minimum scaled Jacobian of its result, with the number of inverted "
+        "Columns with the name of a program: the minimum scaled Jacobian of its result, with the number of invalid "
         "hexes in brackets if there are any. Distance: of the boundary of the result of mend, slide from that of the "
         "mesh, in per cent of the diagonal. q min, q mean and seconds of mend, fixed. Worse: other programs with the "
-        "same boundary that leave no more inverted hexes, and the mesh as given, where they are better.",
+        "same boundary that leave no more invalid hexes, and the mesh as given, where they are better.",
     )
     return Table("Meshes", head, lines, notes)
 
@@ -122,7 +122,10 @@ def objective_table(record: CollectionRecord) -> Table:
 
 def figures_table(record: CollectionRecord) -> Table:
     """Make the table with a row for each mesh and program: all figures, the reason of a failure, and remarks."""
-    head = ("mesh", "program", "inverted", "sc. Jacobian min", "q min", "q mean", "Σ η", "distance, %", "s", "remark")
+    head = (
+        *("mesh", "program", "inverted", "invalid", "sc. Jacobian min", "q min", "q mean", "Σ η", "distance, %"),
+        *("s", "remark"),
+    )
     lines = []
     for mesh, name in record.names.items():
         lines.append([name, "as given", *_figures(record.given(mesh)), _NONE, record.reason(mesh)])
@@ -137,7 +140,7 @@ def figures_table(record: CollectionRecord) -> Table:
 
 def _figures(row: Mapping[str, Any]) -> list[str]:
     texts = {
-        "inverted_after": format_count,
+        **dict.fromkeys(("inverted_after", "invalid_after"), format_count),
         **dict.fromkeys(("scaled_jacobian_min_after", "q_min_after", "q_mean_after"), format_quality),
         "objective_p1_after": _digits,
         "boundary_distance": _distance,
@@ -151,15 +154,16 @@ def _number(row: Mapping[str, Any] | None, key: str, text: Any) -> str:
 
 
 def _counts(given: Mapping[str, Any]) -> list[str]:
-    return [_number(given, key, format_count) for key in ("hexes", "inverted_after", "locked_inverted_after")]
+    keys = ("hexes", "inverted_after", "locked_inverted_after", "invalid_after")
+    return [_number(given, key, format_count) for key in keys]
 
 
 def _jacobian(result: Mapping[str, Any] | None, row: Mapping[str, Any] | None = None) -> str:
-    """Format the minimum scaled Jacobian of a result, with its inverted hexes; for a failure its status."""
+    """Format the minimum scaled Jacobian of a result, with its invalid hexes; for a failure its status."""
     if not result:
         return row["status"] if row else _NONE
-    inverted = result["inverted_after"]
-    return f"{result['scaled_jacobian_min_after']:.4f}" + (f" ({inverted:,})" if inverted else "")
+    invalid = result["invalid_after"]
+    return f"{result['scaled_jacobian_min_after']:.4f}" + (f" ({invalid:,})" if invalid else "")
 
 
 def _digits(value: float) -> str:

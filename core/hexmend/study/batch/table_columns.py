@@ -8,10 +8,12 @@ from enum import StrEnum
 from math import isfinite
 from typing import Any
 
-from hexmend.quality.summary import SUMMARY_QUANTITIES
+from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary
 
 #: Figures of `Summary` that a run changes; the table has them before and after.
 CHANGED_FIGURES = tuple(key for key in SUMMARY_QUANTITIES if key not in ("hexes", "nodes", "free_nodes"))
+
+_TYPES = {key: int if field.type == "int" else float for key, field in Summary.__dataclass_fields__.items()}
 
 
 class Status(StrEnum):
@@ -37,7 +39,7 @@ class Column:
 
 def _figures(when: str, description: str) -> tuple[Column, ...]:
     return tuple(
-        Column(f"{key}_{when}", int if "inverted" in key else float, f"{label[:1].upper()}{label[1:]}, {description}.")
+        Column(f"{key}_{when}", _TYPES[key], f"{label[:1].upper()}{label[1:]}, {description}.")
         for key, label in ((key, SUMMARY_QUANTITIES[key].label) for key in CHANGED_FIGURES)
     ) + (Column(f"objective_p1_{when}", float, f"Objective with p = 1, Σ η, {description}."),)
 
@@ -71,7 +73,9 @@ ANSWER = (
         "Largest distance between the boundaries of the initial mesh and the result, in per cent of the diagonal of "
         "its bounding box; with a surface, between that and the result.",
     ),
-    Column("worse", str, "Quantities that became worse: inverted, q_min, scaled_jacobian, q_of_target, layers."),
+    Column(
+        "worse", str, "Quantities that became worse: inverted, invalid, q_min, scaled_jacobian, q_of_target, layers."
+    ),
     Column("outcome", str, "Reason for the end of the run, as in `smooth --json`."),
     Column("message", str, "The reason with its figures, in sentences."),
     Column("iterations", int, "Iterations until the run ended."),

@@ -12,8 +12,9 @@ import numpy as np
 from hexmend.energy import BlockSparsity, MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
 from hexmend.gallery.gallery_mesh import scramble_nodes
-from hexmend.kernels import elements, local, objective, scalar_reference, set_threads, threads
+from hexmend.kernels import elements, local, objective, scalar_reference, set_threads, threads, validity
 from hexmend.kernels.line_search import LineSearch
+from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.study.bench.section import BenchSection
 
@@ -39,6 +40,10 @@ def _kernels() -> dict[str, Any]:
     hessian, none = energy.hessian(x), energy.omitted
     gradient, shares, figures = energy.gradient(x), np.empty((m, 8, 3)), np.empty((4, m))
     matrix, right = hessian.assembled(), -gradient.ravel()
+    folded, codes = UNIT_CUBE.copy(), np.empty(m, np.uint8)
+    folded[4:, :2] *= [-2, -0.5]  # det J = 1 - 4.5 z (1 - z)
+    with_folded, some_folded = np.concatenate([x, folded]), hexes.copy()
+    some_folded[::100] = len(x) + np.arange(8)
     hex_mesh, colours = mesh.topology.hex_mesh, mesh.topology.colouring(mesh.free)
     settings = local.NodeStepSettings(
         local.Direction.STEEPEST_DESCENT, 0.0, ObjectiveNorm(), LineSearch(max_backtracks=60)
@@ -50,6 +55,8 @@ def _kernels() -> dict[str, Any]:
     # Name, call of the kernel and of the scalar loop, number of repetitions in a call.
     rows: list[tuple[str, Callable[[], Any], Callable[[], Any] | None, float]] = [
         ("quality", lambda: elements.measure(x, hexes, *figures), None, 1),
+        ("certificate, all valid", lambda: validity.certify(x, hexes, codes), None, 1),
+        ("certificate, 1 % invalid inside", lambda: validity.certify(with_folded, some_folded, codes), None, 1),
         *(
             (name, lambda call=call: call(objective), lambda call=call: call(scalar_reference), 1)
             for name, call in (

@@ -13,7 +13,7 @@ from hexmend.io import read, write
 from hexmend.mesh.mesh import Mesh
 from hexmend.study.peers.peer import Peer, run_program
 
-#: Exit statuses with a result: done, and done but with inverted hexes.
+#: Exit statuses with a result: done, and done but with invalid hexes.
 _ENDS = 0, 4
 
 

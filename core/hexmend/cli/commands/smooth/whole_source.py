@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend.arrays import as_immutable
 from hexmend.boundary import departures, surface_change
 from hexmend.cli.arguments.checks import check_memory
 from hexmend.cli.arguments.run_arguments import motion_rules, with_surface
@@ -121,9 +120,10 @@ def with_target(mesh: Mesh, method: Smoother) -> Mesh:
 def finish_alone(mesh: Mesh, points: np.ndarray, run: RankRun) -> StageRun:
     """Go on in one process from points (n, 3), where the ranks have left the minimum scaled Jacobian unsound."""
     print("hexmend: the minimum scaled Jacobian is not sound: rank 0 raises it alone", file=sys.stderr, flush=True)
-    quality = measure(points, mesh.hexes)
+    points = mesh.with_points(points).points
+    quality = measure(points, mesh.hexes, mesh.mid_nodes)
     judged = measure_against_target(mesh, points, quality)
-    start = Iteration(run.number, as_immutable(points), quality, run.seconds, 0.0, {}, run.smoother.norm, judged)
+    start = Iteration(run.number, points, quality, run.seconds, 0.0, {}, run.smoother.norm, judged)
     alone = StageRun(mesh, Stage(run.smoother, run.stop), 1, start, start)
     while alone.outcome is None:
         alone.advance()

@@ -1,0 +1,270 @@
+"""Validity of hexes, against subdivision in whole numbers of any length, and what must not change it."""
+
+from itertools import permutations, product
+
+import numpy as np
+import pytest
+
+from hexmend import kernels
+from hexmend.errors import MeshError
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.quality import corner_determinants, measure
+from hexmend.quality.validity import Validity, certify, jacobian_bounds, jacobian_field, least_jacobian
+
+CORNERS = UNIT_CUBE.astype(int)
+#: All corners are positive, and det J is negative within the edge of x = 1, z = 1, but not at its middle.
+BETWEEN = np.array([[0, 0, 1], [4, 0, 2], [3, 4, 0], [0, 5, -1], [0, -3, 4], [2, 2, 6], [5, 3, 3], [0, 5, 5]])
+#: det J is positive but at a third of an edge, where it is 0.
+TOUCHING = np.array([[1, 3, -3], [4, 1, 3], [2, 4, -2], [2, 5, -1], [3, 1, 4], [4, 2, 4], [6, 4, 2], [0, 5, 5]])
+
+#: Twice the Bernstein coefficients of a parabola from its values at 0, 1/2 and 1; four times those of its halves.
+TO_BERNSTEIN = np.array([[2, 0, 0], [-1, 4, -1], [0, 0, 2]])
+HALVES = np.array([[4, 0, 0], [2, 2, 0], [1, 2, 1]]), np.array([[1, 2, 1], [0, 2, 2], [0, 0, 4]])
+
+
+def along_axes(x, y, z):
+    """A matrix (27, 27) that applies three matrices (3, 3) along the axes of coefficients (27,)."""
+    return np.kron(np.kron(x, y), z).astype(object)
+
+
+PARTS = [along_axes(*axes) for axes in product(HALVES, repeat=3)]
+
+
+def coefficients(x):
+    """Bernstein coefficients (27,) of det J of a hex (8, 3) of whole numbers, times a power of two."""
+    values = []
+    for at in product((0, 1, 2), repeat=3):  # twice the coordinates
+        factors = np.where(CORNERS == 1, at, 2 - np.array(at))
+        columns = [[int(v) for v in (np.delete(factors, k, 1).prod(1) * (2 * CORNERS[:, k] - 1)) @ x] for k in range(3)]
+        (a, b, c), (d, e, f), (g, h, i) = columns
+        values.append(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g))
+    return along_axes(*[TO_BERNSTEIN] * 3) @ np.array(values, dtype=object)
+
+
+def exact_validity(x, levels=12):
+    """Validity of a hex (8, 3) of whole numbers, by subdivision without rounding."""
+    whole = coefficients(x)
+    if corners(whole).min() <= 0:
+        return Validity.INVERTED
+    boxes, found = [(whole, 0)], Validity.VALID
+    while boxes:
+        box, level = boxes.pop()
+        if box.min() > 0:
+            continue
+        if corners(box).min() <= 0:
+            return Validity.INVALID_INSIDE
+        if level == levels:
+            found = Validity.UNDECIDED
+        else:
+            boxes += [(part @ box, level + 1) for part in PARTS]
+    return found
+
+
+def corners(box):
+    return box.reshape(3, 3, 3)[::2, ::2, ::2]
+
+
+def separate(hexes):
+    """Points (8 m, 3) and hexes (m, 8) without common nodes, of corners (m, 8, 3)."""
+    points = np.ascontiguousarray(np.asarray(hexes, float).reshape(-1, 3))
+    return points, np.arange(len(points), dtype=np.int32).reshape(-1, 8)
+
+
+def random_hexes(count, seed, moved=40, scale=(64, 64, 64)):
+    """Cubes whose corners are moved at random, (count, 8, 3) of whole numbers."""
+    shift = np.random.default_rng(seed).integers(-moved, moved + 1, (count, 8, 3))
+    return np.array(scale) * CORNERS + shift * np.array(scale) // 64
+
+
+def values_on_grid(x, divisions):
+    """det J (m, d, d, d) of hexes (m, 8, 3) on a regular grid, and the greatest coefficient of each."""
+    t = np.linspace(0, 1, divisions + 1)
+    basis = np.column_stack([(1 - t) ** 2, 2 * t * (1 - t), t**2])
+    exact = np.array([coefficients(one) for one in x.astype(int)]).astype(float) / 512
+    values = np.einsum("ia,jb,kc,nabc->nijk", basis, basis, basis, exact.reshape(-1, 3, 3, 3), optimize=True)
+    return values, np.abs(exact).max(axis=1)
+
+
+@pytest.mark.parametrize(
+    ("moved", "scale"),
+    [(36, (64, 64, 64)), (40, (64, 64, 64)), (30, (4096, 4096, 64)), (40, (2**20, 64, 64)), (36, (2**16, 2**10, 64))],
+)
+def test_every_hex_has_the_validity_of_exact_subdivision(moved, scale):
+    x = random_hexes(150, moved, moved, scale)
+    expected = [exact_validity(one) for one in x]
+    assert certify(*separate(x)).tolist() == expected
+    assert {Validity.VALID, Validity.INVERTED, Validity.INVALID_INSIDE} <= set(expected)
+
+
+def test_nearly_flat_hexes_that_lean_have_the_validity_of_exact_subdivision():
+    x = random_hexes(100, 5, 30, (1024, 1024, 64)) @ [[1, 0, 900], [0, 1, -700], [0, 0, 1]]
+    assert certify(*separate(x)).tolist() == [exact_validity(one) for one in x]
+
+
+def test_bounds_contain_every_value_and_are_as_near_as_is_promised():
+    x, divisions = random_hexes(60, 7), 64
+    bounds = jacobian_bounds(*separate(x))
+    values, scale = values_on_grid(x, divisions)
+    least, greatest = values.min(axis=(1, 2, 3)), values.max(axis=(1, 2, 3))
+    rounding, unseen = 1e-13 * scale, 3 / divisions**2 * scale  # a second derivative is at most 8 times the scale
+    for bound, extreme, outward in ((bounds[:, 0], least, -1), (bounds[:, 1], greatest, 1)):
+        beyond = outward * (bound - extreme)
+        assert (beyond >= -rounding).all()
+        assert (beyond <= np.maximum(0.01 * np.abs(extreme), 1e-7 * scale) + 1.01 * unseen).all()
+
+
+def test_the_least_jacobian_is_that_of_the_worst_hex():
+    x = random_hexes(40, 3, 20)
+    points, hexes = separate(x)
+    bounds = jacobian_bounds(points, hexes)
+    ratios = bounds[:, 0] / np.abs(bounds).max(axis=1)
+    assert least_jacobian(points, hexes) == ratios.min()
+    valid = np.ascontiguousarray(hexes[ratios > 0])
+    assert 0 < least_jacobian(points, valid) == ratios[ratios > 0].min() < 1
+    assert least_jacobian(*separate([UNIT_CUBE @ [[3, 0, 0], [1, 2, 0], [0, 1, 1]]])) == pytest.approx(1)
+
+
+def rotations():
+    """Permutations of the corners of a hex that turn it, (24, 8)."""
+    found = []
+    for axes, signs in product(permutations(range(3)), product((-1, 1), repeat=3)):
+        turn = np.eye(3, dtype=int)[list(axes)] * np.array(signs)[:, None]
+        if np.linalg.det(turn) > 0:
+            turned = ((2 * CORNERS - 1) @ turn + 1) // 2
+            found.append([int(np.flatnonzero((corner == CORNERS).all(axis=1))[0]) for corner in turned])
+    return found
+
+
+def test_validity_does_not_depend_on_the_corner_that_is_the_first():
+    points, hexes = separate(random_hexes(400, 11, 36))
+    expected = certify(points, hexes)
+    assert len(np.unique(expected)) == 3
+    assert len(rotations()) == 24
+    for turned in rotations():
+        assert certify(points, np.ascontiguousarray(hexes[:, turned])).tolist() == expected.tolist()
+
+
+@pytest.mark.parametrize("factor", [2.0**-200, 2.0**-80, 0.5, 2.0**100, 2.0**200, 2.0**300])
+def test_validity_does_not_depend_on_the_unit_of_length_or_the_place(factor):
+    points, hexes = separate(random_hexes(300, 12, 36))
+    expected, bounds = certify(points, hexes), jacobian_bounds(points, hexes)
+    assert certify(factor * points, hexes).tolist() == expected.tolist()
+    assert (jacobian_bounds(factor * points, hexes) == factor**3 * bounds).all()
+    assert certify(points + [2**20, -(2**21), 2**19], hexes).tolist() == expected.tolist()
+
+
+def test_the_number_of_threads_does_not_change_a_bit():
+    points, hexes = separate(random_hexes(9000, 13, 36))
+    before, found = kernels.threads(), []
+    try:
+        for threads in (1, 2, 3):
+            kernels.set_threads(threads)
+            found.append([certify(points, hexes), jacobian_bounds(points, hexes), least_jacobian(points, hexes)])
+    finally:
+        kernels.set_threads(before)
+    for other in found[1:]:
+        for one, two in zip(found[0], other, strict=True):
+            np.testing.assert_array_equal(one, two)
+
+
+def test_a_hex_with_positive_corners_may_be_invalid_inside():
+    points, hexes = separate([BETWEEN])
+    assert corner_determinants(points, hexes).min() > 0
+    quality = measure(points, hexes)
+    assert (quality.n_inverted, quality.n_invalid, quality.validity[0]) == (0, 1, Validity.INVALID_INSIDE)
+    assert exact_validity(BETWEEN) == Validity.INVALID_INSIDE
+    assert least_jacobian(points, hexes) < 0
+
+
+@pytest.mark.parametrize("stretch", [1.5, 2.0, 3.0])
+def test_a_hex_whose_upper_face_is_turned_by_180_degrees_and_stretched_is_invalid_at_half_its_height(stretch):
+    """The layer at z has the map (1 - z) I + z diag(-s, -1/s), of determinant 1 - (2 + s + 1/s) z (1 - z)."""
+    x = UNIT_CUBE.copy()
+    x[4:, :2] *= [-stretch, -1 / stretch]
+    least = 1 - (2 + stretch + 1 / stretch) / 4
+    points, hexes = separate([x])
+    assert corner_determinants(points, hexes).min() == pytest.approx(1)
+    assert certify(points, hexes)[0] == Validity.INVALID_INSIDE
+    np.testing.assert_allclose(jacobian_bounds(points, hexes), [[least, 1]], rtol=0.01, atol=1e-7)
+
+
+def test_middles_of_edges_and_faces_do_not_show_every_invalid_hex():
+    values, _ = values_on_grid(BETWEEN[None], 2)
+    assert values.min() > 0
+    assert values_on_grid(BETWEEN[None], 32)[0].min() < -1
+    assert certify(*separate([BETWEEN]))[0] == Validity.INVALID_INSIDE
+
+
+def test_a_hex_whose_jacobian_touches_zero_is_undecided_and_counts_as_invalid():
+    quality = measure(*separate([TOUCHING]))
+    assert exact_validity(TOUCHING) == Validity.UNDECIDED
+    assert (quality.n_inverted, quality.n_invalid, quality.n_undecided) == (0, 1, 1)
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [
+        UNIT_CUBE * [1, 1, 0],
+        UNIT_CUBE * [-1, 1, 1],
+        np.zeros((8, 3)),
+        UNIT_CUBE[[0, 0, 2, 3, 4, 5, 6, 7]],
+        UNIT_CUBE[[0, 1, 2, 3, 0, 1, 2, 3]],
+        1e-110 * UNIT_CUBE,
+        1e103 * UNIT_CUBE,
+        1e200 * UNIT_CUBE,
+        1e200 * (UNIT_CUBE + 0.1 * np.random.default_rng(1).normal(size=(8, 3))),
+        1e300 * np.random.default_rng(2).normal(size=(8, 3)),
+    ],
+    ids=[
+        "flat",
+        "mirrored",
+        "point",
+        "collapsed-edge",
+        "collapsed-face",
+        "tiny",
+        "large",
+        "larger",
+        "larger-uneven",
+        "random",
+    ],
+)
+def test_a_degenerate_hex_counts_as_invalid(corners):
+    points, hexes = separate([corners])
+    assert certify(points, hexes)[0] != Validity.VALID
+    assert -1 <= least_jacobian(points, hexes) <= 0
+    assert jacobian_bounds(points, hexes)[0, 0] <= 0
+    assert measure(points, hexes).n_invalid == 1
+
+
+def test_one_hex_that_overflows_among_good_ones_is_seen():
+    points, hexes = separate([UNIT_CUBE, 1e300 * np.random.default_rng(2).normal(size=(8, 3)), UNIT_CUBE])
+    assert (certify(points, hexes) != Validity.VALID).tolist() == [False, True, False]
+    assert least_jacobian(points, hexes) <= 0
+
+
+@pytest.mark.parametrize("edge", [1e-100, 1e-60, 1e52, 1e100])
+def test_a_cube_of_any_size_whose_volume_is_a_number_is_valid(edge):
+    assert certify(*separate([edge * UNIT_CUBE]))[0] == Validity.VALID
+
+
+def test_wrong_arrays_are_named():
+    points, hexes = separate([UNIT_CUBE])
+    for call in (certify, jacobian_bounds, least_jacobian):
+        with pytest.raises(MeshError, match="hexes have shape"):
+            call(points, hexes.ravel())
+        with pytest.raises(MeshError, match="hex 0"):
+            call(points, hexes + 1)
+
+
+def test_the_field_of_a_hex_is_the_determinant_at_each_point():
+    positions, determinants = jacobian_field(BETWEEN.astype(float), 4)
+    np.testing.assert_allclose(determinants, values_on_grid(BETWEEN[None], 4)[0][0], rtol=1e-12, atol=1e-12)
+    np.testing.assert_array_equal(positions[4, 0, 4], BETWEEN[5])
+
+
+def test_bounds_do_not_depend_on_the_corner_that_is_the_first():
+    points, hexes = separate(random_hexes(5000, 17, 28))
+    bounds = jacobian_bounds(points, hexes)
+    scale = np.abs(bounds).max(axis=1, keepdims=True)
+    for turned in rotations():
+        assert (np.abs(jacobian_bounds(points, np.ascontiguousarray(hexes[:, turned])) - bounds) <= 1e-12 * scale).all()
