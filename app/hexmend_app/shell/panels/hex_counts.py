@@ -1,4 +1,4 @@
-"""Label in the status bar with the numbers of hexes, inverted and isolated hexes, and the selected hex."""
+"""Label in the status bar with the numbers of hexes, invalid and isolated hexes, and the selected hex."""
 
 from __future__ import annotations
 
@@ -29,18 +29,24 @@ class HexCounts(ElidingLabel):
     def refresh(self, session: Session) -> None:
         """Show the counts of the current mesh."""
         summary = session.document.now.summary
-        counts = {"hexes": summary.hexes, "inverted": summary.hexes}
-        selected = tr("hex {hex:,}: inverted", hex=summary.hexes)
-        longest = f"{tr('{hexes:,} hexes, {inverted:,} inverted', **counts)}  ·  {selected}"
+        selected = tr("hex {hex:,}: invalid inside", hex=summary.hexes)
+        longest = f"{_counts_text(summary.hexes, summary.hexes, 2 * summary.hexes)}  ·  {selected}"
         if longest != self._longest:
             self._longest = longest
             self.updateGeometry()
-        if summary.inverted:
-            text = tr("{hexes:,} hexes, {inverted:,} inverted", hexes=summary.hexes, inverted=summary.inverted)
-        else:
-            text = tr("{hexes:,} hexes", hexes=summary.hexes)
+        text = _counts_text(summary.hexes, summary.inverted, summary.invalid)
         self.setText("  ·  ".join(filter(None, (text, _isolated_text(session), _selected_text(session)))))
         self.setToolTip(self.text())
+
+
+def _counts_text(hexes: int, inverted: int, invalid: int) -> str:
+    """Return the number of hexes, and those of inverted hexes and of hexes that are invalid inside if there are any."""
+    parts = [tr("{hexes:,} hexes", hexes=hexes)]
+    if inverted:
+        parts.append(tr("{count:,} inverted", count=inverted))
+    if invalid > inverted:
+        parts.append(tr("{count:,} invalid inside", count=invalid - inverted))
+    return ", ".join(parts)
 
 
 def _isolated_text(session: Session) -> str:
@@ -56,4 +62,6 @@ def _selected_text(session: Session) -> str:
         return ""
     if now.figures.inverted[selected]:
         return tr("hex {hex:,}: inverted", hex=selected)
+    if now.figures.invalid[selected]:
+        return tr("hex {hex:,}: invalid inside", hex=selected)
     return tr("hex {hex:,}: q {q:.3f}", hex=selected, q=now.figures.q[selected])
