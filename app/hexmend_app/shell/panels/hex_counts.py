@@ -29,8 +29,8 @@ class HexCounts(ElidingLabel):
     def refresh(self, session: Session) -> None:
         """Show the counts of the current mesh."""
         summary = session.document.now.summary
-        selected = tr("hex {hex:,}: invalid inside", hex=summary.hexes)
-        longest = f"{_counts_text(summary.hexes, summary.hexes, 2 * summary.hexes)}  ·  {selected}"
+        selected = tr("hex {hex:,}: inverted", hex=summary.hexes)
+        longest = f"{_counts_text(summary.hexes, summary.hexes - 1, summary.hexes)}  ·  {selected}"
         if longest != self._longest:
             self._longest = longest
             self.updateGeometry()
@@ -40,12 +40,16 @@ class HexCounts(ElidingLabel):
 
 
 def _counts_text(hexes: int, inverted: int, invalid: int) -> str:
-    """Return the number of hexes, and those of inverted hexes and of hexes that are invalid inside if there are any."""
+    """Return the number of hexes, and those of inverted and of invalid ones if there are any.
+
+    >>> _counts_text(4788, 0, 0), _counts_text(4788, 3, 3), _counts_text(4788, 3, 5)
+    ('4,788 hexes', '4,788 hexes, 3 inverted', '4,788 hexes, 3 inverted, 5 invalid')
+    """
     parts = [tr("{hexes:,} hexes", hexes=hexes)]
     if inverted:
         parts.append(tr("{count:,} inverted", count=inverted))
     if invalid > inverted:
-        parts.append(tr("{count:,} invalid inside", count=invalid - inverted))
+        parts.append(tr("{count:,} invalid", count=invalid))
     return ", ".join(parts)
 
 
@@ -63,5 +67,5 @@ def _selected_text(session: Session) -> str:
     if now.figures.inverted[selected]:
         return tr("hex {hex:,}: inverted", hex=selected)
     if now.figures.invalid[selected]:
-        return tr("hex {hex:,}: invalid inside", hex=selected)
+        return tr("hex {hex:,}: invalid", hex=selected)
     return tr("hex {hex:,}: q {q:.3f}", hex=selected, q=now.figures.q[selected])

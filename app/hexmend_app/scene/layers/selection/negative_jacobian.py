@@ -21,7 +21,7 @@ _DIVISIONS = 24
 # not depend on the direction; angle in degrees at which the region has a crease.
 _OPACITY = 0.7
 _EDGES = (("#11151c", 4.0), ("#ffffff", 1.5))
-_DOT = (("#4a062b", 16.0), ("#ffffff", 13.0), (INVERTED, 9.0))
+_DOT = (("#4a062b", 12.0), ("#ffffff", 9.5), (INVERTED, 6.5))
 _BORDER, _BORDER_WIDTH = "#4a062b", 1.5
 _AMBIENT, _CREASE = 0.55, 40.0
 
