@@ -30,27 +30,24 @@ class HexCounts(ElidingLabel):
         """Show the counts of the current mesh."""
         summary = session.document.now.summary
         selected = tr("hex {hex:,}: inverted", hex=summary.hexes)
-        longest = f"{_counts_text(summary.hexes, summary.hexes - 1, summary.hexes)}  ·  {selected}"
+        longest = f"{_counts_text(summary.hexes, summary.hexes)}  ·  {selected}"
         if longest != self._longest:
             self._longest = longest
             self.updateGeometry()
-        text = _counts_text(summary.hexes, summary.inverted, summary.invalid)
+        text = _counts_text(summary.hexes, summary.invalid)
         self.setText("  ·  ".join(filter(None, (text, _isolated_text(session), _selected_text(session)))))
         self.setToolTip(self.text())
 
 
-def _counts_text(hexes: int, inverted: int, invalid: int) -> str:
-    """Return the number of hexes, and those of inverted and of invalid ones if there are any.
+def _counts_text(hexes: int, invalid: int) -> str:
+    """Return the number of hexes, and that of invalid ones if there are any.
 
-    >>> _counts_text(4788, 0, 0), _counts_text(4788, 3, 3), _counts_text(4788, 3, 5)
-    ('4,788 hexes', '4,788 hexes, 3 inverted', '4,788 hexes, 3 inverted, 5 invalid')
+    >>> _counts_text(4788, 0), _counts_text(4788, 5)
+    ('4,788 hexes', '4,788 hexes, 5 invalid')
     """
-    parts = [tr("{hexes:,} hexes", hexes=hexes)]
-    if inverted:
-        parts.append(tr("{count:,} inverted", count=inverted))
-    if invalid > inverted:
-        parts.append(tr("{count:,} invalid", count=invalid))
-    return ", ".join(parts)
+    if invalid:
+        return tr("{hexes:,} hexes, {invalid:,} invalid", hexes=hexes, invalid=invalid)
+    return tr("{hexes:,} hexes", hexes=hexes)
 
 
 def _isolated_text(session: Session) -> str:
