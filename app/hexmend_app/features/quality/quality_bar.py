@@ -61,7 +61,7 @@ class QualityBar(QFrame):
 
     def sizeHint(self) -> QSize:
         """Return the size with all figures."""
-        return self._preferred.grownBy(self._layout.contentsMargins())
+        return self._preferred.grownBy(self._layout.contentsMargins()).grownBy(self.contentsMargins())
 
     def minimumSizeHint(self) -> QSize:
         """Return a size that fits any view."""
@@ -87,7 +87,7 @@ class QualityBar(QFrame):
         if self._summaries is None:
             return
         margins = self._layout.contentsMargins()
-        space, shown = self.width() - margins.left() - margins.right(), len(FIGURES)
+        space, shown = self.contentsRect().width() - margins.left() - margins.right(), len(FIGURES)
         self._set_text(with_start=self.width() >= self.sizeHint().width())
         while shown > 1 and self._label.sizeHint().width() > space:
             shown -= 1
