@@ -78,7 +78,7 @@ def test_the_animation_of_the_readme_says_the_truth(tmp_path, monkeypatch):
     mesh = io.read("five-side.vtu")
     after = smooth(mesh)
     first = f"q min {after.before.q_min:.4f}, {after.before.inverted:,} inverted"
-    last = f"q min {after.after.q_min:.4f}, none inverted"
+    last = f"q min {after.after.q_min:.4f}, none invalid"
     count = after.iterations
     assert captions[0] == (f"Before: {first}", f"Mend, iteration 0 of {count}: {first}")
     assert captions[-1] == (f"Before: {first}", f"Mend, iteration {count} of {count}: {last}")
