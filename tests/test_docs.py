@@ -77,8 +77,9 @@ def test_the_animation_of_the_readme_says_the_truth(tmp_path, monkeypatch):
     assert main(shlex.split(draw)[1:]) == 0
     mesh = io.read("five-side.vtu")
     after = smooth(mesh)
-    first = f"q min {after.before.q_min:.4f}, {after.before.inverted:,} inverted"
-    last = f"q min {after.after.q_min:.4f}, none inverted"
+    inside = after.before.invalid - after.before.inverted
+    first = f"q min {after.before.q_min:.4f}, {after.before.inverted:,} inverted, {inside} invalid inside"
+    last = f"q min {after.after.q_min:.4f}, none invalid"
     count = after.iterations
     assert captions[0] == (f"Before: {first}", f"Mend, iteration 0 of {count}: {first}")
     assert captions[-1] == (f"Before: {first}", f"Mend, iteration {count} of {count}: {last}")

@@ -40,7 +40,7 @@ class HexMesh {
     this.states = head.states.map((state) => ({
       ...state,
       points: joined(bytes, state.points, Float32Array),
-      inverted: joined(bytes, state.inverted, Uint8Array),
+      kinds: joined(bytes, state.kinds, Uint8Array), // 1 inverted, 2 invalid inside, 0 valid
       values: state.values.map((place) => joined(bytes, place, Uint16Array)),
     }));
     this.maps = head.maps.map((map) => ({ name: map.name, table: joined(bytes, map.table, Uint8Array) }));
@@ -105,17 +105,17 @@ class HexMesh {
    * @param {?{axis: number, at: number, other: boolean}} cut Plane at a fraction of the bounding box; hexes
    *   beyond it are hidden, or with `other` those before it. Centres in the first state are compared, so that the cut
    *   is the same in every state.
-   * @param {{state: number, metric: number, low: number, high: number, inverted: boolean}} filter Bounds of the values;
-   *   `inverted` shows inverted hexes, regardless of their values.
+   * @param {{state: number, metric: number, low: number, high: number, invalid: boolean}} filter Bounds of the values;
+   *   `invalid` shows invalid hexes, regardless of their values.
    */
   shown(cut, filter) {
-    const { inverted } = this.states[filter.state];
+    const { kinds } = this.states[filter.state];
     const { low, high } = this.head.box;
     const shown = new Uint8Array(this.count);
     for (let hex = 0; hex < this.count; hex++) {
       const value = this.value(filter.state, filter.metric, hex);
-      const isInverted = inverted[hex] > 0 || Number.isNaN(value);
-      let show = isInverted ? filter.inverted : value >= filter.low && value <= filter.high;
+      const isInvalid = kinds[hex] > 0 || Number.isNaN(value);
+      let show = isInvalid ? filter.invalid : value >= filter.low && value <= filter.high;
       if (cut && show) {
         const plane = low[cut.axis] + (high[cut.axis] - low[cut.axis]) * cut.at;
         show = this.centres[3 * hex + cut.axis] > plane === cut.other;

@@ -5,13 +5,13 @@ precision highp float;
 layout(location = 0) in vec3 before;
 layout(location = 1) in vec3 after;
 layout(location = 2) in vec2 values;
-layout(location = 3) in uvec2 hexAndInverted;
+layout(location = 3) in uvec2 hexAndKinds;
 uniform mat4 view, projection;
 uniform float between;
 out vec3 place;
 out vec2 corner;
 flat out float value;
-flat out uint hex, inverted;
+flat out uint hex, kind;
 void main() {
   vec4 seen = view * vec4(mix(before, after, between), 1.0);
   place = seen.xyz;
@@ -19,8 +19,8 @@ void main() {
   int k = gl_VertexID & 3;
   corner = vec2(k == 1 || k == 2 ? 1.0 : 0.0, k >= 2 ? 1.0 : 0.0);
   value = mix(values.x, values.y, between);
-  hex = hexAndInverted.x;
-  inverted = between < 0.5 ? hexAndInverted.y & 1u : hexAndInverted.y >> 1u;
+  hex = hexAndKinds.x;
+  kind = between < 0.5 ? hexAndKinds.y & 3u : hexAndKinds.y >> 2u;
 }`;
 
 const FRAGMENT = `#version 300 es
@@ -28,9 +28,9 @@ precision highp float;
 in vec3 place;
 in vec2 corner;
 flat in float value;
-flat in uint hex, inverted;
+flat in uint hex, kind;
 uniform sampler2D map;
-uniform vec3 apart;
+uniform vec3 inverted, inside;
 uniform uint chosen;
 uniform float edges, opacity;
 uniform bool picking;
@@ -43,7 +43,7 @@ void main() {
   }
   vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
   float light = 0.56 + 0.34 * abs(normal.z) + 0.12 * abs(dot(normal, normalize(vec3(0.5, 0.8, 0.3))));
-  vec3 base = inverted == 1u ? apart : texture(map, vec2(clamp(value, 0.001, 0.999), 0.5)).rgb;
+  vec3 base = kind == 1u ? inverted : kind == 2u ? inside : texture(map, vec2(clamp(value, 0.001, 0.999), 0.5)).rgb;
   if (hex == chosen) base = mix(base, vec3(1.0), 0.55);
   vec2 wide = fwidth(corner);
   vec2 away = min(corner, 1.0 - corner) / max(wide, vec2(1e-6)); // in pixels
@@ -54,7 +54,7 @@ void main() {
   colour = vec4(mix(base * light, vec3(0.106, 0.122, 0.165), ink), 1.0) * opacity;
 }`;
 
-/** Numbers per vertex: positions before and after (6), values before and after (2), hex, inverted. */
+/** Numbers per vertex: positions before and after (6), values before and after (2), hex, kinds. */
 const STRIDE = 10;
 
 class Painter {
@@ -110,7 +110,7 @@ class Painter {
     places.forEach((face, k) => {
       const hex = Math.floor(face / 6);
       const values = states.map((state) => place(state, hex));
-      const inverted = before.inverted[hex] | (after.inverted[hex] << 1);
+      const kinds = before.kinds[hex] | (after.kinds[hex] << 2);
       for (let corner = 0; corner < 4; corner++) {
         const at = STRIDE * (4 * k + corner);
         const node = 3 * mesh.node(hex, face % 6, corner);
@@ -120,7 +120,7 @@ class Painter {
         }
         floats.set(values, at + 6);
         integers[at + 8] = hex;
-        integers[at + 9] = inverted;
+        integers[at + 9] = kinds;
       }
       // Flat values of a triangle are those of its last vertex; all four vertices have the same.
       corners.set([0, 1, 2, 0, 2, 3].map((corner) => 4 * k + corner), 6 * k);
@@ -152,7 +152,7 @@ class Painter {
    * Draw.
    *
    * @param {{view: Float32Array, projection: Float32Array}} camera
-   * @param {{between: number, edges: boolean, apart: number[], chosen: number, ghost: number}} how `ghost` is the opacity
+   * @param {{between: number, edges: boolean, inverted: number[], inside: number[], chosen: number, ghost: number}} how `ghost` is the opacity
    *   of ghost faces; 0 hides them.
    */
   draw(camera, how) {
@@ -184,7 +184,8 @@ class Painter {
     gl.uniform1f(uniforms.between, how.between);
     gl.uniform1f(uniforms.edges, how.edges ? 1 : 0);
     gl.uniform1f(uniforms.opacity, 1);
-    gl.uniform3fv(uniforms.apart, how.apart);
+    gl.uniform3fv(uniforms.inverted, how.inverted);
+    gl.uniform3fv(uniforms.inside, how.inside);
     gl.uniform1ui(uniforms.chosen, how.chosen < 0 ? 0xffffffff : how.chosen);
     gl.uniform1i(uniforms.picking, 0);
   }

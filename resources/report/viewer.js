@@ -40,7 +40,7 @@ class Viewer {
       is.between.value = 1; // who selects a method wants to see its result
       this.rebuild();
     });
-    for (const name of ["axis", "at", "other", "low", "high", "inverted"]) {
+    for (const name of ["axis", "at", "other", "low", "high", "invalid"]) {
       is[name].addEventListener("input", () => (this.alone = false));
     }
     is.axis.addEventListener("input", () => {
@@ -48,7 +48,7 @@ class Viewer {
       is.other.checked = axis >= 0 && this.camera.axes()[2][axis] < 0; // hide the side of the viewer
       this.rebuild();
     });
-    for (const name of ["at", "other", "low", "high", "inverted"]) {
+    for (const name of ["at", "other", "low", "high", "invalid"]) {
       is[name].addEventListener("input", () => this.rebuild());
     }
     is.between.addEventListener("input", () => this.go());
@@ -123,7 +123,7 @@ class Viewer {
     const axis = Number(is.axis.value);
     const cut = axis < 0 ? null : { axis, at: Number(is.at.value), other: is.other.checked };
     this.shownState = this.state;
-    const filter = { state: this.state, metric, low: ends[0], high: ends[1], inverted: is.inverted.checked };
+    const filter = { state: this.state, metric, low: ends[0], high: ends[1], invalid: is.invalid.checked };
     const shown = this.alone ? new Uint8Array(mesh.count) : mesh.shown(cut, filter);
     if (this.alone) shown[this.chosen] = 1;
     const faces = mesh.skin(shown);
@@ -172,7 +172,7 @@ class Viewer {
     const [first, second] = [...new Set(this.states)].map((state) => {
       const texts = mesh.head.metrics.map(({ title }, metric) => `${title} ${mesh.text(state, metric, chosen)}`);
       const values = texts.filter((_, metric) => metric < 2 || metric === this.metric).join(", ");
-      return `${values}${mesh.states[state].inverted[chosen] ? ", inverted" : ""}`;
+      return `${values}${["", ", inverted", ", invalid inside"][mesh.states[state].kinds[chosen]]}`;
     });
     const after = second ? `; ${names[1]}: ${second}` : "";
     is.told.textContent = `Hex ${chosen.toLocaleString("en")} – ${names[0]}: ${first}${after}.`;
@@ -208,10 +208,10 @@ class Viewer {
 
   get how() {
     const { is } = this;
-    const apart = this.mesh.head.inverted.map((part) => part / 255);
+    const [inverted, inside] = this.mesh.head.apart.map((colour) => colour.map((part) => part / 255));
     const ghost = this.hidden && is.ghost.checked ? (this.alone ? 0.16 : 0.07) : 0;
     const chosen = this.alone ? -1 : this.chosen; // a single hex needs no highlight
-    return { between: this.between, edges: is.edges.checked, apart, chosen, ghost };
+    return { between: this.between, edges: is.edges.checked, inverted, inside, chosen, ghost };
   }
 
   /** Draw once before the next frame. */

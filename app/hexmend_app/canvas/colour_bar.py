@@ -14,7 +14,7 @@ from hexmend_app.canvas.name_list import NameList
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
 from hexmend_app.scene.colour.colouring import end_label
 from hexmend_app.scene.colour.ticks import ticks_with_ends
-from hexmend_app.theme.style import INVERTED, LINE, MUTED, TEXT, set_help, smaller, tabular
+from hexmend_app.theme.style import INVALID_INSIDE, INVERTED, LINE, MUTED, TEXT, set_help, smaller, tabular
 from hexmend_app.translation import tr
 
 #: Sizes in pixels: height, width of the gradient, length of a tick, gap between tick and number, maximum title width.
@@ -58,7 +58,7 @@ class ColourBar(QFrame):
         self._layout.addWidget(self._title)
         self._layout.addWidget(self._gradient, 1)
         self._layout.addWidget(self._names, 1)
-        self.set_special([("inverted", 0, INVERTED)])
+        self.set_special([("inverted", 0, INVERTED), ("invalid inside", 0, INVALID_INSIDE)])
 
     def set_table(self, table: np.ndarray) -> None:
         """Set the colours, (256, 3) uint8, from the lowest to the highest value."""
@@ -126,8 +126,9 @@ class ColourBar(QFrame):
             tr("Colour bar"),
             tr(
                 "Colours show {label} from {low} to {high}; values outside the range have the colour of the nearest "
-                "end. Special colours: {names}. Inverted hexes have a corner with a determinant σ ≤ 0 and are "
-                "outlined. Drag the bar to move it; double-click it to reset its position.",
+                "end. Special colours: {names}. Inverted hexes have a corner with a determinant σ ≤ 0; those that are "
+                "invalid inside have a negative Jacobian between positive corners. Both are outlined. Drag the bar to "
+                "move it; double-click it to reset its position.",
                 label=label,
                 low=low,
                 high=high,
@@ -142,8 +143,8 @@ class ColourBar(QFrame):
     def _describe_names(self) -> None:
         names = ", ".join(self._names.names)
         help = tr(
-            "Each material has a colour. Inverted hexes are magenta and outlined. Drag the legend to move it; "
-            "double-click it to reset its position."
+            "Each material has a colour. Inverted hexes are magenta, those that are invalid inside light magenta; both "
+            "are outlined. Drag the legend to move it; double-click it to reset its position."
         )
         set_help(self, tr("Legend of materials"), help)
         self.setAccessibleDescription(tr("Materials: {names}", names=names))

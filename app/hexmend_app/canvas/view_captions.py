@@ -36,24 +36,26 @@ class Caption:
     ----------
     name : str
     q_min : float
-    inverted : int
+    inverted, invalid : int
     colour : Role or None
         Colour of the mesh in the histogram; None if it is not in the histogram.
     counts : tuple of (str, int)
-        Names and numbers of hexes with special colours; empty for those that are inverted.
+        Names and numbers of hexes with special colours; empty for those that are invalid.
     """
 
     name: str
     q_min: float
     inverted: int
+    invalid: int
     colour: Role | None
     counts: tuple[tuple[str, int], ...] = ()
 
     @property
     def figures(self) -> str:
         """Numbers of hexes with special colours, and the smallest q as text."""
-        counts = [f"{count:,} {tr(name)}" for name, count in self.counts or (("inverted", self.inverted),) if count]
-        return " · ".join([*(counts or [tr("none inverted")]), tr("q min {value}", value=figure(self.q_min))])
+        kinds = self.counts or (("inverted", self.inverted), ("invalid inside", self.invalid - self.inverted))
+        counts = [f"{count:,} {tr(name)}" for name, count in kinds if count]
+        return " · ".join([*(counts or [tr("none invalid")]), tr("q min {value}", value=figure(self.q_min))])
 
 
 class CaptionRow(QWidget):
@@ -202,4 +204,4 @@ def _figures() -> ElidingLabel:
 def _show_figures(label: ElidingLabel, caption: Caption) -> None:
     label.setText(caption.figures)
     label.setToolTip(caption.figures)
-    tint(label, WORSE if caption.inverted else MUTED)
+    tint(label, WORSE if caption.invalid else MUTED)

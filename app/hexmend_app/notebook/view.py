@@ -16,7 +16,7 @@ from hexmend.quality.mesh_quality import find_metric, measure_mesh
 from hexmend.quality.selection import region
 from hexmend.terminal_text import in_notebook, install_hint
 from hexmend_app.picture.colours import Colours
-from hexmend_app.scene.colour.colouring import INVERTED, resolve
+from hexmend_app.scene.colour.colouring import INVALID_COLOURS, invalid_kinds, resolve
 from hexmend_app.scene.render.graphics import GraphicsError, prepare_off_screen
 
 #: Options of `plot` for `pyvista.Plotter`; others are those of its method `show`.
@@ -55,19 +55,26 @@ def plotter(mesh: Mesh, metric: str = "q", *, hexes: Sequence[int] | np.ndarray 
 
     quantity, quality = find_metric(metric), measure_mesh(mesh)
     values = quantity.values(mesh, quality)
-    colouring = resolve(Colours(metric=quantity.name), values, quality.inverted)
+    colouring = resolve(Colours(metric=quantity.name), values, quality.invalid)
     faces = Skin(mesh).visible(None if hexes is None else _marks(mesh, hexes))
     skin = pv.PolyData.from_regular_faces(faces.places(mesh.points), faces.quads)
-    skin.cell_data[colouring.title] = np.where(quality.inverted, np.nan, values)[faces.hexes]
+    kinds, (inverted, inside) = invalid_kinds(quality), INVALID_COLOURS
+    inside_range = np.clip(values, colouring.low, colouring.high)
+    drawn = np.select([kinds == 1, kinds == 2], [np.nan, -np.inf], inside_range)  # these two have colours of their own
+    skin.cell_data[colouring.title] = drawn[faces.hexes]
     colours = np.column_stack([colouring.table, np.full(len(colouring.table), 255, np.uint8)])
-    table = pv.LookupTable(values=colours, scalar_range=(colouring.low, colouring.high), nan_color=INVERTED)
+    table = pv.LookupTable(values=colours, scalar_range=(colouring.low, colouring.high), nan_color=inverted.colour)
+    table.below_range_color = inside.colour
     result = pv.Plotter(**options)
     looks = {"name": "mesh", "show_edges": True, "edge_opacity": 0.5, "scalar_bar_args": _BAR, **_SHADING}
     result.add_mesh(skin, scalars=colouring.title, cmap=table, clim=table.scalar_range, **looks)
+    bar = result.scalar_bars[colouring.title]
     if quality.n_inverted:
-        bar = result.scalar_bars[colouring.title]
-        bar.SetNanAnnotation("inverted")
+        bar.SetNanAnnotation(inverted.name)
         bar.DrawNanAnnotationOn()
+    if quality.n_invalid > quality.n_inverted:
+        bar.SetBelowRangeAnnotation(inside.name)
+        bar.DrawBelowRangeSwatchOn()
     result.add_axes()
     return result
 

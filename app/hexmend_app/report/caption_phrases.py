@@ -87,14 +87,14 @@ def cut_open(cut: Cut) -> str:
     return f"cut {place}{inside}{', through the hexes' if cut.style is CutStyle.SMOOTH else ''}"
 
 
-def coloured_by(colours: Colours, inverted: bool) -> str:
-    """Return a sentence about the colours, with the colour of inverted hexes if `inverted` is True.
+def coloured_by(colours: Colours, invalid: bool) -> str:
+    """Return a sentence about the colours, with the colours of invalid hexes if `invalid` is True.
 
-    >>> coloured_by(Colours("scaled-jacobian"), inverted=True)
-    'Coloured by Scaled Jacobian; inverted hexes are magenta.'
+    >>> coloured_by(Colours("scaled-jacobian"), invalid=True)
+    'Coloured by Scaled Jacobian; inverted hexes are magenta, those invalid inside light magenta.'
     """
     text = "Without colours" if colours.neutral else f"Coloured by {colour_quantity(colours.metric).title}"
-    return f"{text}; inverted hexes are magenta." if inverted else f"{text}."
+    return f"{text}; inverted hexes are magenta, those invalid inside light magenta." if invalid else f"{text}."
 
 
 def _plane(plane: Plane | Slab) -> str:

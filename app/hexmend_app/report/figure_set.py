@@ -168,8 +168,8 @@ def _mesh_figure(case: Case, folder: Path, style: Style, part: str, scene: Scene
     paths = [folder / f"{part}.{suffix}" for suffix in style.formats]
     for path in paths:
         renderer.write(path)
-    inverted = any(version.figures.n_inverted for version in versions)
-    names, colours = listed([version.name for version in versions]), coloured_by(scene.colours, inverted)
+    invalid = any(version.figures.n_invalid for version in versions)
+    names, colours = listed([version.name for version in versions]), coloured_by(scene.colours, invalid)
     text = f"{case.name}, {names}: {description}. {colours}"
     return Figure(part, text, tuple(paths))
 

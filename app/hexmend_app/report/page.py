@@ -25,6 +25,7 @@ from hexmend_app.report.figure_set import Figure, Style, table_of, write_figures
 from hexmend_app.report.viewer import ViewerState, script, viewer
 from hexmend_app.report.worst_hexes import Locked, worst_table
 from hexmend_app.resources import resource
+from hexmend_app.state.mesh.hex_groups import invalid_counts
 
 #: Content security policy: the page loads no external resources.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
@@ -116,7 +117,7 @@ def draw_chapter(
     if not interactive:  # on paper the table is on the first page
         sections = {"Quality": sections.pop("Quality"), **sections}
     first, last = case.initial.summary, case.versions[-1].summary
-    row = [case.name, format_count(first.hexes), _change(first.inverted, last.inverted, format_count)]
+    row = [case.name, format_count(first.hexes), _change(first.invalid, last.invalid, format_count)]
     row += [_change(one, other, format_quality) for one, other in (
         (first.q_min, last.q_min), (first.q_mean, last.q_mean), (first.scaled_jacobian_min, last.scaled_jacobian_min)
     )]  # fmt: skip
@@ -138,7 +139,7 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, interactive: 
     """
     style = resource("report/page.css").read_text(encoding="utf-8")
     time = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
-    head = ["mesh", "hexes", "inverted", "q min", "q mean", "scaled Jacobian min"]
+    head = ["mesh", "hexes", "invalid", "q min", "q mean", "scaled Jacobian min"]
     summary = Table("", head, [one.row for one in chapters])
     parts = [
         "<!DOCTYPE html>",
@@ -185,7 +186,7 @@ def _preface(case: Case) -> str:
         f"{format_count(first.hexes)} hexes and {format_count(first.nodes)} nodes, "
         f"{format_count(first.free_nodes)} of them free.",
         *(
-            f"{version.name}: {format_count(version.summary.inverted)} inverted, "
+            f"{version.name}: {invalid_counts(version.summary.inverted, version.summary.invalid)}, "
             f"q min {format_quality(version.summary.q_min)}."
             for version in case.versions
         ),
@@ -201,7 +202,7 @@ def _worse(case: Case) -> list[str]:
     worse = [(one.name, describe_regressions(case.initial.summary, one.summary)) for one in results]
     sentences = [f"{name}: {text}" for name, text in worse if text]
     return sentences or [
-        "No method made the number of inverted hexes, q min or the minimum scaled Jacobian worse."
+        "No method made the number of inverted or invalid hexes, q min or the minimum scaled Jacobian worse."
     ] * bool(results)
 
 

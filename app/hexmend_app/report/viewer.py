@@ -15,7 +15,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, Metric, measure
 from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
 from hexmend_app.resources import resource
-from hexmend_app.scene.colour.colouring import INVERTED
+from hexmend_app.scene.colour.colouring import INVALID_COLOURS, invalid_kinds
 
 #: Maximum number of hexes in a page; browsers cannot open larger pages.
 MOST_HEXES = 250_000
@@ -69,9 +69,9 @@ def viewer(mesh: Mesh, states: Sequence[ViewerState], picture: str) -> str:
         message += " Open it in the viewer: hexmend MESH"
         return f'<div class="viewer">{picture}<p class="cannot screen">{message}</p></div>'
     head, blob = packed(mesh, states)
-    colour = "#{:02x}{:02x}{:02x}".format(*INVERTED)
+    inverted, inside = ("#{:02x}{:02x}{:02x}".format(*special.colour) for special in INVALID_COLOURS)
     parts = [
-        f'<div class="viewer" style="--inverted: {colour}">',
+        f'<div class="viewer" style="--inverted: {inverted}; --inside: {inside}">',
         picture,
         '<p class="cannot screen" hidden></p>',
         '<noscript><p class="cannot">Rotating the mesh needs JavaScript.</p></noscript>',
@@ -103,7 +103,7 @@ def packed(mesh: Mesh, states: Sequence[ViewerState]) -> tuple[dict[str, Any], s
     low, high = (end(axis=0) for end in (mesh.points[used].min, mesh.points[used].max))
     middle, size = (low + high) / 2, float(np.linalg.norm(high - low)) / 2 or 1.0
     places = [np.where(used[:, None], (one.points - middle) / size, 0.0) for one in states]
-    figures = [measure(one.points, mesh.hexes) for one in states]
+    figures = [measure(one.points, mesh.hexes, mesh.mid_nodes) for one in states]
     arrays = _Arrays()
     kinds, values = zip(*(_metric(one, mesh, states, figures) for one in METRICS.values()), strict=True)
     head = {
@@ -114,13 +114,13 @@ def packed(mesh: Mesh, states: Sequence[ViewerState]) -> tuple[dict[str, Any], s
             {
                 "name": one.name,
                 "points": arrays.add((np.rint(places[k] / _FINEST) * _FINEST).astype(np.float32)),
-                "inverted": arrays.add(figures[k].inverted.astype(np.uint8)),
+                "kinds": arrays.add(invalid_kinds(figures[k])),
                 "values": [arrays.add(metric[k]) for metric in values],
             }
             for k, one in enumerate(states)
         ],
         "maps": [{"name": name, "table": arrays.add(COLOUR_MAPS[name].table)} for name in value_maps()],
-        "inverted": INVERTED,
+        "apart": [special.colour for special in INVALID_COLOURS],
     }
     return head, arrays.blob()
 
@@ -165,7 +165,7 @@ def _metric(
         "from": low,
         "to": high,
         "open": not declared,  # values beyond these two are clipped
-        "low": max(low, 0.0) if declared else low,  # inverted hexes have a separate colour
+        "low": max(low, 0.0) if declared else low,  # invalid hexes have separate colours
         "high": high,
     }
     return kind, numbers
@@ -176,7 +176,7 @@ def _range(metric: Metric, values: Sequence[np.ndarray], figures: Sequence[Eleme
     if np.isfinite(metric.full_range).all():
         return tuple(map(float, metric.full_range))
     merged = np.concatenate(values)
-    valid = merged[np.isfinite(merged) & ~np.concatenate([one.inverted for one in figures])]
+    valid = merged[np.isfinite(merged) & ~np.concatenate([one.invalid for one in figures])]
     low, high = np.quantile(valid, _ENDS).tolist() if valid.size else (0.0, 1.0)
     missing = max(1e-6 * max(abs(low), abs(high)), 1e-300) - (high - low)
     return (low, high) if missing <= 0 else (low - missing / 2, high + missing / 2)

@@ -54,9 +54,9 @@ class Locked:
 def worst_table(name: str, mesh: Mesh, figures: ElementQuality, locked: Locked) -> Table:
     """Return a table of the worst hexes by q: number (from 0), q, scaled Jacobian, centre in mesh units, and state.
 
-    Inverted hexes come first.
+    Invalid hexes come first.
     """
-    order = rank_worst(np.where(figures.inverted, figures.q - 1, figures.q), figures, MAX_WORST_HEXES)
+    order = rank_worst(np.where(figures.invalid, figures.q - 1, figures.q), figures, MAX_WORST_HEXES)
     rows = [
         [
             format_count(int(hex)),
@@ -71,13 +71,14 @@ def worst_table(name: str, mesh: Mesh, figures: ElementQuality, locked: Locked) 
 
 
 def reason(mesh: Mesh, figures: ElementQuality, locked: Locked, hex: int) -> str:
-    """Return the state of a hex (locked, inverted or valid) and its number of free nodes."""
+    """Return the state of a hex (locked, inverted, invalid inside or valid) and its number of free nodes."""
     if locked.locked[hex]:
         return (
             f"locked {_corners(mesh, hex)}; {'sliding frees it' if locked.freed[hex] else 'sliding does not free it'}"
         )
     free = int(mesh.free[mesh.hexes[hex]].sum())
-    state = "inverted, not locked" if figures.inverted[hex] else "valid"
+    inverted, invalid = figures.inverted[hex], figures.invalid[hex]
+    state = "inverted, not locked" if inverted else "invalid inside" if invalid else "valid"
     return f"{state}, {f'{free} of 8 nodes free' if free else 'all 8 nodes fixed'}"
 
 

@@ -83,8 +83,9 @@ WORSE = Role("#b34400", "#ff9d63", on=(*_NEUTRAL, WRONG))
 AMBER = Role("#8a5a00", "#e6b450", on=(*_NEUTRAL, WARNED))
 INVERTED_TEXT = Role("#b80f6c", "#ff85c6", on=_NEUTRAL)
 
-#: Colour of inverted hexes in the view, in both themes; no colour map contains it.
-INVERTED = "#e6198a"
+#: Colours of inverted hexes in the view, and of those that are invalid inside, in both themes; no colour map contains
+#: them. They differ in lightness, which all kinds of colour vision see.
+INVERTED, INVALID_INSIDE = "#e6198a", "#ff99e0"
 
 # Lines and areas
 LINE = Role("#c3c9d2", "#434b57")

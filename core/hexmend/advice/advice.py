@@ -120,7 +120,7 @@ def _end(now: Situation) -> str:
 
 
 def _state(now: Situation) -> str:
-    """Describe the inverted hexes and why they are inverted; else the quality of the worst hex."""
+    """Describe the invalid hexes and why they are inverted; else the quality of the worst hex."""
     before, after = now.result.before, now.result.after
     if not after.inverted:
         done = " This is close to the best possible." if after.q_min >= 0.99 else ""
@@ -128,7 +128,10 @@ def _state(now: Situation) -> str:
         least = f"{after.q_min:.3f}"
         if now.result.active is not None:
             least += f", the minimum scaled Jacobian is {after.scaled_jacobian_min:.4f}"
-        return f"No hex is inverted; the worst has q = {least}.{mended}{done}"
+        if after.invalid:
+            inside = count_phrase(after.invalid, "hex is", "hexes are")
+            return f"No hex is inverted, but {inside} invalid inside; the worst has q = {least}.{mended}"
+        return f"No hex is invalid; the worst has q = {least}.{mended}{done}"
     hexes = f"of {count_phrase(after.hexes, 'hex', 'hexes')}"
     words = [f"{count_phrase(after.inverted, f'{hexes} is', f'{hexes} are')} inverted."]
     if before.inverted != after.inverted:

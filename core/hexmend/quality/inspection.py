@@ -15,6 +15,7 @@ from hexmend.quality.descent import descent
 from hexmend.quality.file_ids import hex_ids, node_ids
 from hexmend.quality.measure import ElementQuality, corner_qualities, locked_hexes, measure
 from hexmend.quality.metric import METRICS
+from hexmend.quality.validity import least_jacobian
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +37,12 @@ class HexDetails:
         Value of every metric, by name.
     neighbours : (6,) int32
         Hexes across the faces x-, x+, y-, y+, z-, z+ of the reference hexahedron; -1 for none.
-    inverted : bool
+    inverted, invalid : bool
+        As in `ElementQuality`; an inverted hex is invalid too.
     locked : bool
         True if fixed nodes alone keep the hex inverted.
+    least_jacobian : float
+        Certified lower bound of the least det J over the greatest, from -1 to 1; 0 or less if the hex is invalid.
     file_id : int, optional
         Number of the hex in the file; None if that counts from 0 too, or has none.
     """
@@ -51,7 +55,9 @@ class HexDetails:
     values: dict[str, float]
     neighbours: np.ndarray
     inverted: bool
+    invalid: bool
     locked: bool
+    least_jacobian: float
     file_id: int | None = None
 
 
@@ -82,7 +88,8 @@ def describe_hex(mesh: Mesh, number: int) -> HexDetails:
     number = as_index(number, mesh.n_hexes, "hex")
     nodes, neighbours = mesh.hexes[number], mesh.topology.face_neighbours[number]
     hexes = np.ascontiguousarray(nodes[None])
-    quality = measure(mesh.points, hexes)
+    mid_nodes = None if mesh.mid_nodes is None else mesh.mid_nodes[number][None]
+    quality = measure(mesh.points, hexes, mid_nodes)
     patch = _patch(mesh, np.concatenate([[number], np.unique(neighbours[(neighbours >= 0) & (neighbours != number)])]))
     of_patch = measure(patch.points, patch.hexes)
     return HexDetails(
@@ -94,7 +101,9 @@ def describe_hex(mesh: Mesh, number: int) -> HexDetails:
         values={metric.name: float(metric.values(patch, of_patch)[0]) for metric in METRICS.values()},
         neighbours=neighbours,
         inverted=bool(quality.inverted[0]),
+        invalid=bool(quality.invalid[0]),
         locked=bool(locked_hexes(mesh.points, hexes, mesh.fixed, quality.inverted)[0]),
+        least_jacobian=least_jacobian(mesh.points, hexes, mid_nodes),
         file_id=_file_id(hex_ids(mesh), number),
     )
 

@@ -266,7 +266,7 @@ def test_the_colour_bar_does_not_cover_close_buttons(canvas, qtbot):
     for size in ((600, 500), (900, 700), (420, 320)):
         canvas.resize(*size)
         canvas.show_side_by_side(others)
-        canvas.frame.set_captions([Caption(f"view {k}", 0.5, 0, None) for k in range(4)], None)
+        canvas.frame.set_captions([Caption(f"view {k}", 0.5, 0, 0, None) for k in range(4)], None)
         turn()
         bar = canvas.colour_bar.geometry()
         crosses = [one for one in canvas.findChildren(QToolButton) if one.accessibleName().startswith("Close")]

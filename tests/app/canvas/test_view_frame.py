@@ -31,7 +31,7 @@ def framed(shown):
 
 
 def captions(count):
-    return [Caption(f"view {k}", 0.5, 0, None) for k in range(count)]
+    return [Caption(f"view {k}", 0.5, 0, 0, None) for k in range(count)]
 
 
 def entries(view):
@@ -51,8 +51,9 @@ def test_captions_show_the_counts_of_each_view_first(framed):
     pairs = zip(framed.frame.captions, counts, strict=True)
     framed.frame.change_captions([replace(caption, counts=own) for caption, own in pairs])
     texts = [caption.figures for caption in framed.frame.captions]
-    assert texts == ["1,200 newly inverted · q min 0.5000", "none inverted · q min 0.5000"]
-    assert Caption("view", 0.5, 3, None).figures == "3 inverted · q min 0.5000"
+    assert texts == ["1,200 newly inverted · q min 0.5000", "none invalid · q min 0.5000"]
+    assert Caption("view", 0.5, 3, 3, None).figures == "3 inverted · q min 0.5000"
+    assert Caption("view", 0.5, 3, 5, None).figures == "3 inverted · 2 invalid inside · q min 0.5000"
 
 
 def test_captions_leave_the_strip_of_the_legend_free(framed):

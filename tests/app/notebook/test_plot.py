@@ -11,8 +11,9 @@ import hexmend as hx
 from hexmend.errors import HexmendError, MeshError, ParameterError
 from hexmend_app.notebook import view
 from hexmend_app.picture.colour_map import COLOUR_MAPS
-from hexmend_app.scene.colour.colouring import INVERTED
+from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED
 from hexmend_app.scene.render.graphics import GraphicsError, prepare_off_screen
+from tests.app.invalid_hexes import THREE
 
 MESH = hx.gallery.make("bridge-sharp", size=500, scramble=0.4, seed=1)
 
@@ -50,6 +51,17 @@ def test_hexes_have_the_colours_of_the_viewer(metric, ends):
     values = skin.active_scalars
     assert tuple(round(255 * part) for part in table.map_value(np.nan)[:3]) == INVERTED
     assert 0 < np.count_nonzero(np.isnan(values)) < len(values)
+    plotter.close()
+
+
+def test_hexes_that_are_invalid_inside_have_a_colour_and_a_name_of_their_own():
+    plotter = THREE.plot(show=False, off_screen=True)
+    table, skin = table_of(plotter)
+    (bar,) = plotter.scalar_bars.values()
+    colours = [tuple(round(255 * part) for part in table.map_value(value)[:3]) for value in skin.active_scalars]
+    assert (colours.count(INVERTED), colours.count(INVALID_INSIDE), len(colours)) == (6, 6, 18)
+    assert (bar.GetNanAnnotation(), bar.GetBelowRangeAnnotation()) == ("inverted", "invalid inside")
+    assert bar.GetDrawBelowRangeSwatch()
     plotter.close()
 
 

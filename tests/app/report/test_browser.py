@@ -148,7 +148,7 @@ def test_a_click_shows_the_hex_and_its_values(fresh, case):
 
 
 def test_the_table_links_to_the_worst_hexes(fresh, case):
-    hex = int(rank_worst(case.initial.figures.q - case.initial.figures.inverted, case.initial.figures, 1)[0])
+    hex = int(rank_worst(case.initial.figures.q - case.initial.figures.invalid, case.initial.figures, 1)[0])
     before = fresh.canvas()
     fresh.page.locator('[data-version="0"] button').first.click()
     assert fresh.text("told").startswith(f"Hex {hex:,} – initial: q(H) ")
@@ -165,9 +165,9 @@ def test_it_counts_visible_hexes(fresh, case):
     fresh.control("high").fill("0.7")
     assert fresh.text("count") == f"{int((mended.figures.q <= 0.7).sum()):,} of {first.mesh.n_hexes:,} hexes"
     fresh.control("between").fill("0")
-    apart = first.figures.inverted
+    apart = first.figures.invalid
     assert fresh.text("count").startswith(f"{int((apart | (first.figures.q <= 0.7)).sum()):,} of")
-    fresh.control("inverted").uncheck()
+    fresh.control("invalid").uncheck()
     assert fresh.text("count").startswith(f"{int((~apart & (first.figures.q <= 0.7)).sum()):,} of")
 
 

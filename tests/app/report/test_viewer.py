@@ -33,7 +33,9 @@ def test_hexes_and_positions_are_decoded(kept, case):
         points = array(blob, state["points"], "<f4").reshape(-1, 3) * size
         way = points - version.mesh.points
         assert np.abs(way - way.mean(axis=0)).max() < 1e-6 * size
-        assert (array(blob, state["inverted"], "u1") == version.figures.inverted).all()
+        kinds = array(blob, state["kinds"], "u1")
+        assert ((kinds == 1) == version.figures.inverted).all()
+        assert ((kinds > 0) == version.figures.invalid).all()
 
 
 @pytest.mark.parametrize("name", [*METRICS])

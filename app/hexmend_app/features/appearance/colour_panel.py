@@ -31,12 +31,12 @@ _RANGES = {
     Range.FULL: ("Full", "All possible values of the metric"),
     Range.FITTED: (
         "Fitted",
-        "Current minimum and maximum, without inverted hexes; follows a running method.",
+        "Current minimum and maximum, without invalid hexes; follows a running method.",
     ),
     Range.ACCEPTABLE: ("Acceptable", "Values that solvers usually accept"),
     _PINNED: ("Pinned", "Limits that you set, initially the current range."),
 }
-NEUTRAL = "Draw the boundary white and cut faces in one colour; inverted hexes stay magenta."
+NEUTRAL = "Draw the boundary white and cut faces in one colour; invalid hexes keep their colours."
 SHADING = "Darken corners and holes when the view is still (ambient occlusion)."
 _BOXES = (("low", 0.0), ("high", 1.0))
 

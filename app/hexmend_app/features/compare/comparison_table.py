@@ -220,7 +220,7 @@ class ComparisonModel(QAbstractTableModel):
         if role == _Role.AccessibleTextRole and (is_best or regressed):
             return ", ".join([texts[entry.name], *[tr("best")] * is_best, *[tr("worse than initial")] * regressed])
         if role == _Role.ForegroundRole:
-            bad = regressed or (quantity.key == "inverted" and entry.record.get("inverted"))
+            bad = regressed or (quantity.key in ("inverted", "invalid") and entry.record.get(quantity.key))
             colour = WORSE if bad else BETTER if is_best else None
             return colour and QBrush(QColor(str(colour)))
         return None

@@ -14,6 +14,8 @@ STEP_SECONDS = Quantity(
 )
 #: Quantities of the chart of quality.
 _QUALITIES = ("q_min", "q_mean", "scaled_jacobian_min")
+#: Quantities of the chart of invalid hexes.
+_VALIDITIES = ("inverted", "invalid")
 
 _QUANTITIES = HISTORY | DIAGNOSTICS | {STEP_SECONDS.key: STEP_SECONDS}
 
@@ -71,7 +73,7 @@ CHARTS: dict[str, Chart] = {
     for chart in (
         _single("objective", "objective", log=True),
         Chart("quality", "quality", tuple(PlottedQuantity(_QUANTITIES[key]) for key in _QUALITIES)),
-        _single("inverted", "inverted hexes", log=True, whole=True),
+        Chart("inverted", "invalid hexes", tuple(PlottedQuantity(_QUANTITIES[key], True, True) for key in _VALIDITIES)),
         _single("largest_move", log=True),
         _single("gradient_norm", log=True),
         _single("step_length", log=True),

@@ -191,8 +191,7 @@ class HexPanel(QWidget):
         if details is None:
             return
         self._title.setText(tr("Hex {number:,}", number=details.number) + (f": {', '.join(tags)}" if tags else ""))
-        locked = tr("inverted, locked by its fixed nodes")
-        self._state.setText(locked if details.locked else tr("inverted") if details.inverted else "")
+        self._state.setText(_state_text(details))
         for name, label in self._values.items():
             value = details.values[name]
             label.setText("∞" if value == np.inf else value_text(METRICS[name], value))
@@ -246,6 +245,16 @@ class HexPanel(QWidget):
         self._about_node.setText(", ".join(filter(None, parts)))
         self._pin.setChecked(details.pinned)
         self._pin.setEnabled(details.kind != "unused" and not busy)
+
+
+def _state_text(details: HexDetails) -> str:
+    """Return what makes a hex invalid, and how negative its Jacobian is; "" for a valid hex."""
+    if not details.invalid:
+        return ""
+    state = tr("inverted") if details.inverted else tr("invalid inside")
+    if details.locked:
+        state = tr("inverted, locked by its fixed nodes")
+    return tr("{state}; det J min / max {least}", state=state, least=figure(details.least_jacobian))
 
 
 def _align_digits(label: QLabel) -> None:

@@ -219,11 +219,12 @@ class WorstList(QWidget):
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
         self._table.setColumnHidden(ID, worst.ids is None)
         self._model.fill(worst)
-        counts = {"total": counted(mesh.n_hexes, "hex"), "inverted": figures.n_inverted}
+        counts = {"total": counted(mesh.n_hexes, "hex"), "inverted": figures.n_inverted, "invalid": figures.n_invalid}
         if worst.hexes.size == mesh.n_hexes:
-            text = tr("{total}, {inverted:,} inverted.", **counts)
+            text = tr("{total}, {inverted:,} inverted, {invalid:,} invalid.", **counts)
         else:
-            text = tr("The {listed:,} worst of {total}, {inverted:,} inverted.", listed=worst.hexes.size, **counts)
+            counts["listed"] = worst.hexes.size
+            text = tr("The {listed:,} worst of {total}, {inverted:,} inverted, {invalid:,} invalid.", **counts)
         if metric.name != "scaled-jacobian":
             text += " " + tr("Ties are sorted by scaled Jacobian.")
         self._text.setText(text)

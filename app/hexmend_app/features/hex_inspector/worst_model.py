@@ -30,7 +30,7 @@ class WorstModel(QAbstractTableModel):
     values, jacobians : (k,) float64
         Values of the metric that sorts the list, and scaled Jacobians.
     states : list of str
-        "locked", "inverted" or "" for each hex.
+        "locked", "inverted", "inside" (invalid inside) or "" for each hex.
     ids : (k,) int, optional
         Numbers of the hexes in the file.
     title : str

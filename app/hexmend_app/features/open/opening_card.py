@@ -9,7 +9,7 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted, figure
 
-#: Minimum scaled Jacobian above which a mesh without inverted hexes is called sound.
+#: Minimum scaled Jacobian above which a mesh without invalid hexes is called sound.
 _SOUND = 0.2
 
 
@@ -27,7 +27,8 @@ def card(name: str, state: State, findings: Sequence[Finding]) -> tuple[str, str
     """
     mesh, summary = state.mesh, state.summary
     hexes = counted(summary.hexes, "hex")
-    title = tr("{name}: {hexes}, {inverted} inverted", name=name, hexes=hexes, inverted=figure(summary.inverted))
+    counts = {"inverted": figure(summary.inverted), "invalid": figure(summary.invalid)}
+    title = tr("{name}: {hexes}, {inverted} inverted, {invalid} invalid", name=name, hexes=hexes, **counts)
     least = figure(summary.scaled_jacobian_min, 3)
     sentences = [tr("{verdict} Minimum scaled Jacobian {least}.", verdict=_verdict(state), least=least)]
     if mesh.materials is not None:
@@ -49,6 +50,9 @@ def _verdict(state: State) -> str:
             )
         locked_part = tr(", of which fixed nodes lock {count}", count=figure(locked)) if locked else ""
         return tr("Solvers reject inverted hexes{locked}. Run Mend to untangle them.", locked=locked_part)
+    if summary.invalid:
+        hexes = counted(summary.invalid, "hex")
+        return tr("Solvers may reject {hexes} invalid inside, between valid corners. Run Mend.", hexes=hexes)
     if summary.scaled_jacobian_min < _SOUND:
-        return tr("No hex is inverted, but some have a low quality. Run Mend to improve them.")
-    return tr("No hex is inverted.")
+        return tr("No hex is invalid, but some have a low quality. Run Mend to improve them.")
+    return tr("No hex is invalid.")

@@ -52,7 +52,7 @@ class FeatureOutcome(Feature):
                 part=1,
                 keys="Y",
                 icon="help-circle-outline",
-                help=tr("Show why the run stopped, the remaining inverted hexes and what to try next."),
+                help=tr("Show why the run stopped, the remaining invalid hexes and what to try next."),
                 handle=lambda: self.host.show_panel("outcome"),
                 enabled=lambda: self._shown is not None,
             ),

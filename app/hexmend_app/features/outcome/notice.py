@@ -20,13 +20,15 @@ def notice(record: RunRecord, before: Summary, after: Summary) -> tuple[str, str
     """
     if not record.result:
         return tr("Initial mesh kept: no iteration was better"), record.message
-    inverted = figure(after.inverted)
-    if before.inverted != after.inverted:
-        inverted = f"{figure(before.inverted)} → {inverted}"
+    inverted, invalid = (
+        figure(now) if then == now else f"{figure(then)} → {figure(now)}"
+        for then, now in ((before.inverted, after.inverted), (before.invalid, after.invalid))
+    )
+    counts = tr("{inverted} inverted · {invalid} invalid", inverted=inverted, invalid=invalid)
     minima = tr("q min {q} · scaled Jacobian min {j}", q=figure(after.q_min, 3), j=figure(after.scaled_jacobian_min, 3))
     seconds = record.rows[-1]["seconds"]
     digits = 2 if seconds < 10 else 1 if seconds < 100 else 0
     effort = f"{counted(record.newest, 'iteration')} · {seconds:.{digits}f} s"
     reason = record.message.partition(". ")[0].rstrip(".")
     kept = "" if record.result == record.newest else tr(" · iteration {number} was kept", number=record.result)
-    return f"{tr('{count} inverted', count=inverted)} · {minima}", f"{effort} · {reason}{kept}"
+    return f"{counts} · {minima}", f"{effort} · {reason}{kept}"

@@ -37,7 +37,8 @@ class FeatureQuality(Feature):
                 menu="View",
                 part=3,
                 help=tr(
-                    "Show inverted hexes, q min, q mean and scaled Jacobian min in the view. Side views have captions."
+                    "Show inverted and invalid hexes, q min, q mean and scaled Jacobian min in the view. Side views "
+                    "have captions."
                 ),
                 handle=self._set_bar,
                 checked=settings.KEY_FIGURES.get,

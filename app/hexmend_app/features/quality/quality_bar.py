@@ -18,7 +18,7 @@ from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import figure
 
 #: Figures of the bar, in order.
-FIGURES = tuple(SUMMARY_QUANTITIES[key] for key in ("inverted", "q_min", "q_mean", "scaled_jacobian_min"))
+FIGURES = tuple(SUMMARY_QUANTITIES[key] for key in ("inverted", "invalid", "q_min", "q_mean", "scaled_jacobian_min"))
 #: Smaller differences are those of rounding.
 _ROUNDING = 1e-12
 _GAP = "&nbsp;" * 5
@@ -61,7 +61,7 @@ class QualityBar(QFrame):
 
     def sizeHint(self) -> QSize:
         """Return the size with all figures."""
-        return self._preferred.grownBy(self._layout.contentsMargins())
+        return self._preferred.grownBy(self._layout.contentsMargins()).grownBy(self.contentsMargins())
 
     def minimumSizeHint(self) -> QSize:
         """Return a size that fits any view."""
@@ -87,7 +87,7 @@ class QualityBar(QFrame):
         if self._summaries is None:
             return
         margins = self._layout.contentsMargins()
-        space, shown = self.width() - margins.left() - margins.right(), len(FIGURES)
+        space, shown = self.contentsRect().width() - margins.left() - margins.right(), len(FIGURES)
         self._set_text(with_start=self.width() >= self.sizeHint().width())
         while shown > 1 and self._label.sizeHint().width() > space:
             shown -= 1
@@ -105,7 +105,7 @@ class QualityBar(QFrame):
 def sense(quantity: Quantity, start: float, now: float) -> int:
     """Return 1 if a figure is better than at the start, -1 if it is worse, else 0.
 
-    >>> sense(FIGURES[0], 36, 0), sense(FIGURES[1], 0.5, 0.4), sense(FIGURES[1], 0.5, 0.5)
+    >>> sense(FIGURES[0], 36, 0), sense(FIGURES[2], 0.5, 0.4), sense(FIGURES[2], 0.5, 0.5)
     (1, -1, 0)
     """
     change = quantity.better * (now - start)
@@ -116,7 +116,7 @@ def _html(quantity: Quantity, start: float, now: float, with_start: bool) -> str
     """Return a figure as HTML, with its value at the start and an arrow if it differs."""
     change = sense(quantity, start, now)
     colour: Role = {1: BETTER, -1: WORSE, 0: TEXT}[change]
-    if not change and quantity.key == "inverted" and now:
+    if not change and quantity.key in ("inverted", "invalid") and now:
         colour = WORSE
     arrow = "" if not change else " ▲" if now > start else " ▼"
     before = f"{figure(start)} → " if change and with_start else ""

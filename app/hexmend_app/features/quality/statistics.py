@@ -78,7 +78,7 @@ def change(row: Quantity, start: float | None, now: float | None) -> tuple[str, 
 
 
 #: Rows whose present number is a link to the hexes that it counts, and the names of these groups of hexes.
-LINKS = {"inverted": marked("inverted"), "locked_inverted": marked("locked")}
+LINKS = {"inverted": marked("inverted"), "locked_inverted": marked("locked"), "invalid": marked("invalid")}
 
 
 class StatisticsTable(QWidget):
@@ -87,7 +87,7 @@ class StatisticsTable(QWidget):
     Signals
     -------
     isolate_requested(str)
-        The user clicked the number of "inverted" or "locked" hexes, or pressed Enter in its row.
+        The user clicked the number of "inverted", "locked" or "invalid" hexes, or pressed Enter in its row.
     """
 
     isolate_requested = Signal(str)
@@ -184,13 +184,13 @@ class StatisticsTable(QWidget):
         return [None if summary is None else getattr(summary, row.key) for summary in self._summaries]
 
     def _mark_links(self, now: Any) -> None:
-        """Mark positive numbers of inverted and locked hexes as links, in the colour of bad figures."""
+        """Mark positive numbers of inverted, locked and invalid hexes as links, in the colour of bad figures."""
         for number, row in enumerate(ROWS):
             if row.key in LINKS:
                 linked = now is not None and getattr(now, row.key) > 0
                 item = self._table.item(number, _NOW)
                 font = item.font()
-                font.setBold(linked and row.key == "inverted")
+                font.setBold(linked and not row.part_of)
                 font.setUnderline(linked)
                 item.setFont(font)
                 item.setForeground(QBrush(QColor(str(WORSE if linked else TEXT))))

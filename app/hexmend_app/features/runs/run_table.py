@@ -117,7 +117,8 @@ class RunTable(QAbstractTableModel):
         return None
 
     def _colour(self, row: RunRow, column: int) -> Role:
-        if column >= FIRST and QUANTITIES[column - FIRST].key == "inverted" and row.figures["inverted"]:
+        key = QUANTITIES[column - FIRST].key if column >= FIRST else ""
+        if key in ("inverted", "invalid") and row.figures[key]:
             return WORSE
         return MUTED if row.dominated_by or column == SETTINGS else TEXT
 

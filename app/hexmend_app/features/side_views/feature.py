@@ -129,7 +129,10 @@ class FeatureSideViews(Feature):
     def _show_captions(self) -> None:
         shown = [(tr(NOW), self.session.document.now, BLUE)]
         shown += [(view.name, view.state, self._colour(view.state)) for view in self._views.all]
-        captions = [Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown]
+        captions = [
+            Caption(name, state.summary.q_min, state.summary.inverted, state.summary.invalid, colour)
+            for name, state, colour in shown
+        ]
         self.canvas.show_captions(captions, self._views.wipe)
 
     def _colour(self, state: State) -> Role | None:

@@ -1,4 +1,4 @@
-"""Colours of hexes by a colour map, and special colours, for example of inverted hexes."""
+"""Colours of hexes by a colour map, and special colours, for example of invalid hexes."""
 
 from __future__ import annotations
 
@@ -8,19 +8,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, ROUNDING
+from hexmend.quality import ElementQuality
 from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.quantities import MATERIAL, colour_quantity
 from hexmend_app.scene.colour.material_colours import material_table
 from hexmend_app.scene.colour.value_range import better, declared_range
-from hexmend_app.theme.palette import INVERTED as MAGENTA
+from hexmend_app.theme import palette
 
 #: Neutral colours: of boundary faces, and of faces inside the mesh that a cut or a filter exposes.
 OUTSIDE, OPENED = (0xF2, 0xF2, 0xEF), (0xF6, 0xC9, 0x4C)
 
-#: Colour of inverted hexes: magenta, which no colour map contains. Colours of changes use it for newly inverted hexes,
-#: a duller magenta for hexes that are still inverted, and yellow for repaired hexes.
-INVERTED = tuple(bytes.fromhex(MAGENTA[1:]))
+#: Colours of invalid hexes: magenta of the inverted ones, which no colour map contains, and a lighter magenta of those
+#: that are invalid inside. Colours of changes use magenta for newly inverted hexes, a duller magenta for hexes that are
+#: still inverted, and yellow for repaired hexes.
+INVERTED, INVALID_INSIDE = (tuple(bytes.fromhex(one[1:])) for one in (palette.INVERTED, palette.INVALID_INSIDE))
 _STILL, _MENDED = (0x8E, 0x4B, 0x76), (0xF0, 0xE4, 0x42)
 
 
@@ -32,7 +34,7 @@ class SpecialColour:
     colour: tuple[int, int, int]
 
 
-_INVERTED = (SpecialColour("inverted", INVERTED),)
+INVALID_COLOURS = (SpecialColour("inverted", INVERTED), SpecialColour("invalid inside", INVALID_INSIDE))
 _CHANGED = (
     SpecialColour("newly inverted", INVERTED),
     SpecialColour("still inverted", _STILL),
@@ -75,7 +77,7 @@ class Colouring:
     low: float
     high: float
     table: np.ndarray
-    special_colours: tuple[SpecialColour, ...] = _INVERTED
+    special_colours: tuple[SpecialColour, ...] = INVALID_COLOURS
     names: tuple[str, ...] = ()
     beyond: tuple[bool, bool] = (False, False)
 
@@ -94,7 +96,7 @@ class Colouring:
         with np.errstate(over="ignore", invalid="ignore"):  # overflow is clipped
             row = (np.asarray(values) - self.low) * (255.999 / (self.high - self.low))
         np.clip(row, 0, 255, out=row)
-        # Hexes without a value (nan) get the lowest colour unless they are inverted.
+        # Hexes without a value (nan) get the lowest colour unless they are invalid.
         return self._with_special(self.table[np.nan_to_num(row, copy=False, nan=0.0).astype(np.uint8)], kinds)
 
     def neutral(self, opened: np.ndarray, kinds: np.ndarray) -> np.ndarray:
@@ -121,10 +123,20 @@ class Colouring:
         return end_label(value, self.low, self.high, self.beyond)
 
 
+def invalid_kinds(quality: ElementQuality) -> np.ndarray:
+    """Return the number of the special colour of each hex, (m,) uint8: 1 if inverted, 2 if invalid inside, else 0."""
+    return quality.invalid.astype(np.uint8) + (quality.invalid & ~quality.inverted)
+
+
+def are_invalid(colours: np.ndarray) -> np.ndarray:
+    """Return True for colours, (k, 3) uint8, of inverted hexes and of those that are invalid inside, (k,) bool."""
+    return (colours == INVERTED).all(axis=1) | (colours == INVALID_INSIDE).all(axis=1)
+
+
 def resolve(
     colours: Colours,
     values: np.ndarray,
-    inverted: np.ndarray,
+    invalid: np.ndarray,
     ends_of_views: tuple[float, float] | None = None,
     title: str = "",
     names: tuple[str, ...] = (),
@@ -136,8 +148,8 @@ def resolve(
     colours : Colours
     values : (m,) float64
         Values of all hexes, hidden ones too, so that colours do not change with a cut.
-    inverted : (m,) bool
-        Inverted hexes have a special colour; a range is fitted to them only if there are no others.
+    invalid : (m,) bool
+        Invalid hexes have special colours; a range is fitted to them only if there are no others.
     ends_of_views : (low, high), optional
         Range of the values of other views, which a fitted range includes to make colours comparable.
     title : str
@@ -149,7 +161,7 @@ def resolve(
         return Colouring(title or MATERIAL.title, 0.0, len(names) - 1.0, material_table(len(names)), names=names)
     ends, change = declared_ends(colours), colours.metric == "q-change"
     if ends is None:
-        low, high = fitted(values, inverted)
+        low, high = fitted(values, invalid)
         ends = (low, high) if ends_of_views is None else (min(low, ends_of_views[0]), max(high, ends_of_views[1]))
         if colours.metric in DISPLACEMENT_QUANTITIES:
             largest = max(abs(end) for end in ends)
@@ -158,9 +170,9 @@ def resolve(
     table = COLOUR_MAPS[CHANGE_MAP if change else colours.map].table
     if colours.reverse != (better(colours.metric) < 0):
         table = table[::-1]
-    title, chosen = title or colour_quantity(colours.metric).title, values[np.isfinite(values) & ~inverted]
+    title, chosen = title or colour_quantity(colours.metric).title, values[np.isfinite(values) & ~invalid]
     beyond = bool((chosen < ends[0]).any()), bool((chosen > ends[1]).any())
-    return Colouring(title, *ends, table, _CHANGED if change else _INVERTED, beyond=beyond)
+    return Colouring(title, *ends, table, _CHANGED if change else INVALID_COLOURS, beyond=beyond)
 
 
 def declared_ends(colours: Colours) -> tuple[float, float] | None:
@@ -172,12 +184,12 @@ def declared_ends(colours: Colours) -> tuple[float, float] | None:
     return None if colours.range is Range.FITTED else declared_range(colours.metric, colours.range)
 
 
-def fitted(values: np.ndarray, inverted: np.ndarray) -> tuple[float, float]:
-    """Return the range of values, (m,), except those of `inverted` hexes, (m,) bool; a point is widened.
+def fitted(values: np.ndarray, invalid: np.ndarray) -> tuple[float, float]:
+    """Return the range of values, (m,), except those of `invalid` hexes, (m,) bool; a point is widened.
 
     Values far outside of most, by more than `_FAR` times the span of their middle half, are left out up to one percent.
     """
-    chosen = _ordinary(values, inverted)
+    chosen = _ordinary(values, invalid)
     if not chosen.size:
         return 0.0, 1.0
     low, high = _robust_ends(chosen)
@@ -185,10 +197,10 @@ def fitted(values: np.ndarray, inverted: np.ndarray) -> tuple[float, float]:
     return (low, high) if missing <= 0 else (low - missing / 2, high + missing / 2)
 
 
-def _ordinary(values: np.ndarray, inverted: np.ndarray) -> np.ndarray:
-    """Return the finite values of hexes that are not inverted; of all, if these have none."""
+def _ordinary(values: np.ndarray, invalid: np.ndarray) -> np.ndarray:
+    """Return the finite values of hexes that are not invalid; of all, if these have none."""
     finite = np.isfinite(values)
-    chosen = values[finite & ~inverted]
+    chosen = values[finite & ~invalid]
     return chosen if chosen.size else values[finite]
 
 

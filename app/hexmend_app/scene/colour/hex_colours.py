@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.picture.quantities import MATERIAL
-from hexmend_app.scene.colour.colouring import Colouring, fitted, resolve
+from hexmend_app.scene.colour.colouring import Colouring, fitted, invalid_kinds, resolve
 from hexmend_app.scene.colour.material_colours import material_names, material_values
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.mesh.metric_cache import metric_values
@@ -26,7 +26,7 @@ class HexColours:
     """
 
     def __init__(self) -> None:
-        self.values, self.kinds = np.empty(0), np.empty(0, dtype=bool)
+        self.values, self.kinds = np.empty(0), np.empty(0, dtype=np.uint8)
         self.colouring: Colouring | None = None
         self._ends_of_views: tuple[float, float] | None = None
         self._counts: tuple[np.ndarray, np.ndarray] | None = None  # kinds, and the number of hexes of each
@@ -35,7 +35,7 @@ class HexColours:
         """Compute the values and the colouring of a frame."""
         self._frame = frame
         mesh, figures, colours, movement = frame.mesh, frame.figures, frame.look.colours, frame.movement
-        self.kinds, title, names = figures.inverted, "", ()
+        self.kinds, title, names = invalid_kinds(figures), "", ()
         if colours.metric == MATERIAL.name:
             self.values, names = material_values(mesh), material_names(mesh)
         elif colours.metric not in DISPLACEMENT_QUANTITIES:
@@ -44,9 +44,10 @@ class HexColours:
             self.values = np.zeros(mesh.n_hexes)
         else:
             self.values = movement.values(colours.metric)
-            self.kinds = movement.inversion_changes if colours.metric == "q-change" else figures.inverted
+            if colours.metric == "q-change":
+                self.kinds = movement.inversion_changes
             title = movement.title(colours.metric)
-        self.colouring = resolve(colours, self.values, figures.inverted, self._ends_of_views, title, names)
+        self.colouring = resolve(colours, self.values, figures.invalid, self._ends_of_views, title, names)
 
     def extend_range(self, ends: tuple[float, float] | None) -> bool:
         """Extend a fitted range to that of all views; return True if it changes."""
@@ -73,7 +74,7 @@ class HexColours:
     @property
     def ends(self) -> tuple[float, float]:
         """Fitted range of the values of this view."""
-        return fitted(self.values, self._frame.figures.inverted)
+        return fitted(self.values, self._frame.figures.invalid)
 
     @property
     def special_counts(self) -> list[tuple[str, int, tuple[int, int, int]]]:

@@ -15,6 +15,7 @@ from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend_app.picture.appearance import Look, Since
+from hexmend_app.scene.colour.colouring import INVALID_COLOURS
 from hexmend_app.scene.film.film_frames import FilmFrame
 from hexmend_app.scene.film.film_page import FilmPage, InitialPicture
 from hexmend_app.scene.film.frame_parts import pixel_ratio_of, strip_height
@@ -29,8 +30,8 @@ from hexmend_app.scene.views.viewport import Viewport
 FORMATS = {".mp4": "MP4", ".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}
 
 #: Numbers of colours in the common palette of a GIF: of the mesh, of the colour bar, which would otherwise show bands,
-#: and of the axes.
-_COLOURS, _BAR, _AXES = 116, 120, 16
+#: and of the axes; two are those of invalid hexes.
+_COLOURS, _BAR, _AXES = 114, 120, 16
 
 #: Duration of the first and the last frame, in frames.
 _PAUSE = 8
@@ -167,6 +168,7 @@ def _with_one_palette(frames: Sequence[Image.Image]) -> list[Image.Image]:
         table += _colours_along(last[-strip:][strip // 4])
         low, corner = len(last) - strip, 3 * strip
         table += _main_colours([last[low - corner : low, :corner]], _AXES)
+        table += [special.colour for special in INVALID_COLOURS]
     return [_apply_palette(frame, table) for frame in frames]
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.hex_groups import invalid_counts
 from hexmend_app.state.mesh.history import History, RunRecord
 
 
@@ -36,10 +37,9 @@ class FilmFrame:
 
     @property
     def quality(self) -> str:
-        """q min and the number of inverted hexes, in words."""
+        """q min and the number of invalid hexes, in words."""
         summary = self.state.summary
-        inverted = f"{summary.inverted:,}" if summary.inverted else "none"
-        return f"q min {summary.q_min:.4f}, {inverted} inverted"
+        return f"q min {summary.q_min:.4f}, {invalid_counts(summary.inverted, summary.invalid)}"
 
 
 def chosen_iterations(history: History, record: RunRecord, frames: int) -> list[int]:

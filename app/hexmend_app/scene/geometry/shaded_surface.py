@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pyvista as pv
 
-from hexmend_app.scene.colour.colouring import INVERTED
+from hexmend_app.scene.colour.colouring import are_invalid
 from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.geometry import occlusion
 from hexmend_app.scene.geometry.edge_flags import edge_flags, normals_of, set_edge_flags, set_normals
@@ -39,7 +39,6 @@ def shaded_surface(poly: pv.PolyData, light: np.ndarray | None) -> pv.PolyData:
 
 
 def shaded(colours: np.ndarray, light: np.ndarray) -> np.ndarray:
-    """Return colours, (k, 3) uint8, shaded by ambient light, (k,) float64; inverted hexes are not shaded."""
-    inverted = (colours == INVERTED).all(axis=1)
-    brightness = np.where(inverted, 1.0, occlusion.brightness(light))
+    """Return colours, (k, 3) uint8, shaded by ambient light, (k,) float64; invalid hexes are not shaded."""
+    brightness = np.where(are_invalid(colours), 1.0, occlusion.brightness(light))
     return (colours * brightness[:, None] + 0.5).astype(np.uint8)

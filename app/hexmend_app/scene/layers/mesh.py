@@ -1,4 +1,4 @@
-"""Hexes of a view: skin, sections of a smooth cut, and outlines of inverted hexes."""
+"""Hexes of a view: skin, sections of a smooth cut, and outlines of invalid hexes."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
 from hexmend_app.scene.geometry.decimated_surface import MANY, decimated
 from hexmend_app.scene.geometry.shaded_surface import shaded, shaded_surface
 from hexmend_app.scene.geometry.skin import Faces, Skin
-from hexmend_app.scene.layers.inverted_outline import InvertedOutline
+from hexmend_app.scene.layers.invalid_outline import InvalidOutline
 from hexmend_app.scene.layers.surface import Surface, colours_of, hexes_of, quads, recoloured, set_colours, set_points
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 
-#: Maximum number of inverted hexes that are outlined in fast frames too.
+#: Maximum number of invalid hexes that are outlined in fast frames too.
 _MAX_OUTLINED = 1000
 
 
@@ -50,7 +50,7 @@ class MeshLayer:
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         self.skin, self.section = Surface(pane.renderer, pixel_ratio), Surface(pane.renderer, pixel_ratio)
-        self._outlines = [(s, InvertedOutline(pane.renderer, pixel_ratio)) for s in (self.skin, self.section)]
+        self._outlines = [(s, InvalidOutline(pane.renderer, pixel_ratio)) for s in (self.skin, self.section)]
         self._coarse: pv.PolyData | None = None  # decimated skin, drawn while the camera moves
         self._body: tuple[object, object, pv.PolyData] | None = None  # points, colouring, decimated skin without a cut
         self._steady = False  # True if only the camera has moved since the last fine frame
@@ -156,11 +156,11 @@ class MeshLayer:
             surface.show_proxy(None)
             surface.clip(())
             surface.divide_edges(self._divisions)
-        # Back faces take a third of the frame time, but inverted hexes may turn them towards the viewer.
-        self._inverted = frame.figures.n_inverted
-        self.skin.cull(self._inverted == 0)
+        # Back faces take a third of the frame time, but invalid hexes may turn them towards the viewer.
+        self._invalid = frame.figures.n_invalid
+        self.skin.cull(self._invalid == 0)
         self._replace(frame, keep, colours)
-        self.outline_inverted()
+        self.outline_invalid()
 
     def _replace(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
         if not frame.look.cut.smooth:
@@ -175,10 +175,10 @@ class MeshLayer:
         else:
             self.section.replace(curved_sections(mesh, keep, cut, of_hexes, self._divisions))
 
-    def outline_inverted(self) -> None:
-        """Outline inverted hexes; many of them only in fine frames, as outlines take half of a fast frame."""
+    def outline_invalid(self) -> None:
+        """Outline invalid hexes; many of them only in fine frames, as outlines take half of a fast frame."""
         for surface, outline in self._outlines:
-            if surface.shown and 0 < self._inverted <= (_MAX_OUTLINED if self.fast else self._inverted):
+            if surface.shown and 0 < self._invalid <= (_MAX_OUTLINED if self.fast else self._invalid):
                 outline.outline(surface.poly, self._divisions)
             else:
                 outline.hide()

@@ -12,6 +12,7 @@ from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.errors import ParameterError
 from hexmend_app.picture import Captions, PicturePanel, Scene, TextPlace
 from hexmend_app.picture.quantities import MATERIAL, colour_quantity
+from hexmend_app.scene.colour.colouring import INVALID_COLOURS
 from hexmend_app.scene.colour.material_colours import material_names, material_table
 from hexmend_app.scene.page.lettering import Lettering
 from hexmend_app.scene.page.name_legend import MOST_BELOW, Entry, name_entries, rows_of
@@ -20,6 +21,9 @@ from hexmend_app.scene.page.page_mesh import PageMesh
 #: Sizes in font heights: height of captions, gap between panels, height of the strip of a colour bar below, height of a
 #: row of swatches, and width of the strip of a colour bar at the right without its numbers.
 _CAPTION, _GAP, _STRIP, _ROW, _SIDE = 1.8, 0.6, 3.4, 1.25, 4.2
+
+#: Swatches of invalid hexes, with numbers as long as they may be.
+_SPECIAL: list[Entry] = [(f"{special.name} (00,000)", special.colour) for special in INVALID_COLOURS]
 
 #: Minimum width and height of a page with a colour bar, in font heights.
 _MIN_SIZE = (24.0, 12.0)
@@ -174,11 +178,11 @@ class Layout:
     def strip(self) -> int:
         """Height of the strip of the colour bar below the panels, or its width at the right, in pixels."""
         if self.names and self.bar is TextPlace.BELOW:
-            rows = rows_of(self.letters, self.legend(MOST_BELOW, [("inverted (00,000)", (0, 0, 0))]), self.legend_width)
+            rows = rows_of(self.letters, self.legend(MOST_BELOW, _SPECIAL), self.legend_width)
             return round((_ROW * len(rows) + 0.8) * self.letters.height)
-        swatches = 3 if self.scene.colours.metric == "q-change" else 1
+        swatches = 3 if self.scene.colours.metric == "q-change" else len(_SPECIAL)
         if self.bar is TextPlace.RIGHT:
-            width = max(_SIDE + self.letters.em("0.0000"), 2 + self.letters.em("inverted (00,000)"))
+            width = max(_SIDE + self.letters.em("0.0000"), 2 + max(self.letters.em(text) for text, _ in _SPECIAL))
             width = max([width, *(3 + self.letters.em(name) for name in self.names)])
             return round(width * self.letters.height)
         return round(max(_STRIP + 1.4 * self.long_title, _ROW * swatches + 0.8) * self.letters.height)

@@ -11,6 +11,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.views.frame import Frame
+from hexmend_app.state.mesh.hex_groups import invalid_counts
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +54,5 @@ class PageMesh:
 
     @property
     def text(self) -> str:
-        """Figures of the caption: smallest q and number of inverted hexes."""
-        inverted = self.figures.n_inverted
-        return f"q min {self.figures.q.min():.4f}, {f'{inverted:,}' if inverted else 'none'} inverted"
+        """Figures of the caption: smallest q and number of invalid hexes."""
+        return f"q min {self.figures.q.min():.4f}, {invalid_counts(self.figures.n_inverted, self.figures.n_invalid)}"

@@ -282,7 +282,7 @@ class Viewport:
         if self.mesh_layer.faces.many:
             self._rebuild(self.frame)
         elif not self._coarse_cut:
-            self.mesh_layer.outline_inverted()
+            self.mesh_layer.outline_invalid()
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:

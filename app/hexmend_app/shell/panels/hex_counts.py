@@ -1,4 +1,4 @@
-"""Label in the status bar with the numbers of hexes, inverted and isolated hexes, and the selected hex."""
+"""Label in the status bar with the numbers of hexes, invalid and isolated hexes, and the selected hex."""
 
 from __future__ import annotations
 
@@ -29,18 +29,25 @@ class HexCounts(ElidingLabel):
     def refresh(self, session: Session) -> None:
         """Show the counts of the current mesh."""
         summary = session.document.now.summary
-        counts = {"hexes": summary.hexes, "inverted": summary.hexes}
         selected = tr("hex {hex:,}: inverted", hex=summary.hexes)
-        longest = f"{tr('{hexes:,} hexes, {inverted:,} inverted', **counts)}  ·  {selected}"
+        longest = f"{_counts_text(summary.hexes, summary.hexes)}  ·  {selected}"
         if longest != self._longest:
             self._longest = longest
             self.updateGeometry()
-        if summary.inverted:
-            text = tr("{hexes:,} hexes, {inverted:,} inverted", hexes=summary.hexes, inverted=summary.inverted)
-        else:
-            text = tr("{hexes:,} hexes", hexes=summary.hexes)
+        text = _counts_text(summary.hexes, summary.invalid)
         self.setText("  ·  ".join(filter(None, (text, _isolated_text(session), _selected_text(session)))))
         self.setToolTip(self.text())
+
+
+def _counts_text(hexes: int, invalid: int) -> str:
+    """Return the number of hexes, and that of invalid ones if there are any.
+
+    >>> _counts_text(4788, 0), _counts_text(4788, 5)
+    ('4,788 hexes', '4,788 hexes, 5 invalid')
+    """
+    if invalid:
+        return tr("{hexes:,} hexes, {invalid:,} invalid", hexes=hexes, invalid=invalid)
+    return tr("{hexes:,} hexes", hexes=hexes)
 
 
 def _isolated_text(session: Session) -> str:
@@ -56,4 +63,6 @@ def _selected_text(session: Session) -> str:
         return ""
     if now.figures.inverted[selected]:
         return tr("hex {hex:,}: inverted", hex=selected)
+    if now.figures.invalid[selected]:
+        return tr("hex {hex:,}: invalid", hex=selected)
     return tr("hex {hex:,}: q {q:.3f}", hex=selected, q=now.figures.q[selected])

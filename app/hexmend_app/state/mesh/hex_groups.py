@@ -1,4 +1,4 @@
-"""Named groups of hexes that can be isolated: inverted, locked, mended, ..."""
+"""Named groups of hexes that can be isolated: inverted, invalid, locked, mended, ..."""
 
 from __future__ import annotations
 
@@ -11,7 +11,17 @@ from hexmend.quality import ElementQuality, locked_hexes
 #: Groups that a displacement defines.
 _OF_DISPLACEMENT = {"newly inverted": NEWLY_INVERTED, "still inverted": STILL_INVERTED, "mended": MENDED}
 
-GROUPS = ("inverted", "locked", *_OF_DISPLACEMENT)
+GROUPS = ("inverted", "invalid", "invalid inside", "locked", *_OF_DISPLACEMENT)
+
+
+def invalid_counts(inverted: int, invalid: int) -> str:
+    """Return the numbers of inverted hexes and of those that are invalid inside, for captions.
+
+    >>> invalid_counts(0, 0), invalid_counts(1200, 1200), invalid_counts(1, 3)
+    ('none invalid', '1,200 inverted', '1 inverted, 2 invalid inside')
+    """
+    counts = {"inverted": inverted, "invalid inside": invalid - inverted}
+    return ", ".join(f"{count:,} {name}" for name, count in counts.items() if count) or "none invalid"
 
 
 def hexes_of_group(
@@ -36,8 +46,10 @@ def hexes_of_group(
     """
     if group not in GROUPS:
         raise KeyError(f"there is no group of hexes {group!r}: known are {', '.join(GROUPS)}")
-    if group == "inverted":
-        return np.flatnonzero(figures.inverted)
+    if group in ("inverted", "invalid"):
+        return np.flatnonzero(getattr(figures, group))
+    if group == "invalid inside":
+        return np.flatnonzero(figures.invalid & ~figures.inverted)
     if group == "locked":
         return np.flatnonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted))
     if displacement is None:

@@ -26,7 +26,8 @@ class WorstHexes:
     values, jacobians : (k,) float64
         Values of the metric, and scaled Jacobians.
     states : list of str
-        "locked" if fixed nodes alone keep the hex inverted, "inverted" for other inverted hexes, else "".
+        "locked" if fixed nodes alone keep the hex inverted, "inverted" for other inverted hexes, "inside" for hexes
+        that are invalid inside, else "".
     ids : (k,) int, optional
         Numbers of the hexes in the file; None if that counts from 0 too, or has none.
     """
@@ -44,7 +45,7 @@ class WorstHexes:
         worst = rank_worst(values, figures, min(MAX_LISTED, values.size), METRICS[metric].better or 1)
         inverted = figures.inverted[worst]
         locked = locked_hexes(mesh.points, mesh.hexes[worst], mesh.fixed, inverted)
-        states = np.where(locked, "locked", np.where(inverted, "inverted", "")).tolist()
+        states = np.select([locked, inverted, figures.invalid[worst]], ["locked", "inverted", "inside"], "").tolist()
         ids = hex_ids(mesh)
         of_file = None if ids is None else ids[worst]
         return cls(worst, values[worst], figures.scaled_jacobian[worst], states, of_file)

@@ -75,6 +75,13 @@ def test_quality_has_a_third_curve_on_an_axis_that_extends_to_negative_scaled_ja
     assert plot.scale.low == 0
 
 
+def test_invalid_hexes_have_a_curve_in_the_chart_of_inverted_ones(panel):
+    plot, mended = panel.plots["inverted"], curve(record("mend", 6, invalid=7))
+    panel.set_curves([mended])
+    assert [(0, key) in plot.lines for key in ("inverted", "invalid")] == [True, True]
+    assert describe(plot.chart, [mended], 3, by_time=False).startswith("mend 3: inverted 10, invalid 7")
+
+
 def test_the_default_charts_are_drawn_below_one_another_with_one_axis(panel):
     assert [plot.chart.key for plot in panel.drawn] == ["objective", "quality", "inverted"]
     tops = [plot.mapTo(panel, QPoint(0, 0)).y() for plot in panel.drawn]

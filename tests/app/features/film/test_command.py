@@ -6,7 +6,9 @@ from PIL import Image
 
 from hexmend import io
 from hexmend.cli.main import main
+from hexmend.gallery import make
 from hexmend.run import memory
+from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED
 from tests.core.boundary.solids import ball, slid
 from tests.core.smoothers.test_sliding_on_surface import skin_of, write_stl
 
@@ -136,6 +138,15 @@ def test_a_film_can_begin_with_its_result(mesh_file, tmp_path, capsys):
     assert durations == [100, 800, 100, 100, 800]
     assert (frames[0] == frames[-1]).all()
     assert (frames[0] != frames[1]).any()
+
+
+def test_the_swatches_of_invalid_hexes_have_their_colours_also_if_there_are_none(tmp_path):
+    io.write(tmp_path / "cube.vtu", make("cube", size=27))
+    run = ["--method", "laplacian", "--max-iterations", "2", "--size", "640x300", "--frames", "2"]
+    assert main(["film", str(tmp_path / "cube.vtu"), "-o", str(tmp_path / "run.gif"), *run]) == 0
+    last = _frames(tmp_path / "run.gif")[0][-1]
+    for colour in (INVERTED, INVALID_INSIDE):
+        assert np.count_nonzero((last == colour).all(axis=2)) > 10
 
 
 def test_a_colour_bar_has_no_bands(mesh_file, tmp_path):

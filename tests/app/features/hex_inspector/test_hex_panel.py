@@ -9,6 +9,8 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
 
 from hexmend.quality import describe_hex, describe_node, measure
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
+from hexmend_app.widgets.wording import figure
+from tests.app.invalid_hexes import BENT, INSIDE, THREE, VALID
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
@@ -39,10 +41,20 @@ def test_a_hex_is_shown_with_metrics_nodes_and_neighbours(panel):
     panel.show_hex(details)
     shown = texts(panel)
     assert f"Hex {WORST:,}" in shown
-    assert "inverted" in shown
+    assert f"inverted; det J min / max {figure(details.least_jacobian)}" in shown
     assert all(any(f">{node:,}<" in text for text in shown) for node in details.nodes)
     assert f"{details.values['q']:.4f}" in shown
     assert shown.count("free") + shown.count("fixed") == 8
+
+
+def test_a_hex_that_is_invalid_inside_is_called_so_with_its_least_determinant(panel):
+    panel.show_hex(describe_hex(THREE, INSIDE))
+    (state,) = (text for text in texts(panel) if text.startswith("invalid inside; det J min / max "))
+    assert float(state.split()[-1].replace("−", "-")) == pytest.approx(-1 / 8, abs=2e-3)
+    panel.show_hex(describe_hex(BENT, 0))  # by its map of second order
+    assert any(text.startswith("invalid inside; det J min / max −") for text in texts(panel))
+    panel.show_hex(describe_hex(THREE, VALID))
+    assert not any("det J" in text for text in texts(panel))
 
 
 def test_the_numbers_of_the_file_are_named_too(panel):

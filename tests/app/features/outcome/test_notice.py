@@ -29,7 +29,8 @@ def test_it_says_what_a_run_has_changed_and_undoes_it(window, qtbot):
     start = window.session.document.now
     run(window, qtbot, "mend")
     title, text = window.messages.title.text(), window.messages.text.text()
-    pattern = rf"{start.summary.inverted} → 0 inverted · q min 0\.\d{{3}} · scaled Jacobian min 0\.\d{{3}}"
+    counts = rf"{start.summary.inverted} → 0 inverted · {start.summary.invalid} → 0 invalid"
+    pattern = rf"{counts} · q min 0\.\d{{3}} · scaled Jacobian min 0\.\d{{3}}"
     assert re.fullmatch(pattern, title)
     assert re.fullmatch(r"\d+ iterations · \d+\.\d\d s · Converged.*", text)
     press(choice(window, "Undo"))

@@ -16,8 +16,10 @@ from tests.app.driving import choose, click, phase
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
-START = dataclasses.replace(summarise(grid(2)), inverted=56, q_min=0.4035, q_mean=0.8916, scaled_jacobian_min=0.2224)
-NOW = dataclasses.replace(START, inverted=0, q_min=0.4841, q_mean=0.8781)
+START = dataclasses.replace(
+    summarise(grid(2)), inverted=56, invalid=58, q_min=0.4035, q_mean=0.8916, scaled_jacobian_min=0.2224
+)
+NOW = dataclasses.replace(START, inverted=0, invalid=2, q_min=0.4841, q_mean=0.8781)
 
 
 @pytest.fixture
@@ -33,8 +35,10 @@ def colours(bar):
 
 
 def test_each_figure_has_its_value_at_the_start_and_an_arrow_in_the_colour_of_better_or_worse(bar):
-    assert bar.text == ("inverted 56 → 0 ▼ q min 0.4035 → 0.4841 ▲ q mean 0.8916 → 0.8781 ▼ scaled Jacobian min 0.2224")
-    assert colours(bar)[:3] == [str(BETTER), str(BETTER), str(WORSE)]
+    assert bar.text == (
+        "inverted 56 → 0 ▼ invalid 58 → 2 ▼ q min 0.4035 → 0.4841 ▲ q mean 0.8916 → 0.8781 ▼ scaled Jacobian min 0.2224"
+    )
+    assert colours(bar)[:4] == [str(BETTER), str(BETTER), str(BETTER), str(WORSE)]
     assert "q mean 0.8781, worse than at the start: 0.8916" in bar.findChild(QLabel).accessibleDescription()
 
 
@@ -87,3 +91,11 @@ def test_several_views_have_their_figures_in_the_captions_instead(window):
     window.action("close_views").trigger()
     window.refresh()
     assert bar.isVisible()
+
+
+def test_no_digit_is_cut_at_the_size_that_the_bar_asks_for(bar):
+    for now in (START, NOW):
+        bar.set_summaries(START, now)
+        bar.resize(bar.sizeHint())
+        label = bar.findChild(QLabel)
+        assert label.contentsRect().width() >= label.sizeHint().width()

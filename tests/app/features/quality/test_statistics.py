@@ -21,6 +21,8 @@ _START = {
     "free_nodes": 28317,
     "inverted": 36,
     "locked_inverted": 0,
+    "invalid": 40,
+    "min_jacobian": -1.0,
     "q_min": 0.0123456789,
     "q_mean": 0.85,
     "q_max": 0.99,
@@ -31,6 +33,8 @@ _START = {
 }
 _NOW = _START | {
     "inverted": 0,
+    "invalid": 0,
+    "min_jacobian": 0.1,
     "q_min": 0.5,
     "q_mean": 0.8,
     "q_norm": 0.7,
@@ -59,7 +63,7 @@ def cell(table, key, column):
 def test_regressions_of_important_figures_are_bold(table):
     table.set_summaries(SimpleNamespace(**_NOW), SimpleNamespace(**_START))
     bold = {key for key in _ROW_OF if cell(table, key, 3).font().bold()}
-    assert bold == {"inverted", "q_min", "scaled_jacobian_min"}
+    assert bold == {"inverted", "invalid", "q_min", "scaled_jacobian_min"}
     for key in bold:
         assert cell(table, key, 3).foreground().color() == QColor(str(WORSE))
         assert cell(table, key, 3).data(Qt.ItemDataRole.AccessibleTextRole).endswith("worse")
@@ -144,7 +148,9 @@ def test_the_table_is_empty_without_a_mesh(table):
 @pytest.fixture
 def with_inverted(table):
     """Return the table with inverted hexes now, and a list of the groups whose isolation was requested."""
-    table.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW | {"inverted": 12, "locked_inverted": 3}))
+    table.set_summaries(
+        SimpleNamespace(**_START), SimpleNamespace(**_NOW | {"inverted": 12, "locked_inverted": 3, "invalid": 14})
+    )
     requests = []
     table.isolate_requested.connect(requests.append)
     return table, requests
@@ -156,12 +162,12 @@ def click(table, key, column):
     QTest.mouseClick(grid(table).viewport(), Qt.MouseButton.LeftButton, pos=position)
 
 
-def test_the_numbers_of_inverted_and_locked_hexes_are_links(with_inverted):
+def test_the_numbers_of_inverted_locked_and_invalid_hexes_are_links(with_inverted):
     table, requests = with_inverted
-    for key in ("inverted", "locked_inverted", "hexes"):
+    for key in ("inverted", "locked_inverted", "invalid", "hexes"):
         click(table, key, 2)
     click(table, "inverted", 1)  # numbers at the start are no links
-    assert requests == ["inverted", "locked"]
+    assert requests == ["inverted", "locked", "invalid"]
     assert cell(table, "inverted", 2).font().underline()
     assert "Show only the locked hexes" in cell(table, "locked_inverted", 2).toolTip()
 
@@ -175,7 +181,9 @@ def test_links_are_followed_by_keys(with_inverted):
     QTest.keyClick(grid(table), Qt.Key.Key_Enter)
     QTest.keyClick(grid(table), Qt.Key.Key_Down)
     QTest.keyClick(grid(table), Qt.Key.Key_Enter)
-    assert requests == ["inverted", "locked"]
+    QTest.keyClick(grid(table), Qt.Key.Key_Down)
+    QTest.keyClick(grid(table), Qt.Key.Key_Enter)  # no link
+    assert requests == ["inverted", "locked", "invalid"]
 
 
 def test_a_zero_is_no_link(with_inverted):

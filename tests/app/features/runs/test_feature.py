@@ -17,7 +17,7 @@ from hexmend_app.theme.palette import BLUE, MUTED
 from tests.app.driving import open_and_wait, phase
 from tests.patience import PATIENCE
 
-GIVEN = {"inverted": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
+GIVEN = {"inverted": 0, "invalid": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
 ROW_HELP = "Every other result is worse in at least one key figure."
 
 
@@ -186,14 +186,15 @@ def test_the_dots_are_between_the_smallest_and_the_largest_value():
         ]
     )
     axis = axis_of(QRectF(0, 0, 160, 20))
-    column = FIRST + 1
+    column = FIRST + [one.key for one in QUANTITIES].index("q_min")
     places = [place(model, row, column, axis) for row in range(3)]
     assert places[1:] == [axis.left(), axis.right()]
     assert places[0] == pytest.approx(axis.center().x())
 
 
 def test_a_dominated_run_does_not_stretch_the_axis():
-    model, axis, column = RunTable(), axis_of(QRectF(0, 0, 160, 20)), FIRST + 1
+    model, axis = RunTable(), axis_of(QRectF(0, 0, 160, 20))
+    column = FIRST + [one.key for one in QUANTITIES].index("q_min")
     best = RunRow(object(), "good", "", GIVEN | {"q_min": 0.5}, BLUE)
     worst = RunRow(object(), "bad", "", GIVEN | {"q_min": 0.0}, BLUE, dominated_by=("good",))
     model.fill([RunRow(None, "start", "", GIVEN, MUTED), best, worst])

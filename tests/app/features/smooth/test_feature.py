@@ -70,7 +70,7 @@ def test_a_complete_run_untangles_and_shows_it(window, qtbot):
         key(window, Qt.Key.Key_F5)
     assert window.session.document.start.summary.inverted > 0
     assert window.session.document.now.summary.inverted == 0
-    assert "inverted" not in counts(window)
+    assert "invalid" not in counts(window)
 
 
 @pytest.mark.parametrize("back", [Qt.Key.Key_Z, Qt.Key.Key_R], ids=["undo", "reset"])

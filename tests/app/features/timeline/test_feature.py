@@ -95,7 +95,7 @@ def test_everything_follows_the_slider(window, qtbot):
     assert state.summary.q_mean == pytest.approx(record.rows[3]["q_mean"], abs=1e-6)
     assert state.summary.inverted == record.rows[3]["inverted"]
     assert np.abs(pixels(window) - picture).max() > 50
-    assert named(window.statusBar(), QLabel, "Counts").text().endswith(f"{state.summary.inverted:,} inverted")
+    assert named(window.statusBar(), QLabel, "Counts").text().endswith(f"{state.summary.invalid:,} invalid")
     assert state.figures.inverted[window.features["hex_inspector"].worst_list.hexes[0]]
     assert state is not newest
 

@@ -6,10 +6,15 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hexmend.errors import ParameterError
-from hexmend.quality import METRICS
+from hexmend.quality import METRICS, measure
+from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
 from hexmend_app.picture.colours import Colours, Range
-from hexmend_app.scene.colour.colouring import INVERTED, Colouring, range_label, resolve
+from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED, Colouring, are_invalid, range_label, resolve
+from hexmend_app.scene.colour.hex_colours import HexColours
+from hexmend_app.scene.views.frame import Frame
+from tests.app.invalid_hexes import INSIDE, THREE, VALID
+from tests.app.invalid_hexes import INVERTED as TURNED
 
 NONE = np.zeros(4, bool)
 VALUES = np.array([0.9, 0.2, np.nan, 0.4])
@@ -20,12 +25,13 @@ def colouring(low, high):
 
 
 @pytest.mark.parametrize("name", value_maps())
-def test_a_map_has_256_colours_from_dark_to_light_and_none_near_the_inverted(name):
+def test_a_map_has_256_colours_from_dark_to_light_and_none_near_those_of_invalid_hexes(name):
     colour = COLOUR_MAPS[name].table.astype(int)
     assert colour.shape == (256, 3)
     lightness = colour @ [0.299, 0.587, 0.114]
     assert lightness[-1] > lightness[0] + 50
-    assert np.abs(colour - INVERTED).sum(axis=1).min() > 60
+    for invalid in (INVERTED, INVALID_INSIDE):
+        assert np.abs(colour - invalid).sum(axis=1).min() > 60
 
 
 @pytest.mark.parametrize("name", COLOUR_MAPS)
@@ -42,6 +48,23 @@ def test_values_outside_the_range_have_the_colour_of_the_nearest_end():
 def test_inverted_hexes_have_a_special_colour_independent_of_their_value():
     got = colouring(0, 1).colours(np.array([0.0, np.nan, 1.0]), np.array([True, True, False]))
     assert got.tolist() == [list(INVERTED), list(INVERTED), COLOUR_MAPS["viridis"].table[255].tolist()]
+
+
+@pytest.mark.parametrize("metric", ["q", "scaled-jacobian", "material"])
+def test_hexes_that_are_invalid_inside_have_a_colour_and_a_count_of_their_own(metric):
+    mesh = THREE.replace(hex_data={"material": np.zeros(3, np.int32)})
+    colours = HexColours()
+    colours.measure(Frame(mesh, measure(mesh.points, mesh.hexes), look=Look(colours=Colours(metric=metric))))
+    got = colours.of(np.array([VALID, TURNED, INSIDE]))
+    assert [tuple(colour) for colour in got[1:].tolist()] == [INVERTED, INVALID_INSIDE]
+    assert are_invalid(got).tolist() == [False, True, True]
+    assert colours.special_counts == [("inverted", 1, INVERTED), ("invalid inside", 1, INVALID_INSIDE)]
+
+
+def test_the_colours_of_invalid_hexes_differ_in_lightness():
+    """So that they differ for colour-blind viewers, and in print."""
+    dark, light = np.array([INVERTED, INVALID_INSIDE]) @ [0.299, 0.587, 0.114]
+    assert light > dark + 60
 
 
 def test_an_unknown_map_is_an_error():

@@ -84,7 +84,7 @@ def test_the_window_lists_the_materials_in_place_of_the_gradient(shown):
     bar = ColourBar()
     bar.set_table(NAMED.table)
     bar.set_names(NAMED.names)
-    shown(bar, 120, 100)
+    shown(bar, 120, 130)
     image = QImage(bar.size(), QImage.Format.Format_RGB32)
     bar.render(image)
     seen = {image.pixelColor(x, y).getRgb()[:3] for x in range(image.width()) for y in range(image.height())}

@@ -11,7 +11,7 @@ from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
 from hexmend_app.scene.geometry.edge_flags import edge_flags, normals_of
 from hexmend_app.scene.geometry.skin import Skin
 from hexmend_app.scene.layers import mesh as mesh_layer
-from hexmend_app.scene.layers.inverted_outline import outlines
+from hexmend_app.scene.layers.invalid_outline import outlines
 from hexmend_app.scene.layers.surface import hexes_of
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame

@@ -12,7 +12,7 @@ from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.geometry.curved_edges import DIVISIONS, sharp_curved_edges
-from hexmend_app.scene.layers.inverted_outline import outlines
+from hexmend_app.scene.layers.invalid_outline import outlines
 from hexmend_app.scene.layers.surface import colours_of
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame

@@ -9,7 +9,7 @@ MESH = grid(4)
 
 
 def figures_of(mesh):
-    return measure(mesh.points, mesh.hexes)
+    return measure(mesh.points, mesh.hexes, mesh.mid_nodes)
 
 
 def show(viewport, mesh=None, look=None):

@@ -10,7 +10,9 @@ from hexmend_app.picture.visibility import Isolate
 from hexmend_app.scene.colour.colouring import resolve
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.hex_groups import GROUPS, hexes_of_group
+from hexmend_app.state.mesh.worst_hexes import WorstHexes
 from hexmend_app.state.view.view_model import ViewModel
+from tests.app.invalid_hexes import INSIDE, INVERTED, THREE, VALID
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(6), 0.8, 1)
@@ -23,6 +25,17 @@ def test_groups_have_as_many_hexes_as_the_summary_counts():
     assert len(hexes_of_group("locked", MESH, FIGURES)) == summary.locked_inverted
     fixed = MESH.replace(pinned=np.ones(MESH.n_nodes, bool))
     assert len(hexes_of_group("locked", fixed, FIGURES)) == summary.inverted
+
+
+def test_hexes_that_are_invalid_inside_are_a_group_and_a_state_of_their_own():
+    figures = measure(THREE.points, THREE.hexes)
+    expected = {"inverted": [INVERTED], "invalid": [INVERTED, INSIDE], "invalid inside": [INSIDE]}
+    for group, hexes in expected.items():
+        assert hexes_of_group(group, THREE, figures).tolist() == hexes
+    worst = WorstHexes.of(THREE.replace(pinned=np.zeros(THREE.n_nodes, bool)), figures, "q")
+    states = dict(zip(worst.hexes.tolist(), worst.states, strict=True))
+    assert (states[VALID], states[INSIDE]) == ("", "inside")
+    assert states[INVERTED] in ("inverted", "locked")
 
 
 def test_every_special_colour_of_the_colour_bar_has_a_group():
@@ -47,7 +60,7 @@ def test_a_displacement_defines_groups_by_former_and_present_inversion():
 
 
 def test_an_unknown_group_is_an_error():
-    with pytest.raises(KeyError, match="known are inverted, locked"):
+    with pytest.raises(KeyError, match="known are inverted, invalid"):
         hexes_of_group("ugly", MESH, FIGURES)
 
 

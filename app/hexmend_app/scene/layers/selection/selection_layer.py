@@ -1,4 +1,4 @@
-"""Marks of the selection: a hex and one of its nodes, or the step of a node."""
+"""Marks of the selection: a hex, one of its nodes and where it is invalid, or the step of a node."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order.curved_geometry import edge_middles
+from hexmend.mesh.second_order.curved_geometry import edge_middles, hex_nodes
 from hexmend.mesh.second_order.mid_node_lookup import EDGE_COLUMNS
 from hexmend.node_step import NodeStep
 from hexmend.quality import NodeDetails, corner_qualities
+from hexmend.quality.validity import Validity, certify
 from hexmend_app.scene.layers.selection.highlight import Highlight
+from hexmend_app.scene.layers.selection.negative_jacobian import NegativeJacobian
 from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
 from hexmend_app.scene.views.pane import Pane
 
@@ -24,11 +26,15 @@ _MID_COLUMNS = EDGE_COLUMNS[EDGES[:, 0], EDGES[:, 1]]
 class SelectionLayer:
     """Marks hexes and a node of a hex, or the step of a node; the marks move with the nodes.
 
+    Where det J of a single hex is not positive is drawn in it.
+
     Attributes
     ----------
     hexes : (k,) int
         The marked hexes.
     highlight : Highlight
+    negative : NegativeJacobian
+        Region of a single marked hex, if it is invalid.
 
     Parameters
     ----------
@@ -38,6 +44,7 @@ class SelectionLayer:
     """
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
+        self.negative = NegativeJacobian(pane, pixel_ratio)  # behind the node and the values of the highlight
         self.highlight = Highlight(pane, pixel_ratio)
         self._node_step = NodeStepMarks(pane, pixel_ratio)
         self.hexes = _NONE
@@ -52,7 +59,7 @@ class SelectionLayer:
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """Renderers in front of the mesh."""
-        return self.highlight.layer, *self._node_step.layers
+        return *self.negative.layers, self.highlight.layer, *self._node_step.layers
 
     @property
     def node_step(self) -> NodeStep | None:
@@ -62,6 +69,7 @@ class SelectionLayer:
     def set_dark(self, dark: bool) -> None:
         """Use the colours of the dark or of the light theme."""
         self._node_step.set_dark(dark)
+        self.negative.set_dark(dark)
 
     def set_mesh(self, mesh: Mesh) -> None:
         """Replace the mesh and clear all marks."""
@@ -74,6 +82,7 @@ class SelectionLayer:
         self._node_step.hide()
         self.highlight.hide()
         self.highlight.show_node(None)
+        self.negative.hide()
 
     def set_curved(self, curved: bool) -> None:
         """Draw edges curved along the mid-nodes of the mesh, or straight."""
@@ -126,6 +135,7 @@ class SelectionLayer:
     def _show_hexes(self) -> None:
         if not len(self.hexes) or self.node_step is not None:
             self.highlight.hide()
+            self.negative.hide()
             return
         nodes, points = self._mesh.hexes[self.hexes], self._mesh.points
         values = corner_qualities(points, nodes)[0] if self._with_corners else None
@@ -133,3 +143,15 @@ class SelectionLayer:
         if self._curved:
             middles = edge_middles(points, nodes[:, EDGES], self._mesh.mid_nodes[self.hexes[:, None], _MID_COLUMNS])
         self.highlight.show(points[nodes], values, middles)
+        self._show_negative()
+
+    def _show_negative(self) -> None:
+        """Draw where a single hex is invalid, by its own map: that of its mid-nodes, if it has some."""
+        mesh, hexes = self._mesh, self._mesh.hexes[self.hexes]
+        mid_nodes = None if mesh.mid_nodes is None else mesh.mid_nodes[self.hexes]
+        if self.hex is None or certify(mesh.points, hexes, mid_nodes)[0] == Validity.VALID:
+            self.negative.hide()
+        elif mid_nodes is None or (mid_nodes < 0).all():
+            self.negative.show(mesh.points[hexes[0]])
+        else:
+            self.negative.show(hex_nodes(mesh.points, hexes, mid_nodes)[0])

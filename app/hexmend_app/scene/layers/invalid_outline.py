@@ -1,4 +1,4 @@
-"""Outline around each visible inverted hex, light with a dark rim, which marks it besides its colour."""
+"""Outline around each visible invalid hex, light with a dark rim, which marks it besides its colour."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray
 from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.scene.camera.fitting import pixels
-from hexmend_app.scene.colour.colouring import INVERTED
+from hexmend_app.scene.colour.colouring import are_invalid
 from hexmend_app.scene.geometry.edge_flags import edge_flags
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.surface import colours_of
@@ -17,7 +17,7 @@ from hexmend_app.theme.palette import rgb
 
 # Colour, width in pixels, and depth offset in VTK's units: the dark rim, and the light line in front of it. The light
 # line contrasts with the dark end of every colour map and with magenta, the rim with the light end. The rim is a dark
-# magenta, so that hexes no larger than their outlines still look inverted.
+# magenta, so that hexes no larger than their outlines still look invalid.
 _LINES = (("#4a062b", 3.0, -4.0), ("#ffffff", 1.5, -8.0))
 
 #: Minimum edge length, in widths of a thin line, at which each hex is outlined instead of each region.
@@ -28,8 +28,8 @@ _MIN_EDGE = 8.0
 _TOLERANCE, _CURVED_TOLERANCE = 1e-9, 1e-6
 
 
-class InvertedOutline:
-    """Outlines the inverted hexes of a surface, or the regions that they form if hexes are small in the picture.
+class InvalidOutline:
+    """Outlines the invalid hexes of a surface, or the regions that they form if hexes are small in the picture.
 
     Parameters
     ----------
@@ -47,11 +47,11 @@ class InvertedOutline:
         self.hide()
 
     def outline(self, poly: pv.PolyData, divisions: int = 1) -> None:
-        """Outline the polygons that have the colour of inverted hexes; the outlines share the points.
+        """Outline the polygons that have the colours of invalid hexes; the outlines share the points.
 
         The edges of faces are divided into `divisions` each.
         """
-        marked = (colours_of(poly) == INVERTED).all(axis=1) if poly.GetNumberOfCells() else np.zeros(0, bool)
+        marked = are_invalid(colours_of(poly)) if poly.GetNumberOfCells() else np.zeros(0, bool)
         if not marked.any():
             self.hide()
             return

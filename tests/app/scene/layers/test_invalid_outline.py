@@ -1,10 +1,10 @@
-"""Outlines of inverted hexes, and of the regions that they form."""
+"""Outlines of invalid hexes, and of the regions that they form."""
 
 import numpy as np
 import pytest
 
-from hexmend_app.scene.colour.colouring import INVERTED
-from hexmend_app.scene.layers.inverted_outline import InvertedOutline, outlines
+from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED
+from hexmend_app.scene.layers.invalid_outline import InvalidOutline, outlines
 from hexmend_app.scene.layers.surface import quads
 from hexmend_app.scene.render.graphics import prepare_off_screen
 from hexmend_app.scene.render.stage import Stage
@@ -13,15 +13,15 @@ from hexmend_app.scene.views.pane import Pane
 WHITE = np.array([255, 255, 255])
 
 
-def board(side, chosen, own_points=False):
-    """Return a board of unit squares in which those at the given (column, row) are inverted."""
+def board(side, chosen, own_points=False, colour=INVERTED):
+    """Return a board of unit squares in which those at the given (column, row) have a colour."""
     x, y = np.meshgrid(np.arange(side + 1.0), np.arange(side + 1.0))
     points = np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()])
     low = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
     faces = np.column_stack([low, low + 1, low + side + 2, low + side + 1])
     colours = np.full((len(faces), 3), 90, np.uint8)
     for column, row in chosen:
-        colours[row * side + column] = INVERTED
+        colours[row * side + column] = colour
     if own_points:
         points, faces = points[faces.ravel()], np.arange(4 * len(faces)).reshape(-1, 4)
     return quads(points, faces, colours, np.arange(len(faces)).astype(np.int32))
@@ -39,13 +39,13 @@ def test_the_outline_of_a_region_consists_of_edges_of_a_single_polygon(own_point
     assert not (np.isin(middles[~once], (1, 3)).any(axis=1)).any()
 
 
-def white_inside(side, size):
-    """Count the white pixels in the middle third of a picture of an inverted board."""
+def white_inside(side, size, colour=INVERTED):
+    """Count the white pixels in the middle third of a picture of a board of invalid hexes."""
     prepare_off_screen()
     with Stage((size, size)) as stage:
         pane = Pane(stage.window)
-        poly = board(side, [(c, r) for c in range(side) for r in range(side)])
-        outline = InvertedOutline(pane.renderer)
+        poly = board(side, [(c, r) for c in range(side) for r in range(side)], colour=colour)
+        outline = InvalidOutline(pane.renderer)
         outline.outline(poly)
         pane.camera.SetPosition(0, 0, 1)
         pane.renderer.ResetCamera()
@@ -55,5 +55,6 @@ def white_inside(side, size):
 
 
 def test_large_hexes_are_outlined_individually_and_small_ones_by_region():
-    assert white_inside(8, 300) > 200
+    for colour in (INVERTED, INVALID_INSIDE):
+        assert white_inside(8, 300, colour) > 200
     assert white_inside(80, 300) == 0

@@ -1,0 +1,30 @@
+"""Take the picture of docs/untangle.md: a hex that is invalid inside, and where.
+
+Use: HEXMEND_MESHES=folder python scripts/pictures/invalid_inside.py FOLDER
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from screenshots import compress
+
+#: The worse of the two hexes of the mesh that are invalid inside.
+_HEX = 29
+
+
+def main(folder: Path) -> None:
+    """Draw the hex alone."""
+    mesh, picture = Path(os.environ["HEXMEND_MESHES"]) / "Dolphin_2.mesh", folder / "invalid-inside.png"
+    isolated = f"{{ hexes = [{_HEX}], rings = 0 }}"
+    words = ["render", mesh, "-o", picture, "--view=1,-0.6,0.5", "--size", "880x480"]
+    words += ["--show-isolate", isolated, "--show-marked", _HEX, "--no-show-outline"]
+    subprocess.run([sys.executable, "-m", "hexmend", *map(str, words)], check=True)
+    compress(picture)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
