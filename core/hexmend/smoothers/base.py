@@ -12,13 +12,11 @@ import numpy as np
 from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
-from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.iteration import Outcome, Step
 from hexmend.layers import Layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, declared
 from hexmend.quality import ElementQuality
-from hexmend.quality.regressions import WORSE_BY
 from hexmend.registry import Registry, load_entry_points
 
 #: Type of the generator that `Smoother.steps` returns.
@@ -175,9 +173,10 @@ class Smoother(Parametrised, ABC):
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
-        `rank_by_validity` comes first, then the least q(H). Of an optimiser it counts only whether that is visibly
-        lower than at the start: its iterates improve by the objective, not by the least q(H). With a target, q(H) is
-        that against the target; of an optimiser it counts then whether the objective is higher than at the start.
+        Invalid hexes come first, then inverted ones, then the least q(H). Of an optimiser it counts only whether that
+        is visibly lower than at the start: its iterates improve by the objective, not by the least q(H). With a target,
+        q(H) is that against the target; of an optimiser it counts then whether the objective is higher than at the
+        start.
 
         Parameters
         ----------
@@ -188,7 +187,7 @@ class Smoother(Parametrised, ABC):
         -------
         tuple of float
         """
-        least, counts = float(now.q.min()), rank_by_validity(start, now)
+        least, counts = float(now.q.min()), (now.n_invalid, now.n_inverted)
         if self.optimises and now.against_target:
             return *counts, objective_of_sound(now, self.norm) > objective_of_sound(start, self.norm)
         return *counts, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least
@@ -217,24 +216,6 @@ class Smoother(Parametrised, ABC):
         """The method's entry in `hexmend methods --json`."""
         parameters = [declaration.to_json() for declaration in declared(cls)]
         return {"name": cls.name, "title": cls.title, "help": cls.help, "source": cls.source, "parameters": parameters}
-
-
-def rank_by_validity(start: ElementQuality, now: ElementQuality, ranks: Ranks = ONE_RANK) -> tuple[int, ...]:
-    """Sort key of an iterate by its invalid hexes, the smallest is the best.
-
-    Where hexes are inverted, the minimum scaled Jacobian must not be lower than at the start. The numbers of invalid
-    hexes and of inverted ones follow.
-
-    Parameters
-    ----------
-    start, now : ElementQuality
-        See `Smoother.rank`.
-    ranks : Ranks
-        They call it together, each with its share of the hexes.
-    """
-    before, after = (ranks.least(float(of.scaled_jacobian.min(initial=np.inf))) for of in (start, now))
-    invalid, inverted = ranks.sum(now.n_invalid), ranks.sum(now.n_inverted)
-    return int(inverted > 0 and after < before - WORSE_BY), invalid, inverted
 
 
 def objective_of_sound(quality: ElementQuality, norm: ObjectiveNorm) -> float:

@@ -25,7 +25,7 @@ def ended_now(data: SessionData, record: RunRecord, newest: IterationFrame) -> S
     newest : IterationFrame
     """
     at = next(k for k, one in enumerate(data.history.records) if one.name == record.name)
-    number, state, message = newest.iteration.number, newest.state, tr("Hexmend ended unexpectedly during this run.")
+    number, state, message = newest.iteration.number, newest.state, tr("cut short")
     ended = replace(data.history.records[at], result=number, end=state, message=message, offsets=())
     records = (*data.history.records[:at], ended, *data.history.records[at + 1 :])
     moments = (*(moment for moment in data.history.moments if moment[0] is not state), (state, at, number))

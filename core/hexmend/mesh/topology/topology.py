@@ -116,7 +116,7 @@ class Topology:
 
     @property
     def neighbours_in_any_order(self) -> np.ndarray:
-        """As `face_neighbours`, also across faces whose nodes two hexes have in one order, as left-handed ones do."""
+        """Neighbour across each face, whatever the order in which both hexes have its nodes, (m, 6) int32."""
         if not self.n_nonmanifold_faces:
             return self.face_neighbours
         rows = self.node_corners

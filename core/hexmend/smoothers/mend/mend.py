@@ -11,7 +11,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend.quality.corner_heights import least_heights
 from hexmend.quality.regressions import WORSE_BY
-from hexmend.smoothers.base import Steps, method, objective_of_sound, rank_by_validity
+from hexmend.smoothers.base import Steps, method, objective_of_sound
 from hexmend.smoothers.mend.balance import BALANCE
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.stages import Stages
@@ -43,7 +43,8 @@ class Mend(MendSettings):
     def rank_on(self, ranks: Ranks, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
-        `rank_by_validity` comes first, then whether a guarded figure is lower than at the start, then
+        First comes whether the minimum scaled Jacobian is lower than at the start while hexes are inverted, then the
+        numbers of invalid hexes and of inverted ones, then whether a guarded figure is lower than at the start, then
         whether the objective of the sound hexes, with the highest p that was asked for, is higher. With a target a fall
         counts from `BalanceConfig.target_fall` on: as given, a mesh may have better corners than hexes of the lengths
         that are asked for. The goal balanced guards the figures of all hexes but those that are inverted at the start
@@ -61,22 +62,23 @@ class Mend(MendSettings):
         tuple of float
             The same on all ranks.
         """
-        counts = rank_by_validity(start, now, ranks)
+        before, after = (ranks.least(_least(of.scaled_jacobian)) for of in (start, now))
+        inverted = ranks.sum(now.n_inverted)
+        counts = inverted > 0 and after < before - WORSE_BY, ranks.sum(now.n_invalid), inverted
         if self.balances:
             return *counts, self._lowers(ranks, start, now)
         share = 1 - BALANCE.target_fall if now.against_target and not self.guard else 1.0
-        least = ranks.least(_least(now.scaled_jacobian))
         fallen = (
             ranks.least(_least(now.q)) < share * ranks.least(_least(start.q)),
-            least < share * ranks.least(_least(start.scaled_jacobian)),
+            after < share * before,
         )
         harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
-            return *counts, harmed, -round(least, _LEAST_DIGITS)
+            return *counts, harmed, -round(after, _LEAST_DIGITS)
         if self.goal == "time-step":  # the time step itself comes last, see `rank_by_points`
             return *counts, harmed if self.guard else False
-        before, after = (ranks.sum(objective_of_sound(of, self.norm)) for of in (start, now))
-        return *counts, harmed, after > before
+        objectives = [ranks.sum(objective_of_sound(of, self.norm)) for of in (start, now)]
+        return *counts, harmed, objectives[1] > objectives[0]
 
     def _lowers(self, ranks: Ranks, start: ElementQuality, now: ElementQuality) -> bool:
         """Return True if q min, the minimum scaled Jacobian or, of a sound mesh, q mean is lower than at the start."""
