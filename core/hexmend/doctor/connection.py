@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
-from hexmend.locking import hexes_without_valid_position, nodes_without_valid_position
+from hexmend.locking import describe_overlap, hexes_without_valid_position, nodes_without_valid_position
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import parts_of
@@ -43,7 +43,7 @@ class NonManifoldFaces(Problem):
 
 @register_problem
 class OverlappingCorners(Problem):
-    """Hexes of which one is inverted wherever the nodes are; see `hexmend.locking.hexes_without_valid_position`."""
+    """Hexes that overlap or are inverted wherever the nodes are: `hexmend.locking.hexes_without_valid_position`."""
 
     name, title = "overlapping-corners", "Overlapping corners"
     rank = 11
@@ -53,14 +53,7 @@ class OverlappingCorners(Problem):
         return hexes_without_valid_position(mesh)
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        nodes = nodes_without_valid_position(mesh)
-        hexes = self.finding(where, "").location_text(10, mesh)
-        at = Finding(self.name, nodes.size, "", nodes=nodes).location_text(10, mesh)
-        message = (
-            f"No position of the nodes makes all of these {where.size:,} hexes valid: {hexes}. At {at} two faces have "
-            "the same two edges, so that hexes on the same side of them overlap or are inverted."
-        )
-        return replace(self.finding(where, message), nodes=nodes)
+        return replace(self.finding(where, describe_overlap(mesh)), nodes=nodes_without_valid_position(mesh))
 
 
 @register_problem

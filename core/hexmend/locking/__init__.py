@@ -4,7 +4,11 @@ from hexmend.aliases import exports
 from hexmend.locking.free_positions import FreePositions, find_free_positions
 from hexmend.locking.locked_corners import LockedCorner, Reason, find_locked_corners
 from hexmend.locking.locking import Locking, find_locking
-from hexmend.locking.overlapping_corners import hexes_without_valid_position, nodes_without_valid_position
+from hexmend.locking.overlapping_corners import (
+    describe_overlap,
+    hexes_without_valid_position,
+    nodes_without_valid_position,
+)
 from hexmend.locking.visibility import nodes_without_space
 
 __all__ = [
@@ -12,6 +16,7 @@ __all__ = [
     "LockedCorner",
     "Locking",
     "Reason",
+    "describe_overlap",
     "find_free_positions",
     "find_locked_corners",
     "find_locking",

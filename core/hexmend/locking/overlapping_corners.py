@@ -5,6 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
+from hexmend.quality.file_ids import hex_ids, node_ids, with_ids
+from hexmend.terminal_text import count_phrase
+
+#: Hexes and nodes that a sentence names.
+_NAMED = 10
 
 
 def hexes_without_valid_position(mesh: Mesh) -> np.ndarray:
@@ -31,3 +36,24 @@ def hexes_without_valid_position(mesh: Mesh) -> np.ndarray:
 def nodes_without_valid_position(mesh: Mesh) -> np.ndarray:
     """Find the nodes at which hexes of `hexes_without_valid_position` overlap, (k,) int64, ascending."""
     return np.flatnonzero(np.diff(mesh.topology.overlapping_corners.start))
+
+
+def describe_overlap(mesh: Mesh) -> str:
+    """Name the hexes of `hexes_without_valid_position` and the nodes at which they overlap; "" where there are none.
+
+    >>> from hexmend.gallery import make
+    >>> describe_overlap(make("cube", size=8))
+    ''
+    """
+    hexes, nodes = hexes_without_valid_position(mesh), nodes_without_valid_position(mesh)
+    if not hexes.size:
+        return ""
+    named = [
+        with_ids(found[:_NAMED].tolist(), ids) + (f" and {found.size - _NAMED:,} more" if found.size > _NAMED else "")
+        for found, ids in ((hexes, hex_ids(mesh)), (nodes, node_ids(mesh)))
+    ]
+    return (
+        f"No position of the nodes makes all of {count_phrase(hexes.size, 'hex', 'hexes')} valid without overlap: "
+        f"hexes {named[0]}. At {'node' if nodes.size == 1 else 'nodes'} {named[1]} two faces have the same two edges, "
+        "so that hexes on the same side of them overlap or are inverted."
+    )

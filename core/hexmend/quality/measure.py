@@ -97,10 +97,12 @@ class ElementQuality:
         source = self.__dict__.get("_source")
         if name not in _VALUES or source is None:
             raise AttributeError(f"{type(self).__name__} has no attribute {name}")
-        again = measure(*source)
-        values = {key: again.__dict__[key] for key in _VALUES}
-        self.__dict__.update(values)
-        return values[name]
+        if name == "validity":  # few who measure hexes ask for it
+            self.__dict__[name] = certify(*source)
+        else:
+            again = measure(*source)
+            self.__dict__.update({key: again.__dict__[key] for key in _VALUES if key != "validity"})
+        return self.__dict__[name]
 
     def __repr__(self) -> str:
         least = f"q min {format_quality(self.q.min())}" if len(self.q) else "no values"
@@ -137,8 +139,12 @@ def measure(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None 
     hexes = as_hexes(hexes, len(points))
     q, sigma, jacobian, eta = np.empty((4, len(hexes)))
     elements.measure(points, hexes, q, sigma, jacobian, eta)
-    quality = ElementQuality(q, sigma, jacobian, eta, certify(points, hexes, mid_nodes))
+    known = points.flags.writeable or hexes.flags.writeable  # what is immutable is certified when it is asked for
+    validity = certify(points, hexes, mid_nodes) if known else np.empty(0, np.uint8)
+    quality = ElementQuality(q, sigma, jacobian, eta, validity)
     quality.made_from(points, hexes, mid_nodes)
+    if not known:
+        del quality.__dict__["validity"]
     return quality
 
 

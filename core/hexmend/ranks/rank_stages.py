@@ -57,7 +57,8 @@ class RankStages(Stages):
     Attributes
     ----------
     unsound : bool
-        The minimum scaled Jacobian is not sound after untangling, so that the stages ended there.
+        The minimum scaled Jacobian is not sound after untangling, so that the stages ended there, or hexes are invalid
+        between positive corners.
     """
 
     def __init__(self, settings: Mend, part: RankPart, sliding: RankSliding | None):
@@ -71,6 +72,7 @@ class RankStages(Stages):
         energy = self._energy(mesh, self.settings.first_norm_on(mesh))
         shape = yield from self._shape(mesh, energy, balances or sliding is not None)
         if not balances and sliding is None:
+            self.unsound = self._is_invalid_inside(shape.points)
             return shape.outcome
         self.unsound, kept = self._is_unsound(mesh, shape.points, None), None
         if self.unsound:
@@ -83,12 +85,14 @@ class RankStages(Stages):
             shape = yield from keeping(kept, mesh.hexes, self._sliding_shape(sliding, shape.points), self._is_lower)
             self.unsound = self._is_unsound(mesh, shape.points, sliding)
         if not balances or self.unsound:
+            self.unsound = self.unsound or self._is_invalid_inside(shape.points)
             return shape.outcome
         energy = self._sound_energy(mesh, shape.points, sliding)
         begin = None if kept is None else given
         steps = balance(energy, shape.points, given, begin=begin)
         balanced = yield from keeping(kept, mesh.hexes, steps, self._is_lower)
         yield Step(balanced.points, decision=balanced.message, intermediate=True)
+        self.unsound = self._is_invalid_inside(balanced.points)
         return Outcome.NO_IMPROVEMENT
 
     def _sliding_shape(self, sliding: RankSliding, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
@@ -105,6 +109,11 @@ class RankStages(Stages):
         energy = self._sound_energy(mesh, points, sliding)
         least = MovableHexes(energy).jacobians(energy.to_edge_units(points)).min(initial=np.inf)
         return energy.ranks.least(float(least)) < MAXMIN.barrier_safe
+
+    def _is_invalid_inside(self, points: np.ndarray) -> bool:
+        """Return True on all ranks if a hex is invalid between positive corners: one process alone makes it valid."""
+        quality = measure(points, self._part.mesh.hexes)
+        return self._part.ranks.any(quality.invalid & ~quality.inverted)
 
     def _is_lower(self, now: ElementQuality, kept: ElementQuality) -> bool:
         """Return True on all ranks if a hex is inverted, or one of the least values is lower."""

@@ -8,9 +8,9 @@ from itertools import pairwise
 
 from hexmend.aliases import reads_old_names
 from hexmend.boundary import Departures, SurfaceChange, departures, surface_change
-from hexmend.doctor import PROBLEMS
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, Layers
+from hexmend.locking import describe_overlap
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import check_orientation
@@ -225,8 +225,7 @@ class Run(Iterator[Iteration]):
             words.append(self.stage.smoother.regression_hint(regressions(before, after, target_q)))
         else:
             words.append(name_invalid(self.mesh.with_points(self.best.points), self.best.quality))
-        if invalid and (overlapping := PROBLEMS["overlapping-corners"].find(self.mesh)):
-            words.append(overlapping.message)
+            words.append(describe_overlap(self.mesh))
         result = None if self.outcome is None else self._result_mesh
         words.append(self._shapes.message(self.stage.smoother, walls, result))
         return " ".join(filter(None, words))

@@ -36,11 +36,17 @@ template <class T> JacobianPolynomial<T, 1> jacobian_polynomial(const Corners<T>
 JacobianPolynomial<double, 2> jacobian_polynomial(const std::array<double, 81> &nodes) {
     Coefficients<V3<double>, 3, 3, 3> control;
     auto *p = &control.at[0][0][0];
-    for (int i = 0; i < 27; ++i) p[i] = {nodes[3 * i], nodes[3 * i + 1], nodes[3 * i + 2]};
+    double extent = 0;  // from the first node, so that sums are not rounded at the size of the coordinates
+    for (int i = 0; i < 27; ++i) {
+        p[i] = {nodes[3 * i] - nodes[0], nodes[3 * i + 1] - nodes[1], nodes[3 * i + 2] - nodes[2]};
+        extent = std::max(extent, length(p[i]));
+    }
     for (int step : {9, 3, 1})
         for (int i = 0; i < 27; ++i)
             if (i / step % 3 == 1) p[i] = 2.0 * p[i] - 0.5 * (p[i - step] + p[i + step]);
-    return JacobianPolynomial<double, 2>(control);
+    JacobianPolynomial<double, 2> jacobian(control);
+    jacobian.size = 8 * extent * extent * extent;  // the columns of a thin hex are rounded at its extent
+    return jacobian;
 }
 
 // The coefficients of hex number `lane` of a block.
@@ -93,18 +99,22 @@ template <int n> std::array<double, 2> bounds_of(Box<n> whole) {
     return {least, -least_value(whole)};
 }
 
-// A bound of the least value over the greatest, or over the least itself where that is larger: from -1 to 1.
-double ratio(double least, double greatest) {
-    double scale = std::max(std::abs(least), std::abs(greatest));
-    return scale < INF && scale > 0 ? least / scale : std::min(least, 0.0) < 0 ? -1.0 : 0.0;
+// A lower bound of the least value over the greatest, or over the least itself where that is larger: from -1 to 1. They
+// are at least `low`, at most `high`, and `taken` is a value.
+double ratio(double low, double high, double taken) {
+    if (!(std::abs(low) < INF && std::abs(high) < INF)) return -1;
+    if (low >= 0) return high > 0 ? low / high : 0.0;
+    return low / std::max(-low, taken);
 }
 
 // Lower `lowest` to the ratio of a hex, which is computed only where its coefficients allow it to be lower.
 template <int n> void lower(double &lowest, const Box<n> &whole) {
+    double taken = whole.at_corner(0);
+    for (int c = 1; c < 8; ++c) taken = std::max(taken, whole.at_corner(c));
     auto [least, greatest] = std::minmax_element(whole.coefficients.begin(), whole.coefficients.end());
-    if (ratio(*least, *greatest) >= lowest) return;
+    if (whole.finite() && ratio(*least, *greatest, taken) >= lowest) return;
     auto [low, high] = bounds_of(whole);
-    lowest = std::min(lowest, ratio(low, high));
+    lowest = std::min(lowest, ratio(low, high, taken));
 }
 
 // Call body(number of the hex, its box, the rounding error of its coefficients) for hexes of 27 nodes.

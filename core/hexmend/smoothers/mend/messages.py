@@ -7,6 +7,7 @@ import numpy as np
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.optimise.maxmin.slp_step import ActiveCorners
+from hexmend.quality import ElementQuality
 from hexmend.quality.file_ids import hex_ids, with_ids
 from hexmend.smoothers.mend.maxmin import locked_below
 from hexmend.terminal_text import count_phrase
@@ -24,6 +25,20 @@ def omission_message(by_fixed: int, others: int) -> str:
     resisting = count_phrase(others, "hex has corners that stay inverted", "hexes have corners that stay inverted")
     clauses = [fixed] * bool(by_fixed) + [resisting] * bool(others)
     return f"Left out of the energy: {'; '.join(clauses)}."
+
+
+def certified_message(before: ElementQuality, after: ElementQuality) -> str:
+    """Tell how many hexes the last stage has made valid, and at what cost; "" where there are none."""
+    count = before.n_invalid - after.n_invalid
+    if count <= 0:
+        return ""
+    were = count_phrase(count, "hex that was invalid is", "hexes that were invalid are")
+    pairs = [(of.scaled_jacobian.min(), of.q.min()) for of in (before, after)]
+    (jacobian, q), (new_jacobian, new_q) = pairs
+    return (
+        f"{were} valid now: for that the minimum scaled Jacobian went from {jacobian:.4f} to {new_jacobian:.4f}, and "
+        f"the least q(H) from {q:.4f} to {new_q:.4f}."
+    )
 
 
 def freed_message(locked: np.ndarray, inverted: np.ndarray) -> str:

@@ -18,7 +18,7 @@ from hexmend.smoothers.mend.balance import balance
 from hexmend.smoothers.mend.certification import certify_hexes, curable_hexes
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.maxmin import active_set
-from hexmend.smoothers.mend.messages import freed_message, limit_message
+from hexmend.smoothers.mend.messages import certified_message, freed_message, limit_message
 from hexmend.smoothers.mend.surface.detours import MaxMinResult
 from hexmend.smoothers.mend.surface.leaving_surface import LeavingSurface
 from hexmend.smoothers.mend.surface.maxmin_stages import MaxMinStages
@@ -73,7 +73,9 @@ class Stages(MaxMinStages):
         if self.settings.maximises_minimum:
             active = active_set(result.optimiser, result.active)
             sentences.append(limit_message(result.optimiser, result.active))
-        points = yield from self._certify(mesh, points, leaving, result)
+        certified = yield from self._certify(mesh, points, leaving, result)
+        sentences.append(certified_message(measure(points, mesh.hexes), measure(certified, mesh.hexes)))
+        points = certified
         if slides:
             quality = measure(points, mesh.hexes)
             sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
