@@ -84,9 +84,9 @@ def find_metric(name: str) -> Metric:
 
 
 def measure_mesh(mesh: Mesh) -> ElementQuality:
-    """Measure the quality of every hex; the mesh remembers the number of inverted hexes for its representation."""
+    """Measure the quality of every hex; the mesh remembers the number of invalid hexes for its representation."""
     quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
-    mesh._set(_inverted=quality.n_inverted)
+    mesh._set(_invalid=quality.n_invalid)
     return quality
 
 
