@@ -42,7 +42,7 @@ def metric_values(mesh: Mesh, metric: str = "q") -> np.ndarray:
 
 
 def worst_hexes(mesh: Mesh, count: int = 10, metric: str = "q") -> np.ndarray:
-    """Find the worst hexes by a metric.
+    """Find the worst hexes: inverted ones, then those that are invalid inside, then the others, each by a metric.
 
     Parameters
     ----------
