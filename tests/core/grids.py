@@ -28,6 +28,11 @@ def scrambled(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
     return mesh.with_points(mesh.points + shift * mesh.free[:, None])
 
 
+def invalid_inside() -> Mesh:
+    """Make a grid of 27 hexes one of which is invalid between positive corners; its boundary is that of a cube."""
+    return scrambled(grid(3), 0.7, 847)
+
+
 def with_edge_midpoints(mesh: Mesh) -> Mesh:
     """Return a mesh of second order, of hexes with 20 nodes and straight edges."""
     edges, at = np.unique(np.sort(mesh.hexes[:, MID_EDGES].reshape(-1, 2), axis=1), axis=0, return_inverse=True)

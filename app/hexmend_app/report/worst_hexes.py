@@ -52,11 +52,8 @@ class Locked:
 
 
 def worst_table(name: str, mesh: Mesh, figures: ElementQuality, locked: Locked) -> Table:
-    """Return a table of the worst hexes by q: number (from 0), q, scaled Jacobian, centre in mesh units, and state.
-
-    Invalid hexes come first.
-    """
-    order = rank_worst(np.where(figures.invalid, figures.q - 1, figures.q), figures, MAX_WORST_HEXES)
+    """Return a table of the worst hexes by q: number (from 0), q, scaled Jacobian, centre in mesh units, and state."""
+    order = rank_worst(figures.q, figures, MAX_WORST_HEXES)
     rows = [
         [
             format_count(int(hex)),

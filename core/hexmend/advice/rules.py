@@ -66,11 +66,11 @@ def widen(now: Situation) -> Suggestion | None:
 
 
 def untangle(now: Situation) -> Suggestion | None:
-    """Suggest Mend for inverted hexes that are not locked, after another method."""
-    if not now.unlocked.size or _is_mend(now):
+    """Suggest Mend for invalid hexes that are not locked, after another method."""
+    if not now.unlocked.size + now.inside.size or _is_mend(now):
         return None
     text = "Run Mend: it untangles all hexes that the fixed nodes allow, more reliably than other methods."
-    return Suggestion("Mend", text, "inverted", Mend(**now.objective))
+    return Suggestion("Mend", text, "inverted" if now.unlocked.size else "invalid", Mend(**now.objective))
 
 
 def slide(now: Situation) -> Suggestion | None:
@@ -88,16 +88,17 @@ def slide(now: Situation) -> Suggestion | None:
     return Suggestion("Mend with sliding boundary", text, "inverted", Mend(**now.objective, boundary="slide"))
 
 
-def slide_near_inverted(now: Situation) -> Suggestion | None:
-    """Suggest a sliding boundary for hexes that Mend has left inverted although they are not locked."""
+def slide_near_invalid(now: Situation) -> Suggestion | None:
+    """Suggest a sliding boundary for hexes that Mend has left invalid although they are not locked."""
     if not now.slidable_nodes or not _is_mend(now) or now.cut_short or now.smoother.slides or now.can_release:
         return None
     if now.locked.size and now.freed:  # `slide` suggests it
         return None
     nodes = count_phrase(now.slidable_nodes, "fixed node", "fixed nodes")
     where = "" if now.mesh.materials is None else ", on the boundary and on the interfaces between materials"
-    text = f"Run Mend with boundary = slide: {nodes} of inverted hexes may slide then{where}."
-    return Suggestion("Mend with sliding boundary", text, "inverted", Mend(**now.objective, boundary="slide"))
+    text = f"Run Mend with boundary = slide: {nodes} of invalid hexes may slide then{where}."
+    gain = "inverted" if now.unlocked.size else "invalid"
+    return Suggestion("Mend with sliding boundary", text, gain, Mend(**now.objective, boundary="slide"))
 
 
 def undo_inversion(now: Situation) -> Suggestion | None:
@@ -238,7 +239,7 @@ RULES: tuple[Rule, ...] = (
     widen,
     untangle,
     slide,
-    slide_near_inverted,
+    slide_near_invalid,
     regularise,
     undo_inversion,
     continue_run,
@@ -263,8 +264,9 @@ def _detours(now: Situation) -> bool:
 
 
 def _sound_below(now: Situation, quality: float) -> bool:
-    """Return True if no hex is inverted and the worst one, below this quality, has a free node."""
-    return not now.unlocked.size and not now.locked.size and now.result.after.q_min < quality and now.worst_can_move
+    """Return True if no hex is invalid and the worst one, below this quality, has a free node."""
+    invalid = now.locked.size + now.unlocked.size + now.inside.size
+    return not invalid and now.result.after.q_min < quality and now.worst_can_move
 
 
 def _still_optimises(now: Situation) -> bool:

@@ -51,6 +51,8 @@ class Situation:
     figures : ElementQuality
     locked, unlocked : (k,) int64
         Numbers, from 0, of the inverted hexes that no move of free nodes can repair, and of the other inverted ones.
+    inside : (k,) int64
+        Numbers of the hexes that are invalid between corners that are not inverted.
     """
 
     def __init__(self, result: Result, outside: np.ndarray | None = None):
@@ -60,10 +62,11 @@ class Situation:
         self._outside = np.zeros(self.mesh.n_nodes, dtype=bool) if outside is None else outside
         self.smoother: Smoother = METHODS[last.method](**last.parameters)
         self.stop: StoppingCriteria = last.stop
-        self.quality: ElementQuality = measure(self.mesh.points, self.mesh.hexes, self.mesh.mid_nodes)
+        self.quality: ElementQuality = measure(self.mesh.points, self.mesh.hexes)  # of corners: mid-nodes follow
         is_locked = locked_hexes(self.mesh.points, self.mesh.hexes, self.mesh.fixed, self.quality.inverted)
         self.locked = np.flatnonzero(is_locked)
         self.unlocked = np.flatnonzero(self.quality.inverted & ~is_locked)
+        self.inside = np.flatnonzero(self.quality.invalid & ~self.quality.inverted)
 
     @property
     def cut_short(self) -> bool:
@@ -133,8 +136,8 @@ class Situation:
 
     @property
     def slidable_nodes(self) -> int:
-        """Number of the fixed nodes of inverted hexes that are not locked, and that move if the boundary slides."""
-        fixed = np.unique(self.mesh.hexes[self.unlocked])
+        """Number of the fixed nodes of invalid hexes that are not locked, and that move if the boundary slides."""
+        fixed = np.unique(self.mesh.hexes[np.concatenate([self.unlocked, self.inside])])
         fixed = fixed[(self.mesh.fixed & ~self.mesh.immovable)[fixed]]
         return fixed.size
 

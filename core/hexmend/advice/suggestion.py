@@ -21,7 +21,7 @@ class Suggestion:
         A few words, for a button.
     text : str
         Effect and cost, as sentences.
-    gain : {"inverted", "objective", "q_min", "q_norm", "energy", "figures"}
+    gain : {"inverted", "invalid", "objective", "q_min", "q_norm", "energy", "figures"}
         The figure of `Summary` that improves, or at least does not fall if `undo` is True; "energy" is the sum of
         eta(H)^p with the method's own p; "figures": of q min, q mean and the minimum scaled Jacobian none falls and at
         least one rises.

@@ -150,8 +150,8 @@ class Mesh(MeshMotion):
     def __repr__(self) -> str:
         name = f" {printable(self.name)}" if self.name else ""
         hexes, nodes = count_phrase(self.n_hexes, "hex", "hexes"), count_phrase(self.n_nodes, "node")
-        known = self.__dict__.get("_inverted")  # once they have been counted
-        return f"<Mesh{name}: {hexes}, {nodes}{'' if known is None else f', {known:,} inverted'}>"
+        known = self.__dict__.get("_invalid")  # once they have been counted
+        return f"<Mesh{name}: {hexes}, {nodes}{'' if known is None else f', {known:,} invalid'}>"
 
     def _repr_html_(self) -> str:
         """Return the HTML that a notebook shows."""

@@ -209,7 +209,7 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
 
 
 def rank_worst(values: np.ndarray, quality: ElementQuality, count: int, better: int = 1) -> np.ndarray:
-    """Find the worst hexes by a metric.
+    """Find the worst hexes: inverted ones, then those that are invalid inside, then the others, each by a metric.
 
     Among equal values, such as q = 0, the lower scaled Jacobian comes first, then the lower number. NaN is the worst.
 
@@ -238,8 +238,9 @@ def rank_worst(values: np.ndarray, quality: ElementQuality, count: int, better: 
     if keys.shape != quality.q.shape:
         raise MeshError(f"values have shape {keys.shape}: expected {quality.q.shape}, one for each hex")
     keys[np.isnan(keys)] = -np.inf
-    numbers = _least(keys, np.arange(keys.size), count, quality.scaled_jacobian)
-    return numbers[np.lexsort((numbers, quality.scaled_jacobian[numbers], keys[numbers]))]
+    soundness = 2 - quality.invalid.astype(np.int8) - quality.inverted
+    numbers = _least(soundness, np.arange(keys.size), count, keys, quality.scaled_jacobian)
+    return numbers[np.lexsort((numbers, quality.scaled_jacobian[numbers], keys[numbers], soundness[numbers]))]
 
 
 def _least(keys: np.ndarray, numbers: np.ndarray, count: int, *others: np.ndarray) -> np.ndarray:

@@ -42,7 +42,7 @@ def metric_values(mesh: Mesh, metric: str = "q") -> np.ndarray:
 
 
 def worst_hexes(mesh: Mesh, count: int = 10, metric: str = "q") -> np.ndarray:
-    """Find the worst hexes by a metric.
+    """Find the worst hexes: inverted ones, then those that are invalid inside, then the others, each by a metric.
 
     Parameters
     ----------
@@ -84,9 +84,9 @@ def find_metric(name: str) -> Metric:
 
 
 def measure_mesh(mesh: Mesh) -> ElementQuality:
-    """Measure the quality of every hex; the mesh remembers the number of inverted hexes for its representation."""
+    """Measure the quality of every hex; the mesh remembers the number of invalid hexes for its representation."""
     quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
-    mesh._set(_inverted=quality.n_inverted)
+    mesh._set(_invalid=quality.n_invalid)
     return quality
 
 

@@ -34,7 +34,7 @@ def summarise(mesh: Mesh, quality: ElementQuality | None = None) -> Summary:
     1.0
     """
     quality = quality or measure(mesh.points, mesh.hexes, mesh.mid_nodes)
-    mesh._set(_inverted=quality.n_inverted)  # for its representation
+    mesh._set(_invalid=quality.n_invalid)  # for its representation
     q = quality.q
     return Summary(
         hexes=mesh.n_hexes,

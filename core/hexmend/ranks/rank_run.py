@@ -22,7 +22,7 @@ from hexmend.smoothers.mend.mend import Mend
 class RankFigures:
     """Figures of all hexes of an iterate."""
 
-    inverted: int
+    invalid: int
     q_min: float
     q_mean: float
 
@@ -30,7 +30,7 @@ class RankFigures:
     def of(cls, energy: RankEnergy, quality: ElementQuality) -> RankFigures:
         """Take them together from the quality of the hexes of the part of each rank."""
         least = energy.ranks.least(float(quality.q.min(initial=np.inf)))
-        return cls(energy.count(quality.inverted), least, energy.mean(quality.q))
+        return cls(energy.count(quality.invalid), least, energy.mean(quality.q))
 
 
 @dataclass

@@ -114,7 +114,7 @@ def current_method(run: Run) -> str:
 def describe_iteration(run: Run) -> str:
     """Return the quality and the largest move of the newest iteration as text."""
     at = run.last
-    return f"{at.inverted:,} inverted, q min {at.q_min:.4f}, q mean {at.q_mean:.4f}, move {at.largest_move:.2g}"
+    return f"{at.invalid:,} invalid, q min {at.q_min:.4f}, q mean {at.q_mean:.4f}, move {at.largest_move:.2g}"
 
 
 def describe_run(run: Run) -> str:

@@ -107,7 +107,7 @@ class Run(Iterator[Iteration]):
 
     def __repr__(self) -> str:
         at = f"iteration {self.last.number:,} of at most {self.max_iterations:,}"
-        return f"<Run of {self.smoother.name}: {at}, {self.last.inverted:,} inverted>"
+        return f"<Run of {self.smoother.name}: {at}, {self.last.invalid:,} invalid>"
 
     def switch_method(self, smoother: Smoother | str, stop: StoppingCriteria | None = None) -> None:
         """Continue the current stage with another method, other parameters or other limits.
@@ -243,7 +243,7 @@ class Run(Iterator[Iteration]):
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._stage_runs) > 1
         mesh = self._result_mesh
-        mesh._set(_inverted=after.inverted)  # for its representation
+        mesh._set(_invalid=after.invalid)  # for its representation
         volumes = volume_changes(self.mesh, mesh)
         walls = self._shapes.reports(self.stage.smoother, self.best.points)
         return Result(

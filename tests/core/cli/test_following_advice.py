@@ -13,7 +13,7 @@ from hexmend.quality import summarise
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
 from tests.core.boundary.solids import ball, slid
-from tests.core.grids import grid
+from tests.core.grids import grid, invalid_inside
 
 
 def folded(n: int = 5):
@@ -114,3 +114,14 @@ def test_rings_are_of_a_part_of_the_mesh(words, said, tmp_path, capsys):
     assert main(["smooth", str(path), "-o", str(out), *words]) == 2
     assert said in capsys.readouterr().err
     assert not out.exists()
+
+
+def test_a_hex_that_is_invalid_between_positive_corners_gets_advice_that_makes_it_valid(tmp_path, capsys):
+    path, out, following = (str(tmp_path / name) for name in ("mesh.vtu", "out.vtu", "after.vtu"))
+    io.write(path, invalid_inside())
+    words = ["--method", "global-mnr", "--max-iterations", "1", "--keep-last"]
+    code, commands, said = advised(["smooth", path, "-o", out, *words], capsys)
+    assert code == 4
+    assert "No hex is inverted, but 1 hex is invalid inside" in said
+    assert main([following if word == "OUT" else word for word in commands[0][1:]]) == 0
+    assert summarise(io.read(following)).invalid == 0

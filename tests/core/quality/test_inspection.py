@@ -11,6 +11,7 @@ from hexmend.energy import MeshEnergy
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, describe_hex, describe_node, measure, rank_worst
+from hexmend.quality.validity import Validity
 from tests.core.grids import grid, scrambled
 
 
@@ -30,13 +31,16 @@ def test_an_element_says_what_the_whole_mesh_says_of_it():
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(0, 40), st.sampled_from([1, -1]))
-def test_the_worst_are_the_first_of_all_in_order(seed, count, better):
+def test_the_worst_are_inverted_then_invalid_inside_then_the_lowest(seed, count, better):
     random = np.random.default_rng(seed)
     values, jacobian = random.integers(0, 6, (2, 30)) / 5.0
     sigma = random.choice([-1.0, 1.0], 30, p=[0.3, 0.7])
-    figures = ElementQuality(values, sigma, jacobian, values, (sigma <= 0).astype(np.uint8))
+    inside = np.where(random.random(30) < 0.2, Validity.INVALID_INSIDE, Validity.VALID)
+    validity = np.where(sigma <= 0, Validity.INVERTED, inside).astype(np.uint8)
+    figures = ElementQuality(values, sigma, jacobian, values, validity)
     got = rank_worst(values, figures, count, better)
-    everything = sorted(range(30), key=lambda h: (better * values[h], jacobian[h], h))
+    order = [Validity.INVERTED, Validity.INVALID_INSIDE, Validity.VALID]
+    everything = sorted(range(30), key=lambda h: (order.index(validity[h]), better * values[h], jacobian[h], h))
     assert got.tolist() == everything[:count]
 
 
@@ -92,5 +96,6 @@ def test_of_many_hexes_the_worst_are_found_without_sorting_all(count, levels):
     random = np.random.default_rng(count)
     q, scaled = (random.integers(0, levels, 3_000) / levels for _ in range(2))
     order = np.lexsort((np.arange(3_000), scaled, q))
-    figures = SimpleNamespace(q=q, scaled_jacobian=scaled)
+    valid = np.zeros(3_000, bool)
+    figures = SimpleNamespace(q=q, scaled_jacobian=scaled, inverted=valid, invalid=valid)
     assert rank_worst(q, figures, count).tolist() == order[:count].tolist()

@@ -8,6 +8,7 @@ import pytest
 
 import hexmend as hx
 from hexmend.errors import ParameterError
+from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.run import progress
 
 MESH = hx.gallery.make("cube", size=64, scramble=0.3)
@@ -66,7 +67,17 @@ def test_lines_are_written_on_request():
     assert [line.split(",")[0] for line in lines] == [
         f"laplacian: iteration {number} of at most 3" for number in (1, 2, 3)
     ]
-    assert all("0 inverted, q min 0." in line for line in lines)
+    assert all("0 invalid, q min 0." in line for line in lines)
+
+
+def test_the_line_and_the_representations_count_hexes_that_are_invalid_between_positive_corners():
+    x = UNIT_CUBE.copy()
+    x[4:, :2] *= [-2.0, -0.5]  # det J is negative at half the height
+    run = hx.iterate(hx.Mesh(x, [range(8)]), "laplacian")
+    assert (run.last.inverted, run.last.invalid) == (0, 1)
+    assert progress.describe_iteration(run).startswith("1 invalid, q min ")
+    assert repr(run).endswith(", 1 invalid>")
+    assert repr(run.result().mesh).endswith(", 1 invalid>")
 
 
 @pytest.mark.usefixtures("at_once")

@@ -9,12 +9,14 @@ from hexmend.boundary import SkinSurface
 from hexmend.cli.commands.bench import command
 from hexmend.gallery import make
 from hexmend.ranks.launching import launcher
-from hexmend.study.bench import surface_quality, surfaces
+from hexmend.study.bench import boundaries, freedom, goals, offsets, surface_quality, surfaces
 from hexmend.study.bench.freedom import FREEDOM, lower
 from hexmend.study.bench.scale import SCALE, measure_process
+from hexmend.study.bench.section import BenchSection
 from hexmend.study.bench.sections import sections
 from hexmend.study.bench.surface_quality import SURFACE_QUALITY
 from hexmend.study.bench.surfaces import SURFACES
+from tests.core.grids import invalid_inside
 
 
 def test_the_help_names_all_sections():
@@ -87,6 +89,42 @@ def test_more_freedom_of_a_mesh_is_a_row_that_names_what_ends_lower(tmp_path, mo
     assert line.count("1.0000") == 7
     assert last.startswith("0 of 6 pairs")
     row["0.1"]["least"] -= 0.01
-    row["1"]["inverted"] = 1
+    row["1"]["invalid"] = 1
     assert lower(row) == ["0.03 to 0.1", "0.3 to 1"]
-    assert "(1)" in FREEDOM.lines(figures)[2]
+    assert "(0, 1)" in FREEDOM.lines(figures)[2]
+
+
+_REPORT = {
+    time: dict.fromkeys(("q_min", "q_mean", "scaled_jacobian_min"), 0.5)
+    | {"hexes": 9, "inverted": 3, "invalid": invalid}
+    for time, invalid in (("before", 5), ("after", 4))
+}
+
+
+@pytest.mark.parametrize(
+    ("section", "file", "cells"),
+    [
+        (goals, "bone.vtk", "| 3 | 5 | 0.5000 |"),
+        (boundaries, "bone.vtk", "| 3 → 3 | 5 → 4 |"),
+        (freedom, "a.vtk", "| 0.5000 (3, 4) |"),
+    ],
+)
+def test_tables_count_inverted_and_invalid_hexes(section, file, cells, tmp_path, monkeypatch):
+    (tmp_path / file).touch()
+    monkeypatch.setenv("HEXMEND_MESHES", str(tmp_path))
+    monkeypatch.setattr(section, "smoothed", lambda *_: (_REPORT, 1.0))
+    (part,) = (one for one in vars(section).values() if isinstance(one, BenchSection))
+    head, rule, *lines = part.lines(part.measure())
+    assert head.count("|") == rule.count("|") == lines[0].count("|")
+    assert cells in lines[0]
+
+
+def test_the_optima_with_and_without_the_offset_count_inverted_and_invalid_hexes(monkeypatch):
+    monkeypatch.setattr(offsets, "_thesis", lambda: iter([("folded", invalid_inside(), None)]))
+    monkeypatch.setattr(offsets, "collection", lambda: iter([]))
+    figures = offsets.OFFSETS.measure()
+    (row,) = figures["runs"]
+    assert (row["before"]["inverted"], row["before"]["invalid"]) == (0, 1)
+    head, rule, line, *_ = offsets.OFFSETS.lines(figures)
+    assert head.count("|") == rule.count("|") == line.count("|")
+    assert line.startswith("| folded | 27 | 0 · 0 | 0 · 0 | ")

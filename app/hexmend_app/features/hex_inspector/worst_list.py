@@ -73,7 +73,10 @@ class WorstList(QWidget):
         set_help(
             self._metric,
             tr("Worst by"),
-            tr("Metric that sorts the list; hexes of equal value are sorted by scaled Jacobian."),
+            tr(
+                "Metric that sorts the list after inverted hexes and those that are invalid inside, which come first; "
+                "hexes of equal value are sorted by scaled Jacobian."
+            ),
         )
         self._metric.currentIndexChanged.connect(self._begin_again)
         self._metric.currentIndexChanged.connect(self._refresh)

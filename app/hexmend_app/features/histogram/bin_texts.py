@@ -77,12 +77,15 @@ def _bin_ends(shown: Distribution, index: int) -> tuple[str, str]:
     return tuple(f"{end:.{decimals}f}" for end in ends)
 
 
-def range_summary(now: Distribution | None, range: Show | None) -> str:
-    """Describe the number of hexes in a range of their metric, or of all hexes if the range is None."""
+def range_summary(now: Distribution | None, range: Show | None, inside: int) -> str:
+    """Describe the number of hexes in a range of their metric, or of all hexes, and of invalid ones, if it is None."""
     if now is None:
         return tr("No mesh is open.")
     if range is None:
-        return tr("{hexes}, {inverted:,} inverted", hexes=counted(now.total, "hex"), inverted=now.inverted)
+        counts = {"hexes": counted(now.total, "hex"), "inverted": now.inverted, "inside": inside}
+        if inside:
+            return tr("{hexes}, {inverted:,} inverted · {inside:,} invalid inside", **counts)
+        return tr("{hexes}, {inverted:,} inverted", **counts)
     hexes, description = counted(now.total, "hex"), _description(now, range)
     return tr("{count:,} of {hexes}{description}", count=now.within(range), hexes=hexes, description=description)
 

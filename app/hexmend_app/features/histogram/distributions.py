@@ -21,6 +21,8 @@ class Distributions:
     ----------
     axis : Axis
     current : Distribution or None
+    inside : int
+        Number of hexes of now that are invalid inside.
     snapshots : list of (slot, name, Distribution)
     gradient : Gradient
         Colours of the view along the axis; () if they show something else.
@@ -61,9 +63,9 @@ class Distributions:
             self.axis = axis
             self._recount()
 
-    def set_current(self, values: np.ndarray, inverted: np.ndarray) -> None:
-        """Set the distribution of now; see `set_initial`."""
-        self.current = self._count(values, inverted)
+    def set_current(self, values: np.ndarray, inverted: np.ndarray, inside: int = 0) -> None:
+        """Set the distribution of now, and the number of hexes that are invalid inside; see `set_initial`."""
+        self.current, self.inside = self._count(values, inverted), inside
 
     def set_snapshots(self, snapshots: Sequence[tuple[int, str, np.ndarray, np.ndarray]]) -> None:
         """Set the distributions of snapshots, and count only those with new values.
@@ -97,6 +99,7 @@ class Distributions:
     def _clear(self) -> None:
         self._initial: Distribution | None = None
         self.current: Distribution | None = None
+        self.inside = 0
         self.snapshots: list[tuple[int, str, Distribution]] = []
 
     def _count(self, values: np.ndarray, inverted: np.ndarray) -> Distribution:

@@ -113,7 +113,8 @@ class FeatureHistogram(Feature):
         if self._seen.changed("snapshots", self.metric, self._snapshots.all, start):
             self._show_snapshots()
         if self._seen.changed("now", self.metric, now):
-            self.panel.set_current(self._values(now), now.figures.inverted)
+            figures = now.figures
+            self.panel.set_current(self._values(now), figures.inverted, figures.n_invalid - figures.n_inverted)
 
     def _colouring(self) -> Colouring | None:
         """Return the colouring of the view; None if it shows another metric or none."""

@@ -163,9 +163,9 @@ class QualityHistogram(QWidget):
             self._use_axis()
         self._refresh()
 
-    def set_current(self, values: np.ndarray, inverted: np.ndarray) -> None:
-        """Set the distribution of now; see `set_initial`."""
-        self._distributions.set_current(values, inverted)
+    def set_current(self, values: np.ndarray, inverted: np.ndarray, inside: int = 0) -> None:
+        """Set the distribution of now, and the number of hexes that are invalid inside; see `set_initial`."""
+        self._distributions.set_current(values, inverted, inside)
         self._refresh()
 
     def set_snapshots(self, snapshots: Sequence[tuple[int, str, np.ndarray, np.ndarray]]) -> None:
@@ -282,7 +282,7 @@ class QualityHistogram(QWidget):
         self._show_summary()
 
     def _show_summary(self) -> None:
-        self.summary.setText(range_summary(self._distributions.current, self._range))
+        self.summary.setText(range_summary(self._distributions.current, self._range, self._distributions.inside))
         self.summary.setToolTip(self.summary.text())
 
     # Tooltip

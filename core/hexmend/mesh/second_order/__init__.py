@@ -10,7 +10,6 @@ from hexmend.mesh.second_order.mid_nodes import (
     corners_of_mid_nodes,
     jacobian_range,
     move_mid_nodes,
-    scaled_jacobians,
 )
 
 __all__ = [
@@ -23,5 +22,4 @@ __all__ = [
     "corners_of_mid_nodes",
     "jacobian_range",
     "move_mid_nodes",
-    "scaled_jacobians",
 ]

@@ -96,31 +96,6 @@ def corners_of_mid_nodes(marks: np.ndarray, hexes: np.ndarray, mid_nodes: np.nda
     return corners
 
 
-def scaled_jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
-    """Compute the minimum scaled Jacobian of second-order hexes over their nodes and the 3 x 3 x 3 Gauss points.
-
-    Parameters
-    ----------
-    points : (n, 3) float64
-    hexes : (m, 8) int32
-    mid_nodes : (m, 19) int32
-
-    Returns
-    -------
-    (m,) float64
-        Determinant of the map from the unit cube over the product of its columns' lengths: 1 for right angles, 0 or
-        less for an invalid hex, NaN for hexes with neither 20 nor 27 nodes.
-    """
-    answer = np.full(len(hexes), np.nan)
-    for some, maps in _derivatives(points, hexes, mid_nodes, nodes=True, gauss=True):
-        least = np.full(len(some), np.inf)
-        for columns in maps:
-            sizes = np.linalg.norm(columns, axis=2).prod(axis=1)
-            least = np.minimum(least, np.linalg.det(columns) / np.where(sizes > 0, sizes, 1))
-        answer[some] = least
-    return answer
-
-
 def jacobian_range(
     points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray, *, nodes: bool = True, gauss: bool = True
 ) -> np.ndarray:

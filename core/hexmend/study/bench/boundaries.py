@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from hexmend.study.bench.section import BenchSection, smoothed
+from hexmend.study.bench.section import COUNTS, BenchSection, smoothed
 
 #: Published lowest scaled Jacobian and distance of the surfaces in per cent of the diagonal, by file:
 #: HexOpt (bunny, CAD4, impeller), edge-cone rectification (block, cap, hanger), HybridOctree (bone), and two more;
@@ -43,7 +43,7 @@ def _row(path: Path, boundary: str) -> dict[str, Any]:
         "mesh": path.name,
         "boundary": boundary,
         "hexes": before["hexes"],
-        **{key: [before[key], after[key]] for key in ("inverted", "scaled_jacobian_min", "q_min", "q_mean")},
+        **{key: [before[key], after[key]] for key in (*COUNTS, "scaled_jacobian_min", "q_min", "q_mean")},
         "distance_percent": surface.get("max_percent_of_diagonal", 0.0),
         "volume_change": surface.get("volume_change", 0.0),
         "seconds": seconds,
@@ -54,15 +54,15 @@ def _row(path: Path, boundary: str) -> dict[str, Any]:
 def _lines(figures: dict[str, Any]) -> list[str]:
     if not figures["runs"]:
         return ["the variable HEXMEND_MESHES names no folder with any of " + ", ".join(PUBLISHED)]
-    head = "| mesh | boundary | inverted | scaled Jacobian min | published | q min | q mean | distance % | published |"
-    lines = [head + " volume % | s |", "|:---|:---|" + "---:|" * 9]
+    head = "| mesh | boundary | inverted | invalid | scaled Jacobian min | published | q min | q mean | distance % |"
+    lines = [head + " published | volume % | s |", "|:---|:---|" + "---:|" * 10]
     for row in figures["runs"]:
         lowest, distance = row["published"]
         slides = row["boundary"] == "slide"
         cells = [
             row["mesh"].partition(".")[0].removesuffix("_in"),
             row["boundary"],
-            "{:,} → {:,}".format(*row["inverted"]),
+            *("{:,} → {:,}".format(*row[key]) for key in COUNTS),
             "{:.4f} → {:.4f}".format(*row["scaled_jacobian_min"]),
             "–" if lowest is None else f"{lowest:.4f}",
             "{:.4f} → {:.4f}".format(*row["q_min"]),

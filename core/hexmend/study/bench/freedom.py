@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.study.bench.collection import mesh_files
-from hexmend.study.bench.section import BenchSection, smoothed
+from hexmend.study.bench.section import COUNTS, BenchSection, smoothed
 
 _SLIDE = "--boundary", "slide"
 #: Options of the runs, by column: the boundary fixed; sliding, with tolerances in mean edge lengths; with the
@@ -39,23 +39,25 @@ def _measure() -> dict[str, Any]:
 
 
 def _row(path: Path) -> dict[str, Any]:
-    """Run `hexmend smooth` on a mesh with each freedom; inverted hexes, minimum scaled Jacobian and seconds of each."""
+    """Run `hexmend smooth` on a mesh with each freedom; counts of hexes, minimum scaled Jacobian, seconds of each."""
     row: dict[str, Any] = {"mesh": path.name}
     for name, words in _RUNS.items():
         report, seconds = smoothed(path, "--set", "goal=scaled-jacobian", *words)
         after = report["after"]
-        row[name] = {"inverted": after["inverted"], "least": after["scaled_jacobian_min"], "seconds": seconds}
+        counts = {key: after[key] for key in COUNTS}
+        row[name] = {**counts, "least": after["scaled_jacobian_min"], "seconds": seconds}
     return row
 
 
 def lower(row: dict[str, Any]) -> list[str]:
-    """Name the pairs of columns of a mesh where more freedom ends lower: more inverted hexes, or a lower least."""
+    """Name the pairs of columns of a mesh where more freedom leaves more invalid hexes, or a lower least."""
     return [f"{less} to {more}" for less, more in _PAIRS if _is_lower(row[more], row[less])]
 
 
 def _is_lower(more: dict[str, Any], less: dict[str, Any]) -> bool:
-    if more["inverted"] != less["inverted"]:
-        return bool(more["inverted"] > less["inverted"])
+    for key in COUNTS:
+        if more[key] != less[key]:
+            return bool(more[key] > less[key])
     return bool(more["least"] < less["least"] - _FALL)
 
 
@@ -70,11 +72,12 @@ def _lines(figures: dict[str, Any]) -> list[str]:
         cells = [_cell(row[name]) for name in _RUNS]
         lines.append(f"| {' | '.join([row['mesh'], *cells, ', '.join(lower(row))])} |")
     pairs, falls = len(_PAIRS) * len(figures["runs"]), sum(len(lower(row)) for row in figures["runs"])
-    return [*lines, "", f"{falls} of {pairs} pairs end lower by more than {_FALL}; in brackets: inverted hexes."]
+    text = f"{falls} of {pairs} pairs end lower by more than {_FALL}; in brackets: inverted and invalid hexes."
+    return [*lines, "", text]
 
 
 def _cell(run: dict[str, Any]) -> str:
-    return f"{run['least']:.4f}" + (f" ({run['inverted']:,})" if run["inverted"] else "")
+    return f"{run['least']:.4f}" + (f" ({run['inverted']:,}, {run['invalid']:,})" if run["invalid"] else "")
 
 
 FREEDOM = BenchSection("freedom", "More freedom of the boundary: the minimum scaled Jacobian", _measure, _lines)

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from hexmend.study.bench.section import BenchSection, smoothed
+from hexmend.study.bench.section import COUNTS, BenchSection, smoothed
 
 #: Measured before: q min, q mean and minimum scaled Jacobian that hexsmoothing reaches, by file.
 HEXSMOOTHING = {
@@ -34,25 +34,27 @@ def _row(path: Path) -> dict[str, Any]:
     row: dict[str, Any] = {"mesh": path.name, "hexsmoothing": HEXSMOOTHING.get(path.name)}
     for goal in _GOALS:
         report, seconds = smoothed(path, "--goal", goal)
-        row["given"] = {key: report["before"][key] for key in ("hexes", "inverted", *_FIGURES)}
-        row[goal] = {key: report["after"][key] for key in ("inverted", *_FIGURES)} | {"seconds": seconds}
+        row["given"] = {key: report["before"][key] for key in ("hexes", *COUNTS, *_FIGURES)}
+        row[goal] = {key: report["after"][key] for key in (*COUNTS, *_FIGURES)} | {"seconds": seconds}
     return row
 
 
 def _lines(figures: dict[str, Any]) -> list[str]:
     if not figures["runs"]:
         return ["the variable HEXMEND_MESHES names no folder with any of " + ", ".join(HEXSMOOTHING)]
-    lines = ["| mesh, hexes | | inverted | q min | q mean | scaled Jacobian min | s |", "|:---|:---|" + "---:|" * 5]
+    head = "| mesh, hexes | | inverted | invalid | q min | q mean | scaled Jacobian min | s |"
+    lines = [head, "|:---|:---|" + "---:|" * 6]
     for row in figures["runs"]:
         name = f"{row['mesh'].partition('.')[0]}, {row['given']['hexes']:,}"
         for state in ("given", *_GOALS):
             seconds = f"{row[state]['seconds']:.1f}" if state in _GOALS else ""
+            counts = " | ".join(f"{row[state][key]:,}" for key in COUNTS)
             values = " | ".join(f"{row[state][key]:.4f}" for key in _FIGURES)
-            lines.append(f"| {name} | {state} | {row[state]['inverted']:,} | {values} | {seconds} |")
+            lines.append(f"| {name} | {state} | {counts} | {values} | {seconds} |")
             name = ""
         if row["hexsmoothing"]:
             values = " | ".join(f"{value:.4f}" for value in row["hexsmoothing"])
-            lines.append(f"| | hexsmoothing | | {values} | |")
+            lines.append(f"| | hexsmoothing | | | {values} | |")
     return lines
 
 

@@ -10,7 +10,7 @@ from hexmend.quality import Summary, summarise
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.study.bench.collection import collection
-from hexmend.study.bench.section import BenchSection
+from hexmend.study.bench.section import COUNTS, BenchSection
 from hexmend.study.thesis.experiments import INITIAL, load
 
 #: Methods whose best result in the thesis is its optimum.
@@ -53,17 +53,17 @@ def _row(name: str, mesh: Mesh, published: dict[str, float] | None) -> dict[str,
 
 
 def _selected(figures: Summary) -> dict[str, float]:
-    return {key: getattr(figures, key) for key in ("inverted", *_FIGURES)}
+    return {key: getattr(figures, key) for key in (*COUNTS, *_FIGURES)}
 
 
 def _lines(figures: dict[str, Any]) -> list[str]:
     lines = [
-        "| mesh | hexes | inverted | scaled Jacobian min | q min | q mean | q norm | s |",
-        "|:---|---:|---:|---:|---:|---:|---:|---:|",
+        "| mesh | hexes | inverted | invalid | scaled Jacobian min | q min | q mean | q norm | s |",
+        "|:---|" + "---:|" * 8,
     ]
     for row in figures["runs"]:
         one, zero = row["after"]
-        cells = [row["mesh"], f"{row['hexes']:,}", f"{one['inverted']:,} · {zero['inverted']:,}"]
+        cells = [row["mesh"], f"{row['hexes']:,}", *(f"{one[key]:,} · {zero[key]:,}" for key in COUNTS)]
         for key in _FIGURES:
             thesis = (row["thesis"] or {}).get(key)
             cells.append(f"{_pair(one[key], zero[key])}" + (f" ({thesis:.4f})" if thesis else ""))

@@ -12,6 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+#: Counts of hexes of a summary in the tables.
+COUNTS = ("inverted", "invalid")
+
 
 @dataclass(frozen=True)
 class BenchSection:

@@ -51,9 +51,9 @@ def test_the_list_is_bounded_and_sorted_by_its_metric(worst_list, name):
     keys = better * METRICS[name].of(MESH.points, MESH.hexes, FIGURES)
     keys[np.isnan(keys)] = -np.inf
     listed = keys[hexes]
-    assert (listed[1:] >= listed[:-1]).all()
-    assert np.sort(keys)[: len(hexes)].tolist() == listed.tolist()
-    equal = listed[1:] == listed[:-1]
+    soundness = np.select([FIGURES.inverted, FIGURES.invalid], [0, 1], 2)
+    assert list(zip(soundness[hexes], listed, strict=True)) == sorted(zip(soundness, keys, strict=True))[: len(hexes)]
+    equal = (listed[1:] == listed[:-1]) & (np.diff(soundness[hexes]) == 0)
     assert (np.diff(FIGURES.scaled_jacobian[hexes])[equal] >= 0).all()
 
 
@@ -70,11 +70,16 @@ def test_the_numbers_of_the_file_have_a_column_where_it_has_some(worst_list, tmp
     assert (head.split(",")[-1], first.split(",")[-1]) == ("id", str(MESH.n_hexes - 1 - worst + 7))
 
 
-def test_an_inverted_hex_with_good_q_is_listed_after_worse_hexes(worst_list):
-    hexes = worst_list.hexes
-    q, inverted = FIGURES.q[hexes], FIGURES.inverted[hexes]
-    assert inverted.any()
-    assert q[inverted].max() > q[~inverted].min()
+def test_invalid_hexes_are_listed_before_valid_ones_of_lower_quality(worst_list):
+    mesh = scrambled(grid(6), 0.5, 2)
+    figures = measure(mesh.points, mesh.hexes)
+    worst_list.set_figures(mesh, figures)
+    hexes, inside = worst_list.hexes, figures.invalid & ~figures.inverted
+    assert inside.any()
+    assert figures.q[figures.invalid].max() > figures.q[~figures.invalid].min()
+    inverted, invalid = figures.n_inverted, figures.n_invalid
+    assert figures.inverted[hexes[:inverted]].all()
+    assert inside[hexes[inverted:invalid]].all()
 
 
 def test_the_list_states_the_order_of_ties(worst_list):

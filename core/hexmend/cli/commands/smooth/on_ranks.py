@@ -106,7 +106,7 @@ def _iterate(run: RankRun, source: DividedSource | WholeSource) -> None:
             if ranks.any(first and source.checkpoints.due):
                 source.checkpoint(run.points)
             if first and monotonic() >= due:
-                text = f"{now.inverted:,} inverted, q min {now.q_min:.4f}, q mean {now.q_mean:.4f}, move {run.move:.2g}"
+                text = f"{now.invalid:,} invalid, q min {now.q_min:.4f}, q mean {now.q_mean:.4f}, move {run.move:.2g}"
                 print(f"iteration {run.number:,}, {run.seconds:.0f} s: {text}", file=sys.stderr, flush=True)
                 due = monotonic() + LINE_INTERVAL
             if ranks.any(signals.asked):

@@ -77,11 +77,11 @@ def run(args: argparse.Namespace) -> int:
         written = output.write(result.mesh.replace(pinned=pinned))
         checkpoints.remove()
         second_order = _report(args, mesh, method.title, result, written)
-        if result.after.inverted:
+        if second_order.advice and not result.after.inverted:
+            print(second_order.advice)
+        elif result.after.invalid:
             kept = RunOptions(mesh.node_rules.rules, args.as_is, args.surface, args.only, rings)
             _print_advice(args, result, _outside(mesh, pinned), kept)
-        elif second_order.advice:
-            print(second_order.advice)
     return 4 if result.after.invalid else 0
 
 
@@ -127,7 +127,7 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, wr
 
 
 def _print_advice(args: argparse.Namespace, result: Result, outside: np.ndarray | None, options: RunOptions) -> None:
-    """Print the state of a mesh with inverted hexes and what to try next, with the commands."""
+    """Print the state of a mesh with invalid hexes and what to try next, with the commands."""
     advice = advise(result, outside)
     print(advice.state)
     for suggestion in advice.suggestions:

@@ -1,0 +1,93 @@
+"""The last stage of mend: hexes that are invalid between positive corners become valid."""
+
+import numpy as np
+import pytest
+
+import hexmend as hx
+from hexmend.energy import MeshEnergy
+from hexmend.quality import measure
+from hexmend.smoothers.mend.certification import certify_hexes
+from hexmend.smoothers.mend.inversion import inverted_corners
+from tests.core.grids import grid, invalid_inside, scrambled
+
+
+def certified(mesh):
+    """Return the points that the stage ends at, and its steps."""
+    energy = MeshEnergy(mesh)
+    inverted = inverted_corners(mesh.points, mesh.hexes, measure(mesh.points, mesh.hexes))
+    stage, steps = certify_hexes(energy.with_objective(energy.norm, inverted), mesh.points), []
+    while True:
+        try:
+            steps.append(next(stage))
+        except StopIteration as end:
+            return end.value, steps
+
+
+def distorted(amplitude, seed):
+    """Make a grid of 27 hexes with nodes moved at random, those of the boundary too."""
+    mesh = grid(3)
+    return mesh.with_points(mesh.points + np.random.default_rng(seed).uniform(-amplitude, amplitude, mesh.points.shape))
+
+
+def pinned(mesh):
+    """Pin two of the free nodes of the invalid hex."""
+    nodes = mesh.hexes[measure(mesh.points, mesh.hexes).invalid].ravel()
+    marks = np.zeros(mesh.n_nodes, dtype=bool)
+    marks[nodes[mesh.free[nodes]][:2]] = True
+    return mesh.replace(pinned=marks)
+
+
+MESHES = {
+    "interior": invalid_inside,
+    "boundary": lambda: distorted(0.45, 4936),
+    "pinned nodes": lambda: pinned(invalid_inside()),
+}
+every_mesh = pytest.mark.parametrize("mesh", [make() for make in MESHES.values()], ids=MESHES)
+
+
+@every_mesh
+def test_a_hex_that_is_invalid_between_positive_corners_becomes_valid_and_the_least_stays(mesh):
+    before = measure(mesh.points, mesh.hexes)
+    assert (before.n_inverted, before.n_invalid) == (0, 1)
+    points, steps = certified(mesh)
+    after = measure(points, mesh.hexes)
+    assert after.n_invalid == 0
+    assert after.scaled_jacobian.min() >= 0.5 * before.scaled_jacobian.min()
+    assert after.q.min() >= 0.5 * before.q.min()
+    assert all(step.intermediate for step in steps)
+
+
+@every_mesh
+def test_fixed_nodes_do_not_move(mesh):
+    points, _ = certified(mesh)
+    np.testing.assert_array_equal(points[mesh.fixed], mesh.points[mesh.fixed])
+    assert (points[mesh.free] != mesh.points[mesh.free]).any()
+
+
+def test_a_mesh_without_invalid_hexes_is_returned_as_it_is():
+    mesh = scrambled(grid(3), 0.1)
+    points, steps = certified(mesh)
+    assert points is mesh.points
+    assert not steps
+
+
+def test_a_hex_whose_nodes_are_all_fixed_stays_and_takes_no_step():
+    mesh = invalid_inside()
+    points, steps = certified(mesh.replace(pinned=np.ones(mesh.n_nodes, dtype=bool)))
+    assert points is mesh.points
+    assert not steps
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_more_hexes_are_invalid_afterwards_where_some_are_inverted(seed):
+    mesh = distorted(0.5, seed)
+    before = measure(mesh.points, mesh.hexes)
+    assert before.n_inverted > 0
+    points, _ = certified(mesh)
+    assert measure(points, mesh.hexes).n_invalid <= before.n_invalid
+
+
+@every_mesh
+@pytest.mark.parametrize("goal", ["shape", "balanced"])
+def test_a_run_of_mend_ends_without_invalid_hexes(mesh, goal):
+    assert hx.smooth(mesh, goal=goal).after.invalid == 0
