@@ -100,4 +100,6 @@ def test_a_run_that_leaves_such_hexes_inverted_says_that_no_position_makes_them_
     points[mesh.hexes[2, 4:]] *= [1, 1, -0.5]  # the third hex lies below its face
     mesh = mesh.with_points(points)
     assert measure(mesh.points, mesh.hexes).n_inverted > 0
-    assert "No position of the nodes makes all of 4 hexes valid without overlap: hexes 0, 1, 2, 3." in smooth(mesh).message
+    assert (
+        "No position of the nodes makes all of 4 hexes valid without overlap: hexes 0, 1, 2, 3." in smooth(mesh).message
+    )
