@@ -74,7 +74,8 @@ class ElementQuality:
 
     def of(self, which: np.ndarray) -> ElementQuality:
         """Return the quality of some hexes, (m,) bool or (k,) int."""
-        return ElementQuality(*(getattr(self, name)[which] for name in _VALUES), self.against_target)
+        values = {name: getattr(self, name)[which] for name in _VALUES}
+        return ElementQuality(**values, against_target=self.against_target)
 
     def made_from(self, points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None = None) -> None:
         """Note the arguments of `measure`, if they are immutable: see `release`."""

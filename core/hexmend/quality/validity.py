@@ -9,6 +9,7 @@ Weill, Remacle: Robust and efficient validation of the linear hexahedral element
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from enum import IntEnum
 
 import numpy as np
@@ -66,9 +67,9 @@ def certify(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None 
     points, hexes = _checked(points, hexes)
     found = np.empty(len(hexes), dtype=np.uint8)
     kernels.certify(points, hexes, found)
-    for some in _second_order(mid_nodes):
+    for some, nodes in _second_order(points, hexes, mid_nodes):
         part = np.empty(len(some), dtype=np.uint8)
-        kernels.certify_quadratic(_nodes(points, hexes, mid_nodes, some), part)
+        kernels.certify_quadratic(nodes, part)
         found[some] = part
     return found
 
@@ -93,9 +94,9 @@ def jacobian_bounds(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray
     points, hexes = _checked(points, hexes)
     bounds = np.empty((len(hexes), 2))
     kernels.jacobian_bounds(points, hexes, bounds)
-    for some in _second_order(mid_nodes):
+    for some, nodes in _second_order(points, hexes, mid_nodes):
         part = np.empty((len(some), 2))
-        kernels.jacobian_bounds_quadratic(_nodes(points, hexes, mid_nodes, some), part)
+        kernels.jacobian_bounds_quadratic(nodes, part)
         bounds[some] = part
     return bounds
 
@@ -109,9 +110,7 @@ def least_jacobian(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray 
     if mid_nodes is None:
         return kernels.least_jacobian(points, hexes)
     linear = np.ascontiguousarray(hexes[(mid_nodes < 0).all(axis=1)])
-    curved = (
-        kernels.least_jacobian_quadratic(_nodes(points, hexes, mid_nodes, some)) for some in _second_order(mid_nodes)
-    )
+    curved = (kernels.least_jacobian_quadratic(nodes) for _, nodes in _second_order(points, hexes, mid_nodes))
     return min((kernels.least_jacobian(points, linear), *curved))
 
 
@@ -153,14 +152,13 @@ def _checked(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, np.ndar
     return points, as_hexes(hexes, len(points))
 
 
-def _second_order(mid_nodes: np.ndarray | None) -> list[np.ndarray]:
-    """Numbers of the hexes with mid-nodes, in parts."""
+def _second_order(
+    points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield the numbers of hexes with mid-nodes, (k,), in parts, and their nodes as the kernels take them, (k, 81)."""
     if mid_nodes is None:
-        return []
+        return
     which = np.flatnonzero((mid_nodes >= 0).any(axis=1))
-    return [which[first : first + _CHUNK] for first in range(0, len(which), _CHUNK)]
-
-
-def _nodes(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray, some: np.ndarray) -> np.ndarray:
-    """Nodes of some second-order hexes (k,) as the kernels take them, (k, 81)."""
-    return hex_nodes(points, hexes[some], mid_nodes[some])[:, _LATTICE].reshape(-1, 81)
+    for first in range(0, len(which), _CHUNK):
+        some = which[first : first + _CHUNK]
+        yield some, hex_nodes(points, hexes[some], mid_nodes[some])[:, _LATTICE].reshape(-1, 81)

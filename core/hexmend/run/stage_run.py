@@ -105,7 +105,7 @@ class StageRun:
         self.start_surface = next(self._steps).surface
         self.setup_seconds = perf_counter() - setup_began
         self._spent_before = 0.0 if predecessor is None else predecessor._spent
-        self._spent = self._spent_before + perf_counter() - began  # seconds that count for the time limit
+        self._spent: float = self._spent_before + perf_counter() - began  # seconds that count for the time limit
         if not mesh.free.any() and not self.smoother.movable(mesh).any():
             self.end(Outcome.NOTHING_FREE)
         else:
