@@ -268,3 +268,12 @@ def test_bounds_do_not_depend_on_the_corner_that_is_the_first():
     scale = np.abs(bounds).max(axis=1, keepdims=True)
     for turned in rotations():
         assert (np.abs(jacobian_bounds(points, np.ascontiguousarray(hexes[:, turned])) - bounds) <= 1e-12 * scale).all()
+
+
+def test_the_least_jacobian_is_a_lower_bound_and_depends_on_no_order_of_hexes():
+    x = random_hexes(400, 5, moved=48)
+    points, hexes = separate(x)
+    alone = [least_jacobian(points, hexes[[h]]) for h in range(len(hexes))]
+    assert least_jacobian(points, hexes) == least_jacobian(points, hexes[::-1].copy()) == min(alone)
+    for value, on_grid in zip(alone, values_on_grid(x, 8)[0], strict=True):
+        assert value <= on_grid.min() / max(-on_grid.min(), on_grid.max()) + 1e-12
