@@ -74,8 +74,8 @@ class ValidityBarrier:
         sizes = np.abs(found).max(axis=1)
         return cls(hexes, sizes, found.min(axis=1) / sizes - 0.5 * band, band, weight, ElementBlocks(hexes))
 
-    def raised(self, x: np.ndarray, gap: float) -> ValidityBarrier:
-        """Return the barrier with floors raised towards the least coefficients at points x (n, 3).
+    def increased(self, x: np.ndarray, gap: float) -> ValidityBarrier:
+        """Return the barrier with floors increased towards the least coefficients at points x (n, 3).
 
         Parameters
         ----------

@@ -66,8 +66,8 @@ def name_invalid(mesh: Mesh, quality: ElementQuality) -> str:
         return ""
     more = f" and {hexes.size - _NAMED:,} more" if hexes.size > _NAMED else ""
     locked = int(np.count_nonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)))
-    why = f"; fixed nodes keep {count_phrase(locked, 'hex', 'hexes')} inverted" if locked else ""
-    return f"Invalid: {with_ids(hexes[:_NAMED].tolist(), hex_ids(mesh))}{more}{why}."
+    reason = f"; fixed nodes keep {count_phrase(locked, 'hex', 'hexes')} inverted" if locked else ""
+    return f"Invalid: {with_ids(hexes[:_NAMED].tolist(), hex_ids(mesh))}{more}{reason}."
 
 
 def kept_message(number: int) -> str:

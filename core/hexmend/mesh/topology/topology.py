@@ -116,7 +116,7 @@ class Topology:
 
     @property
     def neighbours_in_any_order(self) -> np.ndarray:
-        """As `face_neighbours`, also across faces whose nodes two hexes have in one order, as left-handed ones do."""
+        """Neighbours across faces, also where both hexes have its nodes in one order, as left-handed ones do."""
         if not self.n_nonmanifold_faces:
             return self.face_neighbours
         rows = self.node_corners

@@ -33,7 +33,7 @@ class CertificationConfig:
     band : float
         Width of the barriers above their floors, in scaled Jacobian, q(H), and det J over the greatest in the hex.
     gap, min_gap : float
-        Of `ValidityBarrier.raised`, and the least to which it is halved where the floors no longer rise.
+        Of `ValidityBarrier.increased`, and the least to which it is halved where the floors no longer rise.
     steps : int
         Most Newton steps with one share.
     window, min_rise : int, float
@@ -149,7 +149,7 @@ class _Certification:
             step = descend(part.with_surface(validity), y, 0.0, direction, SEARCH, NEWTON.max_step)
             if step is None or step.alpha == 0:
                 return most, none
-            y, validity = step.x, validity.raised(step.x, gap)
+            y, validity = step.x, validity.increased(step.x, gap)
             history.append(validity.deficit)
             yield self._take(energy.to_mesh_units(region.merged(x, y)), validity)
             invalid = curable_hexes(part.mesh, measure(y, part.mesh.hexes))

@@ -134,8 +134,8 @@ class Stages(MaxMinStages):
         points = yield from certify_hexes(energy, points)
         if leaving is None:
             return points
-        held = curable_hexes(around.mesh, measure(points, mesh.hexes))
-        for wider, limit in leaving.released(result, mask(mesh.hexes[held], mesh.n_nodes)):
+        curable = curable_hexes(around.mesh, measure(points, mesh.hexes))
+        for wider, limit in leaving.released(result, mask(mesh.hexes[curable], mesh.n_nodes)):
             energy = self._sound_energy(wider.mesh, points, wider)
             found = yield from infeasible(certify_hexes(energy, points), every=1)
             fewer = measure(found, mesh.hexes).n_invalid < measure(points, mesh.hexes).n_invalid
