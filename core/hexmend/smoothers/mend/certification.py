@@ -82,6 +82,8 @@ def certify_hexes(
         if not curable_hexes(energy.mesh, measure(best, energy.mesh.hexes)).any():
             break
         best, reached = yield from _Certification(energy, reached, best, share, config).steps()
+    if reached is not best:
+        yield Step(best, intermediate=True)  # else a run would keep what was reached: of equals it keeps the last
     return best
 
 
