@@ -98,8 +98,8 @@ _QUANTITIES = (
 #: Displacement quantities by name.
 DISPLACEMENT_QUANTITIES = {one.name: one for one in _QUANTITIES}
 
-#: Values of `Displacement.inversion_changes`, in the order of the legend of `q-change`.
-NEWLY_INVERTED, STILL_INVERTED, MENDED = 1, 2, 3
+#: Values of `Displacement.validity_changes`, in the order of the legend of `q-change`.
+NEWLY_INVALID, STILL_INVALID, MENDED = 1, 2, 3
 
 
 def hex_quantity(name: str) -> HexQuantity:
@@ -197,15 +197,15 @@ class Displacement:
         return self._known[name]
 
     @cached_property
-    def inversion_changes(self) -> np.ndarray:
-        """`NEWLY_INVERTED`, `STILL_INVERTED` or `MENDED` for each hex, 0 for one always valid; (m,) uint8."""
-        then, now = self.before.quality.inverted, self.quality.inverted
-        return np.array([0, MENDED, NEWLY_INVERTED, STILL_INVERTED], np.uint8)[2 * now.astype(np.uint8) + then]
+    def validity_changes(self) -> np.ndarray:
+        """`NEWLY_INVALID`, `STILL_INVALID` or `MENDED` for each hex, 0 for one always valid; (m,) uint8."""
+        then, now = self.before.quality.invalid, self.quality.invalid
+        return np.array([0, MENDED, NEWLY_INVALID, STILL_INVALID], np.uint8)[2 * now.astype(np.uint8) + then]
 
     @cached_property
     def counts(self) -> DisplacementCounts:
         """Counts of moved nodes and changed hexes."""
-        distances, change, inversion = self.distances / self.unit, self.values("q-change"), self.inversion_changes
+        distances, change, validity = self.distances / self.unit, self.values("q-change"), self.validity_changes
         moved = distances > ROUNDING
         mean, largest = float(distances[moved].mean()) if moved.any() else 0.0, float(distances.max(initial=0.0))
         counts = {
@@ -213,8 +213,8 @@ class Displacement:
             "slid": moved & self.mesh.topology.boundary,
             "better": change > ROUNDING,
             "worse": change < -ROUNDING,
-            "newly_inverted": inversion == NEWLY_INVERTED,
-            "mended": inversion == MENDED,
+            "newly_invalid": validity == NEWLY_INVALID,
+            "mended": validity == MENDED,
         }
         counts = {name: int(np.count_nonzero(marks)) for name, marks in counts.items()}
         return DisplacementCounts(mean=mean, largest=largest, **counts)
@@ -234,8 +234,8 @@ class DisplacementCounts:
         Mean and largest displacement of the moved nodes, in mean edge lengths.
     better, worse : int
         Number of hexes whose q(H) has risen or fallen.
-    newly_inverted, mended : int
-        Number of hexes that have become inverted, and that are inverted no longer.
+    newly_invalid, mended : int
+        Number of hexes that have become invalid, and that are invalid no longer.
     """
 
     moved: int
@@ -244,7 +244,7 @@ class DisplacementCounts:
     largest: float
     better: int
     worse: int
-    newly_inverted: int
+    newly_invalid: int
     mended: int
 
 

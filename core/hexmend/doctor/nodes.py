@@ -144,7 +144,11 @@ def _merge_targets(mesh: Mesh) -> np.ndarray:
 
 
 def _have_one_material(mesh: Mesh, pairs: np.ndarray) -> np.ndarray:
-    """True for pairs (k, 2) of nodes that hexes of one material use, or that no hex uses, (k,) bool."""
+    """True for pairs (k, 2) of nodes that are of one material, (k,) bool.
+
+    Nodes that no hex uses, as of faces and edges, are of the material of the hex nodes at their place if these are all
+    merged into one node, and else of none.
+    """
     from scipy.sparse import coo_array
 
     nodes, materials = mesh.hexes, mesh.materials
@@ -154,5 +158,13 @@ def _have_one_material(mesh: Mesh, pairs: np.ndarray) -> np.ndarray:
     uses = np.ones(hexes.size), (nodes[hexes, place], materials.of_hex[hexes])
     uses = coo_array(uses, shape=(mesh.n_nodes, len(materials))).tocsr()
     one, other = (uses[pairs[:, side]] for side in (0, 1))
-    by_none = (one.sum(axis=1) == 0) & (other.sum(axis=1) == 0)
-    return by_none | ((one * other).sum(axis=1) > 0)
+    by_hex = np.diff(uses.indptr)[pairs] > 0
+    alike = ~by_hex.any(axis=1) | ((one * other).sum(axis=1) > 0)
+    group = components(mesh.n_nodes, pairs[alike])[pairs]
+    mixed = by_hex[:, 0] != by_hex[:, 1]
+    of_hex, of_none = group[mixed][by_hex[mixed]], group[mixed][~by_hex[mixed]]
+    least, greatest = np.full(mesh.n_nodes, mesh.n_nodes), np.full(mesh.n_nodes, -1)
+    np.minimum.at(least, of_none, of_hex)
+    np.maximum.at(greatest, of_none, of_hex)
+    alike[mixed] = (least == greatest)[of_none]
+    return alike

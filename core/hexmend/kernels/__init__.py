@@ -12,8 +12,9 @@ Loops are shared by as many threads as `HEXMEND_THREADS` says, else OpenMP's var
 number for the calling thread alone.
 
 Arrays are taken as they are, without a copy: points (n, 3) float64, hexes (m, 8) int32, all contiguous. Another type
-or shape is a TypeError, lengths that do not fit each other are a ValueError. Numbers in arrays, as of nodes in hexes,
-are not checked: they must exist. What goes together is a class: `hex_mesh.HexMesh`, `line_search.LineSearch`,
+or shape is a TypeError, lengths that do not fit each other are a ValueError. Numbers in arrays are not checked: nodes
+in hexes must exist, and the entries of `start` of rows, of which only the last is compared with the length of the
+rows, must ascend from 0. What goes together is a class: `hex_mesh.HexMesh`, `line_search.LineSearch`,
 `sliding_surface.SlidingSurface` and settings of steps; its objects view their arrays and keep them alive.
 """
 

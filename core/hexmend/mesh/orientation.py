@@ -68,10 +68,15 @@ def check_orientation(mesh: Mesh) -> None:
     """
     which = left_handed_hexes(mesh)
     if which.any():
-        raise MeshError(
-            f"{left_handed_are(mesh, which)} numbered inside out (left-handed), which moving nodes does not mend. "
-            "Renumber first: hexmend repair MESH -o OUT, hexmend.doctor.repair(mesh), or Edit > Doctor in the window."
-        )
+        raise left_handed_error(left_handed_are(mesh, which))
+
+
+def left_handed_error(hexes_are: str) -> MeshError:
+    """Return the error of left-handed hexes, whose sentence begins with this subject and verb."""
+    return MeshError(
+        f"{hexes_are} numbered inside out (left-handed), which moving nodes does not mend. "
+        "Renumber first: hexmend repair MESH -o OUT, hexmend.doctor.repair(mesh), or Edit > Doctor in the window."
+    )
 
 
 def left_handed_are(mesh: Mesh, which: np.ndarray) -> str:

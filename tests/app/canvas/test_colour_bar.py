@@ -100,13 +100,13 @@ def test_each_special_colour_has_a_swatch_below_the_gradient(shown, ramp):
     bar = ColourBar()
     bar.set_table(ramp)
     bar.set_range(-0.25, 0.25)
-    kinds = [("newly inverted", 3, "#12ab34"), ("still inverted", 0, "#ab1234"), ("mended", 12, "#3412ab")]
+    kinds = [("newly invalid", 3, "#12ab34"), ("still invalid", 0, "#ab1234"), ("mended", 12, "#3412ab")]
     bar.set_special(kinds)
     shown(bar, 130)
     rgb = pixels(bar)
     for colour in ((0x12, 0xAB, 0x34), (0xAB, 0x12, 0x34), (0x34, 0x12, 0xAB)):
         assert (rgb == colour).all(axis=2).sum() > 80
-    assert bar.accessibleDescription() == ("newly inverted (3); still inverted; mended (12); q(H) from −0.25 to 0.25")
+    assert bar.accessibleDescription() == ("newly invalid (3); still invalid; mended (12); q(H) from −0.25 to 0.25")
     bar.set_special(kinds[2:])
     assert bar.accessibleDescription().startswith("mended (12); q(H)")
     assert [one.isVisible() for one in bar.swatches] == [True, False, False]
@@ -114,16 +114,16 @@ def test_each_special_colour_has_a_swatch_below_the_gradient(shown, ramp):
 
 def test_a_swatch_can_be_clicked_by_mouse_and_keys_unless_its_count_is_zero(shown):
     bar = ColourBar()
-    bar.set_special([("newly inverted", 3, "#12ab34"), ("still inverted", 0, "#ab1234")])
+    bar.set_special([("newly invalid", 3, "#12ab34"), ("still invalid", 0, "#ab1234")])
     shown(bar, 130)
     asked = []
     bar.special_clicked.connect(asked.append)
     for swatch in bar.swatches:
         QTest.mouseClick(swatch, Qt.MouseButton.LeftButton)
-    assert asked == ["newly inverted"]
+    assert asked == ["newly invalid"]
     bar.swatches[0].setFocus()
     QTest.keyClick(bar.swatches[0], Qt.Key.Key_Space)
-    assert asked == ["newly inverted"] * 2
+    assert asked == ["newly invalid"] * 2
     assert not bar.swatches[1].isEnabled()
 
 

@@ -47,11 +47,11 @@ def entries(view):
 
 def test_captions_show_the_counts_of_each_view_first(framed):
     framed.frame.set_captions(captions(2), None)
-    counts = ((("newly inverted", 1200), ("mended", 0)), (("newly inverted", 0), ("mended", 0)))
+    counts = ((("newly invalid", 1200), ("mended", 0)), (("newly invalid", 0), ("mended", 0)))
     pairs = zip(framed.frame.captions, counts, strict=True)
     framed.frame.change_captions([replace(caption, counts=own) for caption, own in pairs])
     texts = [caption.figures for caption in framed.frame.captions]
-    assert texts == ["1,200 newly inverted · q min 0.5000", "none invalid · q min 0.5000"]
+    assert texts == ["1,200 newly invalid · q min 0.5000", "none invalid · q min 0.5000"]
     assert Caption("view", 0.5, 3, 3, None).figures == "3 inverted · q min 0.5000"
     assert Caption("view", 0.5, 3, 5, None).figures == "3 inverted · 2 invalid inside · q min 0.5000"
 

@@ -6,8 +6,8 @@ import pytest
 from hexmend.boundary.displacement import (
     DISPLACEMENT_QUANTITIES,
     MENDED,
-    NEWLY_INVERTED,
-    STILL_INVERTED,
+    NEWLY_INVALID,
+    STILL_INVALID,
     Displacement,
     ReferenceState,
 )
@@ -33,14 +33,15 @@ def test_displacement_of_an_element_is_that_of_its_nodes_in_mean_edge_lengths():
     assert movement.counts.largest == pytest.approx(lengths.max())
 
 
-def test_elements_are_newly_inverted_still_inverted_or_mended():
-    good, bad = MESH.points, scrambled(MESH, 1.2).points
-    inverted = measure(bad, MESH.hexes).inverted
-    assert 0 < inverted.sum() < inverted.size
-    assert np.array_equal(moved(bad).inversion_changes == NEWLY_INVERTED, inverted)
-    assert np.array_equal(moved(good, bad).inversion_changes == MENDED, inverted)
-    assert np.array_equal(moved(bad, bad).inversion_changes == STILL_INVERTED, inverted)
-    assert moved(bad).counts.newly_inverted == moved(good, bad).counts.mended == inverted.sum()
+def test_hexes_are_newly_invalid_still_invalid_or_mended_also_those_invalid_inside():
+    good, bad = MESH.points, scrambled(MESH, 0.6).points
+    figures = measure(bad, MESH.hexes)
+    invalid = figures.invalid
+    assert figures.n_inverted < invalid.sum() < invalid.size
+    assert np.array_equal(moved(bad).validity_changes == NEWLY_INVALID, invalid)
+    assert np.array_equal(moved(good, bad).validity_changes == MENDED, invalid)
+    assert np.array_equal(moved(bad, bad).validity_changes == STILL_INVALID, invalid)
+    assert moved(bad).counts.newly_invalid == moved(good, bad).counts.mended == invalid.sum()
     assert moved(bad).counts.worse == moved(good, bad).counts.better > 0
 
 

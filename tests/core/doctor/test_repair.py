@@ -117,6 +117,18 @@ def test_nodes_inside_a_material_are_merged_up_to_its_interface():
     assert after.n_nodes == repair(mesh)[0].n_nodes == mesh.n_nodes - 16
 
 
+def test_nodes_of_faces_are_merged_with_those_of_hexes_but_join_no_materials():
+    touching = blocks().replace(hex_sets={"left": np.arange(27), "right": np.arange(27, 54)})
+    for side, merged in (0, 16), (3, 0):  # faces at x = 0 of the left block, and at x = 3, where the blocks touch
+        faces = SOUND.topology.boundary_faces
+        nodes, quads = np.unique(faces[(SOUND.points[faces, 0] == side).all(axis=1)], return_inverse=True)
+        points = np.vstack([touching.points, SOUND.points[nodes]])
+        quads = Cells("quad", touching.n_nodes + quads.reshape(-1, 4))
+        mesh = Mesh(points, touching.hexes, cells=(quads,), hex_sets=touching.hex_sets)
+        assert ("coincident-nodes" in found_in(mesh)) is (merged > 0)
+        assert repair(mesh)[0].n_nodes == mesh.n_nodes - merged
+
+
 def test_a_linear_motion_follows_the_numbers_of_its_nodes():
     mesh = grid(2)
     bottom, top = (np.flatnonzero(mesh.points[:, 2] == z) for z in (0, 2))

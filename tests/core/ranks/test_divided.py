@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import time
@@ -164,8 +165,21 @@ def test_left_handed_hexes_are_renumbered_as_in_one_process(which, tmp_path):
     written = read(tmp_path / "out.pvtu", as_is=True)
     np.testing.assert_array_equal(written.hexes, np.concatenate([mesh.hexes, mesh.hexes + n]))
     np.testing.assert_array_equal(written.hexes, read(tmp_path / "a.vtu").hexes)
-    on_ranks(3, *words, "--as-is")
-    np.testing.assert_array_equal(read(tmp_path / "out.pvtu", as_is=True).hexes, both)
+
+
+@needs_mpi
+@pytest.mark.parametrize("output", ["out.vtu", "out.pvtu"])
+def test_ranks_smooth_no_left_handed_hexes_and_name_their_number(output, tmp_path):
+    mesh = make("cube", size=64)
+    hexes = mesh.hexes.copy()
+    hexes[[3, 40]] = hexes[[3, 40]][:, MIRRORED_CORNERS]
+    write(tmp_path / "a.vtu", mesh.rebuilt(hexes=hexes))
+    run = on_ranks(2, tmp_path / "a.vtu", "-o", tmp_path / output, "--as-is")
+    assert run.returncode != 0
+    assert len(re.findall("^hexmend: 2 hexes.* are numbered inside out", run.stderr, re.MULTILINE)) == 1
+    assert "rank 0 reads the whole mesh" not in run.stderr
+    assert "Traceback" not in run.stderr
+    assert not (tmp_path / output).exists()
 
 
 @needs_mpi

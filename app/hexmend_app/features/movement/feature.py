@@ -26,7 +26,7 @@ class FeatureMovement(Feature):
         panel = self.panel = MovementPanel()
         panel.traces_changed.connect(lambda traces: view.change(movement=traces))
         panel.colours_chosen.connect(lambda name: view.colour_by(name or self._metric))
-        panel.newly_inverted_requested.connect(self._show_newly_inverted)
+        panel.newly_invalid_requested.connect(self._show_newly_invalid)
 
     def panels(self) -> Sequence[Panel]:
         """Return the panel of the displacement."""
@@ -66,6 +66,6 @@ class FeatureMovement(Feature):
     def _displacement(self) -> Displacement:
         return self.session.comparison_bases.displacement(self._view.look.movement.since)
 
-    def _show_newly_inverted(self) -> None:
+    def _show_newly_invalid(self) -> None:
         now = self._document.now
-        self._view.isolate(hexes_of_group("newly inverted", now.mesh, now.figures, self._displacement))
+        self._view.isolate(hexes_of_group("newly invalid", now.mesh, now.figures, self._displacement))

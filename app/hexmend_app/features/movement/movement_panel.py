@@ -30,7 +30,7 @@ _COLOURS = [
     (
         "q-change",
         DISPLACEMENT_QUANTITIES["q-change"].label,
-        "Colour each hex by the increase (teal) or decrease (brown) of its quality; newly inverted and repaired hexes "
+        "Colour each hex by the increase (teal) or decrease (brown) of its quality; newly invalid and repaired hexes "
         "have separate colours.",
     ),
     (
@@ -53,7 +53,7 @@ _FIGURES = {
     "Nodes": "Number of nodes that have moved.",
     "Distance": "Displacement of these nodes, in mean edge lengths of the mesh as it was opened.",
     "Hexes": "Hexes with a higher or lower q(H) than in the reference state.",
-    "Inverted": "Hexes that became inverted since the reference state, and hexes that no longer are.",
+    "Invalid": "Hexes that became invalid since the reference state, and hexes that no longer are.",
 }
 _DRAWN = "Number and length of the arrows."
 _FACTOR = "Scale factor of the arrows relative to the displacement."
@@ -68,13 +68,13 @@ class MovementPanel(QWidget):
         The user changed the reference state or the arrows.
     colours_chosen(name)
         The user selected a name of `DISPLACEMENT_QUANTITIES` for the colours, or "" for a metric.
-    newly_inverted_requested
-        The user asked to isolate the newly inverted hexes.
+    newly_invalid_requested
+        The user asked to isolate the newly invalid hexes.
     """
 
     traces_changed = Signal(object)
     colours_chosen = Signal(str)
-    newly_inverted_requested = Signal()
+    newly_invalid_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -90,7 +90,7 @@ class MovementPanel(QWidget):
         self.factor.setKeyboardTracking(False)
         self.factor.setFont(tabular(self.factor.font()))
         set_help(self.factor, tr("Length of arrows"), tr(_FACTOR))
-        self.show_newly = QPushButton(tr("Show newly inverted"))
+        self.show_newly = QPushButton(tr("Show newly invalid"))
         self._drawn = note()
         set_help(self._drawn, tr("Number of arrows"), tr(_DRAWN))
         self._figures = {name: _figure_label() for name in _FIGURES}
@@ -99,7 +99,7 @@ class MovementPanel(QWidget):
         self.arrows.chosen.connect(lambda key: self._change(arrows=Arrows(key)))
         self.factor.valueChanged.connect(lambda value: self._change(factor=value))
         self.colours.chosen.connect(self.colours_chosen)
-        self.show_newly.clicked.connect(self.newly_inverted_requested)
+        self.show_newly.clicked.connect(self.newly_invalid_requested)
         self.set_traces(self._traces)
         self.set_counts(None, "", 0)
         self.set_arrows(0, 0)
@@ -121,15 +121,15 @@ class MovementPanel(QWidget):
             label.setBuddy(buttons)
             grid.addWidget(buttons, row, 1)
         grid.addLayout(lengths, 3, 1)
-        inverted = QHBoxLayout()
-        inverted.setSpacing(8)
-        inverted.addWidget(self._figures["Inverted"], 1)
-        inverted.addWidget(self.show_newly)
+        invalid = QHBoxLayout()
+        invalid.setSpacing(8)
+        invalid.addWidget(self._figures["Invalid"], 1)
+        invalid.addWidget(self.show_newly)
         for row, (text, label) in enumerate(self._figures.items(), start=4):
             grid.addWidget(QLabel(tr(text)), row, 0)
             set_help(label, tr(text), tr(_FIGURES[text]))
-            if text == "Inverted":
-                grid.addLayout(inverted, row, 1)
+            if text == "Invalid":
+                grid.addLayout(invalid, row, 1)
             else:
                 grid.addWidget(label, row, 1)
         grid.setRowStretch(8, 1)
@@ -166,10 +166,10 @@ class MovementPanel(QWidget):
         free : int
             Number of free nodes.
         """
-        enabled = counts is not None and counts.newly_inverted > 0
+        enabled = counts is not None and counts.newly_invalid > 0
         self.show_newly.setEnabled(enabled)
-        help = tr("Show only the hexes that became inverted since the reference state; Esc shows all hexes again.")
-        set_help(self.show_newly, tr("Show newly inverted"), help if enabled else tr("No hex is newly inverted."))
+        help = tr("Show only the hexes that became invalid since the reference state; Esc shows all hexes again.")
+        set_help(self.show_newly, tr("Show newly invalid"), help if enabled else tr("No hex is newly invalid."))
         texts = (tr("No mesh is open."), "", "", "") if counts is None else _count_texts(counts, name, free)
         for label, text in zip(self._figures.values(), texts, strict=True):
             label.setText(text)
@@ -218,8 +218,8 @@ def _count_texts(counts: DisplacementCounts, name: str, free: int) -> tuple[str,
         distance,
         tr("{better:,} better, {worse:,} worse", better=counts.better, worse=counts.worse),
         tr(
-            "{newly_inverted:,} newly inverted, {mended:,} repaired",
-            newly_inverted=counts.newly_inverted,
+            "{newly_invalid:,} newly invalid, {mended:,} repaired",
+            newly_invalid=counts.newly_invalid,
             mended=counts.mended,
         ),
     )

@@ -20,8 +20,8 @@ from hexmend_app.theme import palette
 OUTSIDE, OPENED = (0xF2, 0xF2, 0xEF), (0xF6, 0xC9, 0x4C)
 
 #: Colours of invalid hexes: magenta of the inverted ones, which no colour map contains, and a lighter magenta of those
-#: that are invalid inside. Colours of changes use magenta for newly inverted hexes, a duller magenta for hexes that are
-#: still inverted, and yellow for repaired hexes.
+#: that are invalid inside. Colours of changes use magenta for newly invalid hexes, a duller magenta for hexes that are
+#: still invalid, and yellow for repaired hexes.
 INVERTED, INVALID_INSIDE = (tuple(bytes.fromhex(one[1:])) for one in (palette.INVERTED, palette.INVALID_INSIDE))
 _STILL, _MENDED = (0x8E, 0x4B, 0x76), (0xF0, 0xE4, 0x42)
 
@@ -36,8 +36,8 @@ class SpecialColour:
 
 INVALID_COLOURS = (SpecialColour("inverted", INVERTED), SpecialColour("invalid inside", INVALID_INSIDE))
 _CHANGED = (
-    SpecialColour("newly inverted", INVERTED),
-    SpecialColour("still inverted", _STILL),
+    SpecialColour("newly invalid", INVERTED),
+    SpecialColour("still invalid", _STILL),
     SpecialColour("mended", _MENDED),
 )
 

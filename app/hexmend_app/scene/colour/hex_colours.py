@@ -45,7 +45,7 @@ class HexColours:
         else:
             self.values = movement.values(colours.metric)
             if colours.metric == "q-change":
-                self.kinds = movement.inversion_changes
+                self.kinds = movement.validity_changes
             title = movement.title(colours.metric)
         self.colouring = resolve(colours, self.values, figures.invalid, self._ends_of_views, title, names)
 

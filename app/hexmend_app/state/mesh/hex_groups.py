@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.displacement import MENDED, NEWLY_INVERTED, STILL_INVERTED, Displacement
+from hexmend.boundary.displacement import MENDED, NEWLY_INVALID, STILL_INVALID, Displacement
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes
 
 #: Groups that a displacement defines.
-_OF_DISPLACEMENT = {"newly inverted": NEWLY_INVERTED, "still inverted": STILL_INVERTED, "mended": MENDED}
+_OF_DISPLACEMENT = {"newly invalid": NEWLY_INVALID, "still invalid": STILL_INVALID, "mended": MENDED}
 
 GROUPS = ("inverted", "invalid", "invalid inside", "locked", *_OF_DISPLACEMENT)
 
@@ -37,7 +37,7 @@ def hexes_of_group(
     figures : ElementQuality
         Quality of the mesh.
     displacement : Displacement, optional
-        Defines the newly inverted, still inverted and mended hexes; without it these groups are empty.
+        Defines the newly invalid, still invalid and mended hexes; without it these groups are empty.
 
     Raises
     ------
@@ -54,4 +54,4 @@ def hexes_of_group(
         return np.flatnonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted))
     if displacement is None:
         return np.empty(0, np.int64)
-    return np.flatnonzero(displacement.inversion_changes == _OF_DISPLACEMENT[group])
+    return np.flatnonzero(displacement.validity_changes == _OF_DISPLACEMENT[group])

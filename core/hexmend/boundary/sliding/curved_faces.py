@@ -6,6 +6,7 @@ Triangles between the corners alone would leave a curved surface by the sagitta 
 from __future__ import annotations
 
 from dataclasses import replace
+from math import isqrt
 
 import numpy as np
 
@@ -21,10 +22,15 @@ from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
 _MAX_SAGITTA = 1e-3
 #: Most divisions of an edge: a face has 4 * 8^2 triangles then.
 _MAX_DIVISIONS = 8
+#: Most quads of divided faces, of which each takes about 850 bytes, unless two divisions of an edge make more.
+_MAX_QUADS = 1 << 18
 
 
 def surface_of_boundary(mesh: Mesh, points: np.ndarray, boundary: Boundary) -> PartitionedSurface:
     """Return the surface of a boundary: of its faces, or of the parts of curved ones.
+
+    All edges have as many divisions as the most curved one needs, fewer where there are many faces. Nothing is divided,
+    and nodes slide on triangles between the corners, if a face has collapsed (two of its corners are one node).
 
     Parameters
     ----------
@@ -47,7 +53,8 @@ def surface_of_boundary(mesh: Mesh, points: np.ndarray, boundary: Boundary) -> P
     sagitta = np.linalg.norm(nodes[:, 4:8] - (ends + after) / 2, axis=2)
     length = np.linalg.norm(after - ends, axis=2)
     share = float((sagitta / np.where(length > 0, length, np.inf)).max(initial=0.0))
-    divisions = int(min(np.ceil(np.sqrt(share / _MAX_SAGITTA)), _MAX_DIVISIONS))
+    most = min(_MAX_DIVISIONS, max(2, isqrt(_MAX_QUADS // max(len(faces), 1))))
+    divisions = int(min(np.ceil(np.sqrt(share / _MAX_SAGITTA)), most))
     if divisions < 2:
         return PartitionedSurface(points, boundary)
     edges, inner = SurfaceEdges(faces, n), np.arange(divisions - 1)

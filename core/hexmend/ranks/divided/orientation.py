@@ -1,20 +1,37 @@
-"""Orientation of hexes of a divided mesh: left-handed ones are renumbered, as in one process."""
+"""Orientation of hexes of a divided mesh: left-handed ones are found, renumbered and refused as in one process."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from hexmend.mesh.hexahedron import FACES
-from hexmend.mesh.orientation import MIRRORED_CORNERS, all_corners_negative, are_left_handed, signed_volumes
+from hexmend.mesh.orientation import all_corners_negative, are_left_handed, left_handed_error, signed_volumes
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.topology.face_parity import face_parity, signed_components
+from hexmend.ranks.divided.divided_mesh import DividedMesh
 from hexmend.ranks.mpi_ranks import MPIRanks
+from hexmend.terminal_text import count_phrase
 
 
-def with_right_handed_hexes(
+def check_orientation(mesh: DividedMesh) -> None:
+    """Check that no hex is numbered left-handed; all ranks call it together.
+
+    Raises
+    ------
+    MeshError
+        On all ranks, where hexes are.
+    """
+    part = mesh.part
+    which = left_handed_hexes(part.ranks, part.mesh.points, part.mesh.hexes, mesh.hex_ids, part.owned)
+    count = part.ranks.sum(int(np.count_nonzero(which & part.counted)))
+    if count:
+        raise left_handed_error(count_phrase(count, "hex is", "hexes are"))
+
+
+def left_handed_hexes(
     ranks: MPIRanks, points: np.ndarray, hexes: np.ndarray, ids: np.ndarray, owned: np.ndarray
 ) -> np.ndarray:
-    """Return the hexes of a rank's part, those renumbered that are left-handed in the whole mesh.
+    """Find the hexes of a rank's part that are numbered left-handed in the whole mesh; all ranks call it together.
 
     Each rank solves the parity of its own hexes (`face_parity`); hexes that several ranks have connect their
     components.
@@ -31,11 +48,11 @@ def with_right_handed_hexes(
 
     Returns
     -------
-    (m, 8) int32
+    (m,) bool
     """
     volume = signed_volumes(points, hexes)
     if not ranks.any(volume < 0):
-        return hexes
+        return np.zeros(len(hexes), dtype=bool)
     of_own = owned[hexes[:, FACES]].any(axis=2)  # all hexes at such a face are here
     component, sign = face_parity(hexes, np.where(of_own, Topology(hexes, len(points)).neighbours_in_any_order, -1))
     component, sign = _in_whole_mesh(ranks, component, sign, ids, ~owned[hexes].all(axis=1))
@@ -45,10 +62,7 @@ def with_right_handed_hexes(
     sums = [np.bincount(of_hex[counted], one[counted], len(group)) for one in values]
     rows = ranks.gather(np.stack([group, *sums], axis=1))
     components, signs = np.divmod(rows[:, 0].astype(np.int64), 3)
-    left_handed = np.isin(group, rows[are_left_handed(components, signs - 1, *rows[:, 1:].T), 0])[of_hex]
-    turned = hexes.copy()
-    turned[left_handed] = hexes[left_handed][:, MIRRORED_CORNERS]
-    return turned
+    return np.isin(group, rows[are_left_handed(components, signs - 1, *rows[:, 1:].T), 0])[of_hex]
 
 
 def _in_whole_mesh(

@@ -14,12 +14,13 @@ from hexmend.io.base.fixed_marks import find_marks
 from hexmend.io.formats.vtk.grid import HEXAHEDRON
 from hexmend.io.slices import GridSlice
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import MIRRORED_CORNERS
 from hexmend.ranks.divided.bisection import bisect
 from hexmend.ranks.divided.checks import check_divisible, check_nodes
 from hexmend.ranks.divided.divided_mesh import DividedMesh, PieceCells
 from hexmend.ranks.divided.exchange import Directory, send_rows
 from hexmend.ranks.divided.figures import mean_edge_length
-from hexmend.ranks.divided.orientation import with_right_handed_hexes
+from hexmend.ranks.divided.orientation import left_handed_hexes
 from hexmend.ranks.mpi_ranks import MPIRanks
 from hexmend.ranks.rank_part import RankPart, too_many_ranks
 
@@ -164,7 +165,8 @@ def _part(
     )
     counted = owned[hexes[:, 0]]
     if not as_is:
-        hexes = with_right_handed_hexes(ranks, x, hexes, ids, owned)
+        which = left_handed_hexes(ranks, x, hexes, ids, owned)
+        hexes[which] = hexes[which][:, MIRRORED_CORNERS]
     whole = Mesh(as_immutable_owned(x), as_immutable_owned(hexes), pinned=pins)
     fixed = ranks.complete(whole.fixed.astype(np.uint8)).astype(bool)  # a node's owner has all its hexes
     mesh = Mesh(whole.points, whole.hexes).with_fixed(fixed)

@@ -140,9 +140,9 @@ def test_the_displacement_is_shown_in_figures(window, record, panel):
     free = window.session.document.now.summary.free_nodes
     assert text_of(panel, "Nodes") == f"{free:,} of {free:,} free nodes moved since the file was opened"
     assert text_of(panel, "Hexes") == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
-    newly = np.count_nonzero(now.figures.inverted & ~start.figures.inverted)
-    repaired = np.count_nonzero(start.figures.inverted & ~now.figures.inverted)
-    assert text_of(panel, "Inverted") == f"{newly:,} newly inverted, {repaired:,} repaired"
+    newly = np.count_nonzero(now.figures.invalid & ~start.figures.invalid)
+    repaired = np.count_nonzero(start.figures.invalid & ~now.figures.invalid)
+    assert text_of(panel, "Invalid") == f"{newly:,} newly invalid, {repaired:,} repaired"
     go(window, record, 0)
     assert text_of(panel, "Distance") == "–"
 
@@ -155,21 +155,21 @@ def mesh_to_invert(window, qtbot, tmp_path):
 
 
 @pytest.mark.slow
-def test_newly_inverted_hexes_are_isolated(window, mesh_to_invert, record, panel, qtbot):
+def test_newly_invalid_hexes_are_isolated(window, mesh_to_invert, record, panel, qtbot):
     inverted = [record.rows[k]["inverted"] for k in range(len(record.rows))]
     for number in range(1, len(inverted)):
         go(window, record, number)
         press(panel.since, "iteration")
         movement = window.session.comparison_bases.displacement(Since.ITERATION)
-        assert panel.show_newly.isEnabled() == (movement.counts.newly_inverted > 0)
+        assert panel.show_newly.isEnabled() == (movement.counts.newly_invalid > 0)
         if panel.show_newly.isEnabled():
             break
     else:
         pytest.fail("Laplacian smoothing of this mesh inverts no hex in any iteration")
     press_button(panel.show_newly)
     isolated = window.session.view.look.show.isolate.hexes
-    assert window.session.document.now.figures.inverted[list(isolated)].all()
-    assert len(isolated) == movement.counts.newly_inverted
+    assert window.session.document.now.figures.invalid[list(isolated)].all()
+    assert len(isolated) == movement.counts.newly_invalid
 
 
 @pytest.mark.slow

@@ -110,14 +110,14 @@ def test_arrows_are_drawn_move_with_the_nodes_and_are_removed(viewport, drawn):
     assert (one != plain).any()
 
 
-def test_colours_of_a_change_distinguish_newly_inverted_and_mended_hexes(viewport):
+def test_colours_of_a_change_distinguish_newly_invalid_and_mended_hexes(viewport):
     look_at(viewport, Look(colours=Colours(metric="q-change", range=Range.FITTED)))
     bad = scrambled(MESH, 1.2).points
     figures = measure(bad, MESH.hexes)
     move(viewport, bad, figures)
     assert [(name, count) for name, count, _ in viewport.colours.special_counts] == [
-        ("newly inverted", figures.n_inverted),
-        ("still inverted", 0),
+        ("newly invalid", np.count_nonzero(figures.invalid)),
+        ("still invalid", 0),
         ("mended", 0),
     ]
     colouring = viewport.colouring

@@ -45,16 +45,16 @@ def test_every_special_colour_of_the_colour_bar_has_a_group():
             assert hexes_of_group(colour.name, MESH, FIGURES).dtype == np.int64
 
 
-def test_a_displacement_defines_groups_by_former_and_present_inversion():
+def test_a_displacement_defines_groups_by_former_and_present_validity():
     earlier = scrambled(MESH, 0.3, 7)
     before = measure(earlier.points, earlier.hexes)
     displacement = Displacement(MESH, ReferenceState(earlier.points, before, "then"), MESH.points, FIGURES)
     newly, still, mended = (
         set(hexes_of_group(group, MESH, FIGURES, displacement).tolist())
-        for group in ("newly inverted", "still inverted", "mended")
+        for group in ("newly invalid", "still invalid", "mended")
     )
-    assert newly | still == set(np.flatnonzero(FIGURES.inverted).tolist())
-    assert still | mended == set(np.flatnonzero(before.inverted).tolist())
+    assert newly | still == set(np.flatnonzero(FIGURES.invalid).tolist())
+    assert still | mended == set(np.flatnonzero(before.invalid).tolist())
     assert newly
     assert still
 

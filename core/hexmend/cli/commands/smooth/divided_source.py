@@ -27,6 +27,7 @@ from hexmend.parameters import AUTO
 from hexmend.ranks.divided.checks import NotDivisibleError, may_have_layers
 from hexmend.ranks.divided.divided_mesh import DividedMesh
 from hexmend.ranks.divided.figures import summarise_part
+from hexmend.ranks.divided.orientation import check_orientation
 from hexmend.ranks.divided.reading import divide_slices
 from hexmend.ranks.launching import local_ranks
 from hexmend.ranks.rank_run import RankRun
@@ -127,7 +128,10 @@ def _suits(args: argparse.Namespace, method: Smoother) -> bool:
 
 def _divided(args: argparse.Namespace, method: Smoother, files: Sequence[SlicedFile], comm: MPI.Comm) -> DividedMesh:
     piece, fields = agreed(comm, lambda: _slice(args, method, files, comm)), files[0].field_data
-    return agreed(comm, lambda: divide_slices(comm, piece, fields, args.as_is), ParameterError)
+    mesh = agreed(comm, lambda: divide_slices(comm, piece, fields, args.as_is), ParameterError)
+    if args.as_is:
+        agreed(comm, lambda: check_orientation(mesh))
+    return mesh
 
 
 def _slice(args: argparse.Namespace, method: Smoother, files: Sequence[SlicedFile], comm: MPI.Comm) -> GridSlice:

@@ -20,6 +20,7 @@ from hexmend.cli.output.mesh_output import MeshOutput
 from hexmend.io import read
 from hexmend.iteration import Iteration
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import check_orientation
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import measure, measure_against_target, summarise
 from hexmend.ranks.launching import local_ranks
@@ -74,6 +75,7 @@ class WholeSource:
         self._output.warn_of_losses(mesh)
         mesh = self._with_motion(self._given, method)
         check_mesh(mesh)
+        check_orientation(mesh)
         check_memory(args, [method], mesh.n_hexes * local_ranks() // ranks, "use more machines")
         mesh = with_target(mesh, method)
         if mesh.target is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from dataclasses import replace
 from pathlib import Path, PurePosixPath
@@ -44,7 +45,7 @@ def piece_paths(path: Path) -> list[Path]:
 def included_files(path: Path) -> set[Path]:
     """Find the files of the pieces, with links resolved; none for a file that is missing or cannot be read."""
     try:
-        return {piece.resolve() for piece in piece_paths(path)}
+        return {Path(os.path.realpath(piece)) for piece in piece_paths(path)}
     except (FileError, OSError):
         return set()
 

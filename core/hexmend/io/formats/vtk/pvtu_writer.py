@@ -14,6 +14,7 @@ from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import chain, count
+from os.path import realpath
 from pathlib import Path
 
 import numpy as np
@@ -133,12 +134,13 @@ def _own_pieces(path: Path, stem: str) -> list[Path]:
     try:
         if not named or _OWN_PIECES.encode() not in path.read_bytes():
             return []
-        files, itself = [one for one in path.parent.iterdir() if one.suffix.lower() == ".pvtu"], path.resolve()
-        others = [one for one in files if one.resolve() != itself]
+        files, itself = [one for one in path.parent.iterdir() if one.suffix.lower() == ".pvtu"], realpath(path)
     except OSError:
         return []
-    shared = {name for other in others for name in _named_pieces(other)}
-    return [path.parent / name for name in named if own.fullmatch(name) and name not in shared]
+    names = [name.replace("\\", "/") for one in files if realpath(one) != itself for name in _named_pieces(one)]
+    shared = {realpath(path.parent / name) for name in names}
+    pieces = [path.parent / name for name in named if own.fullmatch(name)]
+    return [piece for piece in pieces if realpath(piece) not in shared]
 
 
 def _named_pieces(path: Path) -> list[str]:

@@ -242,6 +242,28 @@ def test_pieces_that_a_copy_of_the_file_names_stay(tmp_path):
     assert io.read(tmp_path / "b.pvtu").n_hexes == 8
 
 
+@pytest.mark.parametrize("source", ["./a/a_0.vtu", "a//a_0.vtu", "a\\a_0.vtu", "x/../a/a_0.vtu", "link/a_0.vtu"])
+def test_pieces_that_another_file_names_by_another_path_stay(tmp_path, source):
+    io.write(tmp_path / "a.pvtu", grid(2))
+    if source.startswith("link"):
+        (tmp_path / "link").symlink_to("a", target_is_directory=True)
+    pvtu(tmp_path, f'<Piece Source="{source}"/>')
+    io.write(tmp_path / "a.pvtu", grid(3))
+    assert io.read(tmp_path / "a" / "a_0.vtu").n_hexes == 8
+
+
+def test_a_link_that_leads_back_to_itself_in_the_folder_does_no_harm(tmp_path):
+    for name in ("loop.pvtu", "loop.vtu"):
+        (tmp_path / name).symlink_to(name)
+    for n in (2, 3):
+        io.write(tmp_path / "a.pvtu", grid(n))
+    assert len(list((tmp_path / "a").iterdir())) == 1
+    whole = pvtu(tmp_path, '<Piece Source="loop.vtu"/>')
+    io.write(tmp_path / "b.vtu", grid(2))
+    assert main(["smooth", str(tmp_path / "b.vtu"), "-o", str(whole), "--max-iterations", "1"]) == 0
+    assert io.read(whole).n_hexes == 8
+
+
 def test_pieces_of_other_programs_stay_whatever_their_names(tmp_path):
     io.write(tmp_path / "a.pvtu", grid(2))
     text = (tmp_path / "a.pvtu").read_text()
