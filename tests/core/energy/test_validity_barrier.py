@@ -36,7 +36,7 @@ def test_its_gradient_is_that_of_differences(seed):
 def test_floors_never_fall_and_stay_below_the_coefficients(seed, gap):
     barrier, x = case_of(seed)
     for _ in range(3):
-        higher = barrier.increased(x, gap)
+        higher = barrier.with_higher_floors(x, gap)
         assert (higher.floors >= barrier.floors).all()
         assert higher.deficit <= barrier.deficit
         assert np.isfinite(higher.value(x, NORM))
@@ -48,7 +48,7 @@ def test_floors_never_fall_and_stay_below_the_coefficients(seed, gap):
 @given(seeds)
 def test_hexes_are_valid_where_the_barrier_is_finite_over_floors_that_are_not_negative(seed):
     barrier, x = case_of(seed, 0.25)
-    barrier = barrier.increased(x, 0.25)
+    barrier = barrier.with_higher_floors(x, 0.25)
     valid = certify(x, barrier.hexes) == Validity.VALID
     assert valid[barrier.floors >= 0].all()
     assert (barrier.floors >= 0).any()
