@@ -1,4 +1,4 @@
-"""A run that leaves hexes inverted never has a lower least scaled Jacobian than the mesh as given."""
+"""A run never ends with more invalid hexes, and mend with a lower least scaled Jacobian while hexes stay inverted."""
 
 import numpy as np
 import pytest
@@ -22,8 +22,9 @@ def pinned_tangle(seed):
     ("method", "options"),
     [*((name, {}) for name in METHODS if name != "mend"), *(("mend", {"goal": goal}) for goal in GOALS)],
 )
-def test_the_least_is_not_lower_where_hexes_stay_inverted(method, options, seed):
+def test_no_more_hexes_are_invalid_and_the_least_of_mend_is_not_lower(method, options, seed):
     result = hx.smooth(pinned_tangle(seed), method, max_iterations=40, **options)
     assert result.after.inverted > 0
-    assert result.after.scaled_jacobian_min >= result.before.scaled_jacobian_min - WORSE_BY
+    if method == "mend":
+        assert result.after.scaled_jacobian_min >= result.before.scaled_jacobian_min - WORSE_BY
     assert result.after.invalid <= result.before.invalid
