@@ -153,7 +153,7 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEAT
     new = old.with_points(after.points)
     spacing = SAMPLE_DISTANCE * before.mean_edge_length
     # Where faces overlap, all boxes at a place would be searched for a piece closer than the one on which it lies.
-    near = _ROUNDING * before.mean_edge_length
+    near = 1e-3 * _ROUNDING * before.mean_edge_length
     if after.target is None:
         pieces = old.pieces_of_samples
         both = new.distances(old.samples(), near, pieces), old.distances(new.samples(), near, pieces)

@@ -149,7 +149,7 @@ def test_a_run_is_recovered_at_its_newest_iteration(fresh_window, qtbot, own_sta
     assert (session.document.now.mesh.points == points).all()
     assert session.document.modified
     assert session.document.undo_title == METHODS["laplacian"].title
-    assert session.history.records[0].message == "Hexmend ended unexpectedly during this run."
+    assert session.history.records[0].message == "cut short"
 
 
 def wait_for_run(own_state, qtbot, is_written):
