@@ -173,10 +173,10 @@ class Smoother(Parametrised, ABC):
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
-        Invalid hexes come first, then inverted ones, then the least q(H). Of an optimiser it counts only whether that
-        is visibly lower than at the start: its iterates improve by the objective, not by the least q(H). With a target,
-        q(H) is that against the target; of an optimiser it counts then whether the objective is higher than at the
-        start.
+        First comes whether more hexes are invalid than at the start, then the number of inverted ones and that of
+        invalid ones, then the least q(H). Of an optimiser it counts only whether that is visibly lower than at the
+        start: its iterates improve by the objective, not by the least q(H). With a target, q(H) is that against the
+        target; of an optimiser it counts then whether the objective is higher than at the start.
 
         Parameters
         ----------
@@ -187,7 +187,7 @@ class Smoother(Parametrised, ABC):
         -------
         tuple of float
         """
-        least, counts = float(now.q.min()), (now.n_invalid, now.n_inverted)
+        least, counts = float(now.q.min()), (now.n_invalid > start.n_invalid, now.n_inverted, now.n_invalid)
         if self.optimises and now.against_target:
             return *counts, objective_of_sound(now, self.norm) > objective_of_sound(start, self.norm)
         return *counts, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least

@@ -87,7 +87,7 @@ def test_the_start_is_worse_than_itself_in_nothing(goal, guard):
     points[MIDDLE] += 0.2
     figures = measure(points, mesh.hexes)
     *counts, harmed, last = METHODS["mend"](goal=goal, guard=guard).rank(figures, figures)
-    assert [*counts, bool(harmed)] == [False, 0, 0, False]
+    assert [*counts, bool(harmed)] == [False, False, 0, 0, False]
     assert goal != "shape" or not last
     worse = points.copy()
     worse[MIDDLE] += 0.1

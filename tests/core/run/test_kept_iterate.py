@@ -40,6 +40,11 @@ def bridge():
     return make("bridge-sharp", size=864)
 
 
+def validity(row, first):
+    """The first keys by which iterates are ranked."""
+    return row["invalid"] > first["invalid"], row["inverted"], row["invalid"]
+
+
 def meshes():
     """Gallery meshes, from sound to badly tangled, some with an inverted hex that fixed nodes lock."""
     made = st.builds(
@@ -58,8 +63,9 @@ def meshes():
 def test_no_method_ends_with_more_invalid_hexes_or_a_lower_q_min(name, mesh, most):
     result = smooth(mesh, name, StoppingCriteria(max_iterations=most))
     before, after = result.before, result.after
-    bad_before, bad_after = ((one.invalid, one.inverted) for one in (before, after))
-    assert bad_after <= bad_before
+    assert after.invalid <= before.invalid
+    bad_before, bad_after = ((one.inverted, one.invalid) for one in (before, after))
+    assert name == "mend" or bad_after <= bad_before
     if name != "mend" and bad_after == bad_before:
         assert after.q_min >= before.q_min - (SLACK if METHODS[name].optimises else 0)
 
@@ -69,7 +75,7 @@ def test_no_method_ends_with_more_invalid_hexes_or_a_lower_q_min(name, mesh, mos
 @given(mesh=meshes())
 def test_a_method_without_an_objective_keeps_its_best_iterate_of_equals_the_last(name, mesh):
     result = smooth(mesh, name, SHORT)
-    ranks = [(row["invalid"], row["inverted"], -row["q_min"]) for row in result.history]
+    ranks = [(*validity(row, result.history[0]), -row["q_min"]) for row in result.history]
     assert ranks[result.kept] == min(ranks)
     assert min(ranks) not in ranks[result.kept + 1 :]
 
@@ -81,7 +87,7 @@ def test_a_method_without_an_objective_keeps_its_best_iterate_of_equals_the_last
 def test_an_optimiser_keeps_its_last_iterate_unless_that_is_worse(name, mesh):
     result = smooth(mesh, name, SHORT)
     first = result.history[0]
-    ranks = [(row["invalid"], row["inverted"], row["q_min"] < first["q_min"] - SLACK) for row in result.history]
+    ranks = [(*validity(row, first), row["q_min"] < first["q_min"] - SLACK) for row in result.history]
     assert ranks[result.kept] == min(ranks)
     assert min(ranks) not in ranks[result.kept + 1 :]
 

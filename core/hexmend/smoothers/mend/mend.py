@@ -43,12 +43,12 @@ class Mend(MendSettings):
     def rank_on(self, ranks: Ranks, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
-        First comes whether the minimum scaled Jacobian is lower than at the start while hexes are inverted, then the
-        numbers of invalid hexes and of inverted ones, then whether a guarded figure is lower than at the start, then
-        whether the objective of the sound hexes, with the highest p that was asked for, is higher. With a target a fall
-        counts from `BalanceConfig.target_fall` on: as given, a mesh may have better corners than hexes of the lengths
-        that are asked for. The goal balanced guards the figures of all hexes but those that are inverted at the start
-        and still are.
+        First comes whether the minimum scaled Jacobian is lower than at the start while hexes are inverted, then
+        whether more hexes are invalid than there, then the numbers of inverted and of invalid ones, then whether a
+        guarded figure is lower than at the start, then whether the objective of the sound hexes, with the highest p
+        that was asked for, is higher. With a target a fall counts from `BalanceConfig.target_fall` on: as given, a mesh
+        may have better corners than hexes of the lengths that are asked for. The goal balanced guards the figures of
+        all hexes but those that are inverted at the start and still are.
 
         Parameters
         ----------
@@ -63,8 +63,9 @@ class Mend(MendSettings):
             The same on all ranks.
         """
         before, after = (ranks.least(_least(of.scaled_jacobian)) for of in (start, now))
-        inverted = ranks.sum(now.n_inverted)
-        counts = inverted > 0 and after < before - WORSE_BY, ranks.sum(now.n_invalid), inverted
+        invalid, inverted = ranks.sum(now.n_invalid), ranks.sum(now.n_inverted)
+        fell = inverted > 0 and after < before - WORSE_BY
+        counts = fell, invalid > ranks.sum(start.n_invalid), inverted, invalid
         if self.balances:
             return *counts, self._lowers(ranks, start, now)
         share = 1 - BALANCE.target_fall if now.against_target and not self.guard else 1.0
