@@ -140,11 +140,11 @@ def measure(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None 
     hexes = as_hexes(hexes, len(points))
     q, sigma, jacobian, eta = np.empty((4, len(hexes)))
     elements.measure(points, hexes, q, sigma, jacobian, eta)
-    known = points.flags.writeable or hexes.flags.writeable  # what is immutable is certified when it is asked for
-    validity = certify(points, hexes, mid_nodes) if known else np.empty(0, np.uint8)
+    may_change = points.flags.writeable or hexes.flags.writeable  # else it is certified when that is asked for
+    validity = certify(points, hexes, mid_nodes) if may_change else np.empty(0, np.uint8)
     quality = ElementQuality(q, sigma, jacobian, eta, validity)
     quality.made_from(points, hexes, mid_nodes)
-    if not known:
+    if not may_change:
         del quality.__dict__["validity"]
     return quality
 

@@ -74,8 +74,9 @@ class Stages(MaxMinStages):
             active = active_set(result.optimiser, result.active)
             sentences.append(limit_message(result.optimiser, result.active))
         certified = yield from self._certify(mesh, points, leaving, result)
-        sentences.append(certified_message(measure(points, mesh.hexes), measure(certified, mesh.hexes)))
-        points = certified
+        if certified is not points:
+            sentences.append(certified_message(measure(points, mesh.hexes), measure(certified, mesh.hexes)))
+            points = certified
         if slides:
             quality = measure(points, mesh.hexes)
             sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
