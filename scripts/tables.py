@@ -43,10 +43,12 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines).replace("| --- ", "|---").replace("|--- |", "|---|")
 
 
-def parameters(of: type) -> str:
-    """A table of the parameters that a class declares."""
-    rows = ((f"`{one.name}`", f"`{_shown(one.default)}`", one.range, one.unit, one.help) for one in declared(of))
-    return table(("name", "default", "values", "unit", "what"), rows)
+PARAMETER_HEAD = "name", "default", "values", "unit", "what"
+
+
+def parameters(of: type) -> list[tuple[str, ...]]:
+    """Rows of the parameters that a class declares."""
+    return [(f"`{one.name}`", f"`{_shown(one.default)}`", one.range, one.unit, one.help) for one in declared(of)]
 
 
 def methods() -> str:
@@ -94,7 +96,7 @@ def _marked(source: str) -> str:
 
 def stops() -> str:
     """When a stage of a recipe ends."""
-    return parameters(StoppingCriteria)
+    return table(PARAMETER_HEAD, parameters(StoppingCriteria))
 
 
 def formats() -> str:
@@ -203,7 +205,7 @@ def _default(one: Option) -> str:
 
 def task() -> str:
     """The limits of a study's task."""
-    return parameters(TaskLimits)
+    return table(PARAMETER_HEAD, parameters(TaskLimits))
 
 
 def study() -> str:

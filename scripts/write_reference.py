@@ -9,43 +9,70 @@ Use: python scripts/write_reference.py
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
-from tables import parameters, table
+from tables import PARAMETER_HEAD, parameters, table
 
+from hexmend.cli.command import Command
 from hexmend.cli.main import commands
-from hexmend.parameters import declared
-from hexmend.smoothers import METHODS, Smoother
+from hexmend.smoothers import METHODS
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 MARK = "<!-- written by make docs from here on -->\n"
 
 
+Row = tuple[str, ...]
+
+#: Sections that share a row before it stands once, in a section of its own.
+SHARED = 3
+
+
+class Section(NamedTuple):
+    """A section of a page: its texts, and the rows of its table."""
+
+    name: str
+    texts: Sequence[str]
+    rows: Sequence[Row]
+
+
+def page(sections: Sequence[Section], head: Row, common: str) -> Iterator[str]:
+    """Texts of sections with their tables; rows of several sections stand once, in a section named `common`."""
+    counts = Counter(row for section in sections for row in section.rows)
+    often = {row[0]: row for row, count in reversed(counts.most_common()) if count >= SHARED}  # one row of each name
+    shared = [row for row in counts if often.get(row[0]) == row]
+    if shared:
+        yield f"## {common}"
+        yield table(head, shared)
+    for section in sections:
+        yield f"## {section.name}"
+        yield from section.texts
+        if own := [row for row in section.rows if row not in shared]:
+            yield table(head, own)
+        if names := [row[0].split(" ")[0].strip("`,") for row in section.rows if row in shared]:
+            yield f"{common}: {', '.join(f'`{name}`' for name in names)}."
+
+
 def methods() -> Iterator[str]:
     """A section for each method, the default first."""
-    for one in sorted(METHODS.values(), key=lambda method: method.name != "mend"):
-        yield from _method(one)
-
-
-def _method(one: type[Smoother]) -> Iterator[str]:
-    yield f"## {one.name}"
-    yield f"**{one.title}.** {one.help} *{one.source}.*"
-    yield parameters(one) if declared(one) else "It has no parameters."
+    order = sorted(METHODS.values(), key=lambda method: method.name != "mend")
+    sections = [Section(one.name, [f"**{one.title}.** {one.help} *{one.source}.*"], parameters(one)) for one in order]
+    return page(sections, PARAMETER_HEAD, "Common parameters")
 
 
 def every_command() -> Iterator[str]:
     """A section for each command: what it does, and its options."""
-    for name, load in commands().items():
-        command = load()
-        parser = argparse.ArgumentParser(prog=f"hexmend {name}", allow_abbrev=False, add_help=False)
-        command.arguments(parser)
-        yield f"## {name}"
-        yield command.help
-        yield f"```\n{_usage(parser)}\n```"
-        shown = (one for one in parser._actions if one.help is not argparse.SUPPRESS)
-        rows = [(_option(one), _help(one)) for one in shown]
-        yield table(("option", "what"), rows) if rows else "It has no options."
+    return page([_command(name, load()) for name, load in commands().items()], ("option", "what"), "Common options")
+
+
+def _command(name: str, command: Command) -> Section:
+    parser = argparse.ArgumentParser(prog=f"hexmend {name}", allow_abbrev=False, add_help=False)
+    command.arguments(parser)
+    shown = (one for one in parser._actions if one.help is not argparse.SUPPRESS)
+    rows = [(_option(one), _help(one)) for one in shown]
+    return Section(name, [command.help, f"```\n{_usage(parser)}\n```"], rows)
 
 
 def _usage(parser: argparse.ArgumentParser) -> str:

@@ -9,9 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from hexmend.cli.main import commands
 from hexmend.io import FORMATS
-from hexmend.parameters import declared
 from hexmend.quality import METRICS
 from hexmend.smoothers import METHODS
 
@@ -34,12 +32,6 @@ tables, reference, draw_floors = script("tables"), script("write_reference"), sc
 study = script("write_study")
 
 
-@pytest.mark.parametrize("name", tables.TABLES)
-def test_a_table_is_that_of_the_registry(name):
-    text = (ROOT / tables.TABLES[name][0]).read_text(encoding="utf-8")
-    assert tables.written(name, text) == text, "run make docs"
-
-
 @pytest.mark.parametrize(("name", "registry"), [("methods", METHODS), ("metrics", METRICS), ("formats", FORMATS)])
 def test_what_is_added_is_in_the_table(name, registry, monkeypatch):
     text = (ROOT / tables.TABLES[name][0]).read_text(encoding="utf-8")
@@ -53,24 +45,18 @@ def test_a_file_without_a_place_for_its_table_is_told():
         tables.written("methods", "# Methods")
 
 
-@pytest.mark.parametrize("name", reference.PAGES)
-def test_a_page_is_as_declared(name):
-    text = (ROOT / "docs" / name).read_text(encoding="utf-8")
-    assert reference.written(name, text) == text, "run make docs"
-
-
 def test_a_page_without_its_mark_is_told():
     with pytest.raises(ValueError, match="0 marks"):
         reference.written("methods.md", "# Methods")
 
 
-def test_every_method_and_parameter_has_its_place():
-    page = (ROOT / "docs/methods.md").read_text(encoding="utf-8")
-    for name, method in METHODS.items():
-        section = page.split(f"\n## {name}\n")[1].split("\n## ")[0]
-        for one in declared(method):
-            assert f"| `{one.name}` |" in section
-            assert one.help.replace("|", "\\|") in section
+def test_a_parameter_that_many_methods_share_stands_once():
+    shared, own = ("`p`", "2"), ("`rho`", "1")
+    sections = [reference.Section(name, [], [shared, own] if name == "a" else [shared]) for name in "abc"]
+    text = "\n".join(reference.page(sections, ("name", "default"), "Common parameters"))
+    assert text.count("| `p` |") == text.count("| `rho` |") == 1
+    assert text.index("| `p` |") < text.index("## a") < text.index("| `rho` |") < text.index("## b")
+    assert text.count("Common parameters: `p`.") == 3
 
 
 @dataclass
@@ -102,21 +88,6 @@ def test_options_are_as_argparse_has_them(monkeypatch):
         "| `--boundary {fixed,slide}` | this \\| that |",
         "| `--set K=V` | a value; may be repeated |",
     ]
-
-
-def test_every_command_has_its_place():
-    page = (ROOT / "docs/commands.md").read_text(encoding="utf-8")
-    for name in commands():
-        assert f"\n## {name}\n" in page, "run make docs"
-
-
-def test_the_floors_are_drawn_as_they_are(tmp_path):
-    draw_floors.main(tmp_path)
-    for name, levels in draw_floors.floors().items():
-        text = (tmp_path / name).read_text(encoding="utf-8")
-        assert text == (ROOT / "docs" / name).read_text(encoding="utf-8"), "run make docs"
-        for one in set().union(*levels):
-            assert f">{one}</text>" in text
 
 
 def test_claims_are_arranged_by_the_sections_that_state_them():
