@@ -23,6 +23,7 @@ from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
 from hexmend.solver_checks import QUOTED, SOLVERS
+from hexmend.solver_checks.validity import VALIDITY
 from hexmend.study.batch.case import TaskLimits
 from hexmend.study.batch.table_columns import COLUMNS
 from hexmend_app.codec.docstring_help import helps
@@ -69,23 +70,25 @@ def metrics() -> str:
 
 def meanings() -> str:
     """The meaning of a bad value of each metric."""
-    return table(
-        ("name", "title", "", "from"), ((f"`{one.name}`", one.title, one.meaning, one.source) for one in _metrics())
-    )
+    return table(("name", "meaning", "from"), ((f"`{one.name}`", one.meaning, one.source) for one in _metrics()))
 
 
 def solvers() -> str:
     """The checks of every solver: limits, definitions, sources, and what is left out."""
     parts = []
     for solver in sorted(SOLVERS.values(), key=lambda one: one.title.lower()):
-        rows = (
-            (one.name, one.limit_text, one.unit, one.level.name.lower(), one.definition, _marked(one.source))
-            for one in solver.checks
-        )
+        checks = [one for one in solver.checks if one is not VALIDITY]
+        sources = list(dict.fromkeys(_marked(one.source) for one in checks))
+        rows, above = [], ""
+        for one in checks:
+            what = "as above" if one.definition == above else one.definition
+            number = str(1 + sources.index(_marked(one.source)))
+            rows.append((one.name, one.limit_text, one.unit, one.level.name.lower(), what, number))
+            above = one.definition
         head = ("check", "limit", "unit", "beyond it", "definition", "source")
-        parts.append(
-            f"## {solver.title}\n`--for {solver.name}`. {solver.tests_validity} {solver.omitted}\n\n{table(head, rows)}"
-        )
+        numbered = "\n".join(f"{number}. {source}" for number, source in enumerate(sources, 1))
+        parts += [f"## {solver.title}\n`--for {solver.name}`. {solver.tests_validity} {solver.omitted}"]
+        parts += [table(head, rows), f"Sources:\n\n{numbered}"]
     return "\n\n".join(parts)
 
 
