@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 # From the lowest layer up; an import goes down, or stays inside one package.
 CORE = [
-    {"aliases", "arrays", "errors", "hooks", "signal_guard"},
+    {"arrays", "errors", "hooks", "signal_guard"},
     {"parameters", "quantity", "registry", "terminal_text", "toml_text"},
     {"kernels", "summary"},
     {"mesh"},
@@ -37,7 +37,6 @@ CORE = [
     {"__main__"},
 ]
 APP = [
-    {"aliases"},
     {"resources", "translation"},
     {"catalogue"},
     {"formats"},

@@ -12,7 +12,7 @@ Names are imported when they are first used: a command that computes nothing doe
 
 from importlib import import_module
 
-from hexmend import aliases, hooks
+from hexmend import hooks
 
 __version__ = "1.0.0"
 
@@ -57,7 +57,6 @@ if TYPE_CHECKING:
     from hexmend.study.compare import Comparison, compare
     from hexmend.target import make_target
 
-aliases.install()
 hooks.register_hooks(
     fixed_sets="hexmend.mesh.fixing:fixed_sets",
     html="hexmend.notebook:html",
@@ -162,12 +161,10 @@ if not TYPE_CHECKING:  # else a type checker would accept any name
         for smoother in () if name.startswith("_") else import_module("hexmend.smoothers").METHODS.values():
             if smoother.__name__ == name:
                 return smoother
-        try:
-            return aliases.exports("hexmend")(name)
-        except AttributeError as error:
-            near = "" if name.startswith("_") else import_module("hexmend.parameters").suggestion(name, __all__)
-            hint = f": {near.rstrip()}" if near else ""
-            raise AttributeError(f"{error}{hint}", obj=__spec__) from None  # for the module Python would add a hint
+        near = "" if name.startswith("_") else import_module("hexmend.parameters").suggestion(name, __all__)
+        hint = f": {near.rstrip()}" if near else ""
+        # named for its spec: for the module itself Python would add a hint
+        raise AttributeError(f"module 'hexmend' has no attribute {name!r}{hint}", obj=__spec__)
 
 
 def __dir__() -> list[str]:

@@ -21,7 +21,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from hexmend.aliases import PARAMETERS
 from hexmend.errors import ParameterError
 
 T = TypeVar("T")
@@ -241,12 +240,6 @@ class Parametrised:
         return {declaration.name: getattr(self, declaration.name) for declaration in declared(self)}
 
 
-def current_name(cls: type, name: str) -> str:
-    """Today's name of a parameter of `cls`, a dash counting as an underscore; a name that is unknown is returned."""
-    name = name.replace("-", "_")
-    return PARAMETERS.get(getattr(cls, "name", ""), {}).get(name, name)
-
-
 def from_strings(cls: type[T], words: Mapping[str, str], owner: str = "") -> T:
     """Make `cls` from textual values, such as those of the command line.
 
@@ -255,7 +248,7 @@ def from_strings(cls: type[T], words: Mapping[str, str], owner: str = "") -> T:
     cls : type
         A `Parametrised` class.
     words : mapping of str to str
-        Values by the parameters' names, old ones included.
+        Values by the parameters' names, in which a dash counts as an underscore.
     owner : str
         Name of the class in messages.
 
@@ -281,14 +274,13 @@ def from_values(cls: type[T], values: Mapping[str, Any], owner: str = "") -> T:
 
 
 def _declared_by_name(cls: type, names: Iterable[str], owner: str) -> dict[str, Parameter]:
-    """Declarations by the names that were given; of an old and a new name of one parameter the new one counts."""
+    """Declarations by the names that were given."""
     declarations = {one.name: one for one in declared(cls)}
-    given = list(names)
-    for name in given:
-        if current_name(cls, name) not in declarations:
+    given = {name: name.replace("-", "_") for name in names}
+    for name, key in given.items():
+        if key not in declarations:
             raise ParameterError(f"{owner or cls.__name__} has no parameter {name!r}: {hint(name, declarations)}")
-    old_first = sorted(given, key=lambda name: name.replace("-", "_") in declarations)
-    return {name: declarations[current_name(cls, name)] for name in old_first}
+    return {name: declarations[key] for name, key in given.items()}
 
 
 def hint(name: str, known: Iterable[str]) -> str:

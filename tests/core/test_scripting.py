@@ -113,11 +113,6 @@ def test_a_figure_has_one_name():
     assert summary.inverted == row["inverted"]
 
 
-def test_the_method_is_named_by_its_old_keyword_too():
-    old, new = (hx.smooth(MESH, max_iterations=1, **{name: "laplacian"}) for name in ("smoother", "method"))
-    assert old.method == new.method == hx.iterate(MESH, smoother="laplacian").smoother.name == "laplacian"
-
-
 def test_choices_are_named_with_underscores_too():
     assert hx.iterate(MESH, goal="scaled_jacobian").smoother == hx.Mend(goal="scaled-jacobian")
 

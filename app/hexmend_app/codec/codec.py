@@ -2,8 +2,7 @@
 
 Dataclasses become tables of their fields, and tables of scenes are stored as in their files; enumerations become their
 values, tuples and frozensets become lists.
-Decoding checks types: an error names the place of a field that is unknown, missing or of another type. A field that was
-added in a later version has its default when read from older files; a renamed field is also read under its former name.
+Decoding checks types: an error names the place of a field that is unknown, missing or of another type.
 """
 
 from __future__ import annotations
@@ -21,16 +20,9 @@ from hexmend_app.codec import config_table
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.conversion import Conversion, are_integers, entry_types, fixed_length
 
-_SINCE = "since"
-
 
 class DecodeError(HexmendError):
     """Data that is not of the declared type."""
-
-
-def since(version: int) -> dict[str, int]:
-    """Return the metadata of a dataclass field that was added in a version; older files give it its default."""
-    return {_SINCE: version}
 
 
 class TypeAdapter(NamedTuple):
@@ -47,10 +39,6 @@ class Codec(Conversion):
     ----------
     adapters : mapping of type to TypeAdapter
         Types with a special conversion.
-    version : int, optional
-        Version of the file to read; by default the newest.
-    former : mapping of type to mapping of str to str, optional
-        Former names of fields of dataclasses, by their present names.
 
     Examples
     --------
@@ -65,13 +53,8 @@ class Codec(Conversion):
     hexmend_app.codec.codec.DecodeError: movement has no field 'since'
     """
 
-    def __init__(
-        self,
-        adapters: Mapping[type, TypeAdapter],
-        version: int | None = None,
-        former: Mapping[type, Mapping[str, str]] | None = None,
-    ):
-        self._adapters, self._version, self._former = adapters, version, former or {}
+    def __init__(self, adapters: Mapping[type, TypeAdapter]):
+        self._adapters = adapters
 
     def encode(self, value: Any, kind: Any) -> Any:
         """Return a value of a declared type as plain data."""
@@ -122,9 +105,7 @@ class Codec(Conversion):
         _check(data, dict, where)
         if issubclass(kind, ConfigTable):
             return config_table.decode(kind, data, (where.rpartition(".")[2],))
-        fields = _fields(kind, self._version)
-        renamed = {former: name for name, former in self._former.get(kind, {}).items() if name not in data}
-        data = {renamed.get(name, name): value for name, value in data.items()}
+        fields = _fields(kind)
         for name in [*fields, *data]:
             if (name in fields) != (name in data):
                 raise DecodeError(f"{where} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")
@@ -161,12 +142,10 @@ class Codec(Conversion):
 
 
 @cache
-def _fields(kind: type, version: int | None = None) -> dict[str, Any]:
-    """Return names and types of the fields of a dataclass in a version; by default in the newest."""
+def _fields(kind: type) -> dict[str, Any]:
+    """Return names and types of the fields of a dataclass."""
     types = typing.get_type_hints(kind)
-    fields = [field for field in dataclasses.fields(kind) if field.init]
-    return {field.name: types[field.name] for field in fields
-            if version is None or field.metadata.get(_SINCE, 0) <= version}  # fmt: skip
+    return {field.name: types[field.name] for field in dataclasses.fields(kind) if field.init}
 
 
 @cache

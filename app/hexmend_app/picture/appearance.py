@@ -17,24 +17,7 @@ from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.layer_switch import LAYERS, ON_BY_DEFAULT, OWN_KEYS
 from hexmend_app.picture.page import LineStyle, Page
-from hexmend_app.picture.quantities import MATERIAL
 from hexmend_app.picture.visibility import Show
-
-#: Layer of earlier versions, which scenes and sessions may name; `with_material_colours` converts them.
-MATERIAL_LAYER = "materials"
-
-
-def with_material_colours(look: dict[str, Any]) -> dict[str, Any]:
-    """Return the data of a look or a scene in which a layer of earlier versions that coloured by material is a metric.
-
-    >>> with_material_colours({"structure": {"extra": ["materials"]}, "colours": {"map": "plasma"}})["colours"]
-    {'map': 'plasma', 'metric': 'material', 'range': 'fitted'}
-    """
-    structure, colours = look.get("structure"), look.get("colours", {})
-    extra = structure.get("extra", ()) if isinstance(structure, dict) else ()
-    if not isinstance(extra, list) or MATERIAL_LAYER not in extra or not isinstance(colours, dict):
-        return look
-    return {**look, "colours": {**colours, "metric": MATERIAL.name, "range": "fitted"}}
 
 
 class Since(StrEnum):
@@ -136,8 +119,7 @@ class Structure:
     def from_keys(cls, values: dict[str, Any]) -> Structure:
         """Return the structure for values of keys; a missing key has its default."""
         values = {**cls().to_keys(), **values}
-        extra = (name for name in values["extra"] if name != MATERIAL_LAYER)
-        return cls(frozenset(name for name in OWN_KEYS if values[name]).union(extra))
+        return cls(frozenset(name for name in OWN_KEYS if values[name]).union(values["extra"]))
 
 
 @dataclass(frozen=True)

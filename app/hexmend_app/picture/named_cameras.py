@@ -57,7 +57,7 @@ def merged(mine: Mapping[str, Camera], others: Mapping[str, Camera]) -> dict[str
 
 
 def cameras_of(path: str | os.PathLike[str]) -> dict[str, Camera]:
-    """Return the named cameras of a session file; files of older versions have none.
+    """Return the named cameras of a session file.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def cameras_of(path: str | os.PathLike[str]) -> dict[str, Camera]:
     from hexmend.io.formats.session.session_file import read_session
 
     window = read_session(path).window
-    data = window.get(_KEY, {}) if isinstance(window, dict) else {}
+    data = window.get(_KEY) if isinstance(window, dict) else None
     try:
         return decode(NamedCameras, data, (_KEY,)).named
     except ParameterError as error:

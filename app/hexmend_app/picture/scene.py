@@ -65,7 +65,7 @@ class Scene(ConfigTable):
         Size, background, margin and texts of the page.
     """
 
-    format: int = option(FORMAT, low=1)
+    format: int = option(FORMAT)
     camera: Camera = option(Camera)
     cameras: dict[str, Camera] = option(dict, most=MAX_CAMERAS)
     panels: tuple[PicturePanel, ...] = option((), most=MAX_PANELS)
@@ -81,9 +81,10 @@ class Scene(ConfigTable):
     page: Page = option(Page)
 
     def check(self) -> None:
-        """Raise `ParameterError` for a newer format, too many hexes, and panels with unknown cameras."""
-        if self.format > FORMAT:
-            raise ParameterError(f"format = {self.format} is newer than this version of Hexmend, which reads {FORMAT}")
+        """Raise `ParameterError` for another format, too many hexes, and panels with unknown cameras."""
+        if self.format != FORMAT:
+            problem = f"is not read: expected {FORMAT}; use the Hexmend that wrote it"
+            raise ParameterError(f"format = {self.format} {problem}")
         isolated = () if self.show.isolate is None else self.show.isolate.hexes
         for name, hexes in (("hidden", self.show.hidden), ("marked", self.show.marked), ("isolate", isolated)):
             if len(hexes) > _MAX_HEXES:

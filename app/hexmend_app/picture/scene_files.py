@@ -13,7 +13,6 @@ from hexmend.io.storage.toml_files import read_toml, write_toml
 from hexmend.toml_text import parse_toml
 from hexmend_app.codec.config_table import ConfigTable, decode, encode
 from hexmend_app.codec.option import options_of
-from hexmend_app.picture.appearance import with_material_colours
 from hexmend_app.picture.camera import Camera
 from hexmend_app.picture.scene import Scene
 
@@ -61,7 +60,7 @@ def from_toml(text: str) -> Scene:
     ParameterError
         If the text is no valid scene; the message names line and column, or table, key and expected value.
     """
-    return decode(Scene, with_material_colours(parse_toml(text, "a scene", LARGEST)))
+    return decode(Scene, parse_toml(text, "a scene", LARGEST))
 
 
 def camera_text(camera: Camera) -> str:

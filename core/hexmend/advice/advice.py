@@ -9,7 +9,6 @@ import numpy as np
 from hexmend.advice.rules import RULES
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
-from hexmend.aliases import reads_old_names
 from hexmend.iteration import Outcome, Result
 from hexmend.layers import describe_losses
 from hexmend.quality import describe_regressions
@@ -17,7 +16,6 @@ from hexmend.run.messages import kept_message
 from hexmend.terminal_text import count_phrase
 
 
-@reads_old_names
 @dataclass(frozen=True, eq=False)
 class Advice:
     """Explanation of a run that ended.

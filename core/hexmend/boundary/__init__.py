@@ -1,6 +1,5 @@
 """Boundary of a mesh: corners, curves and patches, sliding on a surface, closest points, comparison of two surfaces."""
 
-from hexmend.aliases import exports
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of, classify
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees
 from hexmend.boundary.comparison import SurfaceChange, mutual_distances, surface_change
@@ -32,5 +31,3 @@ __all__ = [
     "mutual_distances",
     "surface_change",
 ]
-
-__getattr__ = exports(__name__)

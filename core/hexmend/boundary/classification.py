@@ -7,7 +7,6 @@ from enum import IntEnum
 
 import numpy as np
 
-from hexmend.aliases import old_keywords, reads_old_names
 from hexmend.arrays import index_of, mask
 from hexmend.boundary.edges import SurfaceEdges, chains
 from hexmend.boundary.feature_edges.features import (
@@ -36,7 +35,6 @@ class NodeClass(IntEnum):
     PATCH = 3
 
 
-@reads_old_names
 @dataclass(frozen=True, eq=False)
 class Boundary:
     """Boundary divided into patches of faces, curves of feature edges, and corners.
@@ -107,7 +105,6 @@ class Boundary:
         return int(np.count_nonzero(self.node_class == node_class))
 
 
-@old_keywords("boundary_of")
 def boundary_of(
     mesh: Mesh,
     feature_angle: FeatureAngle = FEATURE_ANGLE,

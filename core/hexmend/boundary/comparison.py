@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.aliases import old_keywords
 from hexmend.arrays import extent
 from hexmend.boundary.classification import boundary_of
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, angle_in_degrees, dihedral_angles
@@ -118,7 +117,6 @@ def mutual_distances(
     return other.distances(one.samples(spacing), stop_distance), one.distances(other.samples(), stop_distance)
 
 
-@old_keywords("surface_change")
 def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEATURE_ANGLE) -> SurfaceChange:
     """Measure the change of a mesh's boundary between two states.
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend.aliases import exports
 from hexmend.doctor import cells, connection, mid_nodes, nodes, winding  # noqa: F401  (they register themselves)
 from hexmend.doctor.problem import PROBLEMS, Finding, Problem
 from hexmend.mesh.mesh import Mesh
@@ -73,6 +72,3 @@ def repair(mesh: Mesh, only: Sequence[str] = ()) -> tuple[Mesh, tuple[Finding, .
                 mesh, changed = after, True
                 mended.append(found)
     return mesh, tuple(mended)
-
-
-__getattr__ = exports(__name__)

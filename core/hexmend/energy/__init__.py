@@ -1,6 +1,5 @@
 """Energy that the optimisers minimise, its derivatives, and policies for its regularisation parameter delta."""
 
-from hexmend.aliases import exports
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import energies, objective
 from hexmend.energy.linear_motion_energy import LinearMotionEnergy, energy_of
@@ -26,5 +25,3 @@ __all__ = [
     "energy_of",
     "objective",
 ]
-
-__getattr__ = exports(__name__)

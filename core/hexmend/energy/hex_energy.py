@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.aliases import old_keywords
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.errors import MeshError
 from hexmend.kernels import objective as kernels
@@ -96,7 +95,6 @@ def unpack_corners(packed: np.ndarray) -> np.ndarray:
     return np.unpackbits(packed[:, None], axis=1, bitorder="little").astype(bool)
 
 
-@old_keywords("objective")
 def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, norm: ObjectiveNorm = SQUARES) -> float:
     """Compute the objective (sum eta(H)^p)^(1/p) over all hexes, (3.3).
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend.aliases import reads_old_names
 from hexmend.arrays import as_immutable_owned, dot, index_of
 from hexmend.energy.floor_barrier import FloorBarrier
 from hexmend.energy.hessian import Hessian
@@ -30,7 +29,6 @@ if TYPE_CHECKING:
     from hexmend.energy.quads.surface_term import SurfaceTerm
 
 
-@reads_old_names
 class MeshEnergy(TargetScales):
     """Sum of eta(H)^p over all hexes, which has the same minimisers as (3.3).
 

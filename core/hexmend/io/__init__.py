@@ -11,7 +11,6 @@ from __future__ import annotations
 import importlib
 import pkgutil
 
-from hexmend.aliases import exports
 from hexmend.io import formats
 from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.coordinates.original import Original
@@ -45,4 +44,4 @@ def __getattr__(name: str) -> object:
         from hexmend.io.surfaces import read_surface
 
         return read_surface
-    return exports("hexmend.io")(name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

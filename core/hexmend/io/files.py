@@ -6,7 +6,6 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-from hexmend.aliases import old_keywords
 from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
 from hexmend.io.base.format import Format
@@ -37,7 +36,6 @@ _FORMATS_SHARE = 0.7
 _LARGE_FILE = 1 << 24
 
 
-@old_keywords("read")
 def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missing: bool = False) -> Mesh:
     """Read a hexahedral mesh.
 

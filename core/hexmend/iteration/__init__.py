@@ -1,10 +1,7 @@
 """Records of iterations: steps, results, stopping criteria and the figures of a history."""
 
-from hexmend.aliases import exports
 from hexmend.iteration.result import Iteration, Result, StageResult
 from hexmend.iteration.step import ActiveSet, Outcome, Step
 from hexmend.iteration.stopping import StoppingCriteria
 
 __all__ = ["ActiveSet", "Iteration", "Outcome", "Result", "StageResult", "Step", "StoppingCriteria"]
-
-__getattr__ = exports(__name__)

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.aliases import exports, reads_old_names
 from hexmend.boundary import Departures, SurfaceChange
 from hexmend.energy.norm import SQUARES, ObjectiveNorm, SurfaceObjective
 from hexmend.hooks import hook
@@ -23,7 +22,6 @@ from hexmend.quantity import format_quality
 from hexmend.terminal_text import count_phrase
 
 
-@reads_old_names
 @dataclass(frozen=True, eq=False, repr=False)
 class Iteration:
     """Step as the run recorded it.
@@ -168,7 +166,6 @@ class StageResult:
         return fields | {"parameters": dict(self.parameters), "stop": self.stop.values(), "outcome": self.outcome.key}
 
 
-@reads_old_names
 @dataclass(frozen=True, eq=False, repr=False)
 class Result:
     """Result of a run.
@@ -258,6 +255,3 @@ class Result:
     def _repr_html_(self) -> str:
         """Return the HTML that a notebook shows."""
         return hook("html")(self)
-
-
-__getattr__ = exports(__name__)

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.aliases import reads_old_names
 from hexmend.energy.norm import ObjectiveNorm, SurfaceObjective
 from hexmend.quality import ElementQuality
 
@@ -52,7 +51,6 @@ class ActiveSet:
     locked: np.ndarray
 
 
-@reads_old_names
 @dataclass(frozen=True, eq=False)
 class Step:
     """Step of a smoother.

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from hexmend.aliases import exports
 from hexmend.iteration.step import Outcome
 from hexmend.parameters import AUTO, Parametrised, parameter
 
@@ -70,6 +69,3 @@ class StoppingCriteria(Parametrised):
         if iterations >= self.limit_of(method):
             return Outcome.MAX_ITERATIONS
         return Outcome.MAX_SECONDS if 0 < self.max_seconds <= seconds else None
-
-
-__getattr__ = exports(__name__)

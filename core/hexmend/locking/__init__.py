@@ -1,6 +1,5 @@
 """Locked hexes: those that no movement of nodes can mend while the boundary stays as it is, with proofs."""
 
-from hexmend.aliases import exports
 from hexmend.locking.free_positions import FreePositions, find_free_positions
 from hexmend.locking.locked_corners import LockedCorner, Reason, find_locked_corners
 from hexmend.locking.locking import Locking, find_locking
@@ -24,5 +23,3 @@ __all__ = [
     "nodes_without_space",
     "nodes_without_valid_position",
 ]
-
-__getattr__ = exports(__name__)

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from hexmend.aliases import exports
 from hexmend.mesh.fields import as_numbers
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
@@ -169,6 +168,3 @@ def fix_outside(mesh: Mesh, hexes: Sequence[int] | np.ndarray, rings: int = 0) -
     if rules.free is not None:  # a rule frees no node outside the region
         mesh = mesh.with_node_rules(replace(rules, free=rules.free & region))
     return mesh.replace(pinned=~region if mesh.pinned is None else mesh.pinned | ~region)
-
-
-__getattr__ = exports(__name__)

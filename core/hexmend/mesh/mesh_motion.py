@@ -110,8 +110,6 @@ class MeshMotion(MeshData):
         """Node positions, (n, 3), that define the surface on which the boundary slides; see `keeping_surface`."""
         return self.__dict__.get("_surface", self.points)
 
-    surface = surface_points  # its name in version 0.1
-
     @property
     def target(self) -> TargetSurface | None:
         """Surface on which the boundary slides if that is not the original boundary; see `sliding_on`."""

@@ -3,12 +3,9 @@
 `explain` explains the step of any method; a `Sweep` goes through a sweep of a local method node by node.
 """
 
-from hexmend.aliases import exports
 from hexmend.node_step import getme, laplacian
 from hexmend.node_step.explain import explain
 from hexmend.node_step.record import NodeStep, Pull, StepStatus, Trial
 from hexmend.node_step.sweep import Sweep
 
 __all__ = ["NodeStep", "Pull", "StepStatus", "Sweep", "Trial", "explain", "getme", "laplacian"]
-
-__getattr__ = exports(__name__)

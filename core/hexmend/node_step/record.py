@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from hexmend.aliases import reads_old_members, reads_old_names
 from hexmend.energy import ObjectiveNorm
 from hexmend.quality.descent import descent
 
@@ -24,7 +23,6 @@ _NO_MOVE = 1e-9
 _NO_CHANGE = 1e-12
 
 
-@reads_old_members
 class StepStatus(Enum):
     """Outcome of the step of a node, as a sentence."""
 
@@ -59,7 +57,6 @@ class Pull(NamedTuple):
     weight: float | None
 
 
-@reads_old_names
 @dataclass(frozen=True, eq=False)
 class NodeStep:
     """The step of one node by a method.

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hexmend.aliases import reads_old_names
 from hexmend.energy.target import target_matrices
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
@@ -18,7 +17,6 @@ from hexmend.smoothers.visit_order import ORDERS
 from hexmend.terminal_text import count_phrase
 
 
-@reads_old_names
 class Sweep(Iterator[NodeStep]):
     """Iterator that moves one free node after the other, in the order in which `LocalDescent` visits them.
 

@@ -1,6 +1,5 @@
 """Padding: a layer of hexes under the boundary, a set, or around hexes that no movement of nodes can mend."""
 
-from hexmend.aliases import exports
 from hexmend.padding.inserted_layer import Sheet
 from hexmend.padding.padded_mesh import padded_mesh
 from hexmend.padding.padding import AROUND, Padding, pad
@@ -17,5 +16,3 @@ __all__ = [
     "set_sheet",
     "whole_sheet",
 ]
-
-__getattr__ = exports(__name__)

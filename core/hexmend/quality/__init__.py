@@ -7,7 +7,6 @@ the command line, the viewer, the documentation and the tests read.
 import importlib
 import pkgutil
 
-from hexmend.aliases import exports
 from hexmend.quality import metrics
 from hexmend.quality.inspection import HexDetails, NodeDetails, describe_hex, describe_node, rank_worst
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked_hexes, measure
@@ -57,5 +56,3 @@ __all__ = [
     "target_quality",
     "worst_hexes",
 ]
-
-__getattr__ = exports(__name__)

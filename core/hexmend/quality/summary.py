@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.aliases import old_keywords
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.measure import ElementQuality, locked_hexes, measure
 from hexmend.quality.validity import least_jacobian
@@ -13,7 +12,6 @@ from hexmend.summary import SUMMARY_QUANTITIES, Summary
 __all__ = ["SUMMARY_QUANTITIES", "Summary", "objective", "summarise"]
 
 
-@old_keywords("summarise")
 def summarise(mesh: Mesh, quality: ElementQuality | None = None) -> Summary:
     """Summarise the quality of a mesh.
 

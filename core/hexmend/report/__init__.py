@@ -6,7 +6,6 @@ Names are imported at their first use, so that a command that writes a record lo
 import importlib as _importlib
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-from hexmend.aliases import exports as _exports
 from hexmend.report.latex import latex  # functions named like their modules, which would hide them if imported later
 from hexmend.report.markdown import markdown
 
@@ -53,4 +52,4 @@ __all__ = [
 def __getattr__(name: str) -> object:
     if name in _HOME_OF:
         return getattr(_importlib.import_module(f"{__name__}.{_HOME_OF[name]}"), name)
-    return _exports(__name__)(name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

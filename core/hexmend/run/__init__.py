@@ -7,13 +7,12 @@ import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from hexmend.aliases import exports, old_keywords
 from hexmend.errors import ParameterError
 from hexmend.iteration import Iteration, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.parameters import current_name, declared, suggestion
+from hexmend.parameters import declared, suggestion
 from hexmend.run.progress import ProgressOption, progress_display
 from hexmend.run.recipe import Recipe
 from hexmend.run.run import Run
@@ -25,7 +24,6 @@ _RULES = tuple(one.name for one in dataclasses.fields(MotionRules))
 __all__ = ["Run", "StoppingCriteria", "iterate", "smooth"]
 
 
-@old_keywords("iterate")
 def iterate(
     mesh: Mesh | str | os.PathLike[str],
     method: Smoother | Recipe | str = DEFAULT_METHOD,
@@ -83,7 +81,6 @@ def iterate(
     return Run(mesh, smoother, stop)
 
 
-@old_keywords("smooth")
 def smooth(
     mesh: Mesh | str | os.PathLike[str],
     method: Smoother | Recipe | str = DEFAULT_METHOD,
@@ -165,7 +162,7 @@ def _configured(
         raise TypeError(f"{type(smoother).__name__} is not a method: expected a hexmend.Smoother, a Recipe or a name")
     names = sorted(one.name for one in declared(StoppingCriteria))
     own = [] if isinstance(smoother, Recipe) else [one.name for one in declared(smoother)]
-    values = {current_name(type(smoother), name): value for name, value in settings.items()}
+    values = dict(settings)
     for name in values:
         if name not in names and name not in own:
             raise _unknown(smoother, name, [*own, *names, *_RULES])
@@ -195,6 +192,3 @@ def _unknown(smoother: Smoother | Recipe, name: str, known: Sequence[str]) -> Pa
     else:
         advice = f"it is a parameter of {', '.join(others)}; " if others else suggestion(name, known)
     return ParameterError(f"{smoother.name} has no parameter {name!r}: {advice}known: {', '.join(known)}")
-
-
-__getattr__ = exports(__name__)

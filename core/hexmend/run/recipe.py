@@ -2,7 +2,7 @@
 
 A recipe is written as TOML::
 
-    format = 2
+    format = 1
     title = "GETMe, then mend"
 
     [[stage]]
@@ -29,11 +29,10 @@ from hexmend.iteration import StoppingCriteria
 from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import from_values, hint
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.smoothers.sliding_smoother import UNLIMITED
 from hexmend.toml_text import parse_toml
 
-#: Version of the format that is written; lower ones can be read.
-FORMAT = 2
+#: Version of the format.
+FORMAT = 1
 
 _HEAD = "# A recipe: hexmend smooth MESH -o OUT --recipe THIS-FILE\n"
 
@@ -136,7 +135,8 @@ def from_toml(text: str) -> Recipe:
     ParameterError
         If the text is not a recipe; the message names line and column, or the stage, the key and what was expected.
     """
-    data = migrate(parse_toml(text, "a recipe"))
+    data = parse_toml(text, "a recipe")
+    check_format(data)
     check_keys("the recipe", data, ("format", "title", "motion", "stage"))
     title, stages = data.get("title", ""), data.get("stage", [])
     if not isinstance(title, str):
@@ -147,41 +147,13 @@ def from_toml(text: str) -> Recipe:
     return Recipe.of(*(read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title, rules=rules)
 
 
-def migrate(data: dict[str, Any]) -> dict[str, Any]:
-    """Convert the data of a recipe to today's format.
-
-    Raises
-    ------
-    ParameterError
-        If the data have no version of the format, or a newer one.
-    """
+def check_format(data: Mapping[str, Any]) -> None:
+    """Raise `ParameterError` unless a recipe has the version of the format that is read."""
     number = data.get("format")
     if number is None:
         raise ParameterError(f"the recipe has no format: expected  format = {FORMAT}  as its first line")
-    if type(number) is not int or number < 1:
-        raise ParameterError(f"format = {number!r} is not a format of recipes: expected {FORMAT}")
-    if number > FORMAT:
-        raise ParameterError(f"format = {number} is newer than this version of Hexmend, which reads up to {FORMAT}")
-    return data if number > 1 else migrate_surface_tolerance(data)
-
-
-def migrate_surface_tolerance(data: Any) -> Any:
-    """Replace surface tolerances of 0, which meant "no limit" in format 1, by that word.
-
-    >>> migrate_surface_tolerance({"stage": [{"parameters": {"surface_tolerance": 0.0, "p": 2.0}}]})
-    {'stage': [{'parameters': {'surface_tolerance': 'unlimited', 'p': 2.0}}]}
-    """
-    if isinstance(data, list):
-        return [migrate_surface_tolerance(one) for one in data]
-    if not isinstance(data, dict):
-        return data
-    now = {key: migrate_surface_tolerance(one) for key, one in data.items()}
-    if "surface_tolerance" in now:
-        given = now["surface_tolerance"]
-        several = given if isinstance(given, list) else [given]
-        several = [UNLIMITED if type(one) in (int, float) and one == 0 else one for one in several]
-        now["surface_tolerance"] = several if isinstance(given, list) else several[0]
-    return now
+    if type(number) is not int or number != FORMAT:
+        raise ParameterError(f"format = {number!r} is not read: expected {FORMAT}; use the Hexmend that wrote it")
 
 
 def read_stage(number: int, data: Mapping[str, Any]) -> Stage:

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from hexmend.aliases import reads_old_names
 from hexmend.boundary import Departures, SurfaceChange, departures, surface_change
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, Layers
@@ -27,7 +26,6 @@ from hexmend.smoothers import METHODS, Smoother
 from hexmend.terminal_text import count_phrase
 
 
-@reads_old_names
 class Run(Iterator[Iteration]):
     """Iterator of the iterations of a smoother or recipe on a mesh; keeps the history and the outcome.
 

@@ -9,7 +9,6 @@ from typing import Any, ClassVar, TypeAlias, TypeVar
 
 import numpy as np
 
-from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
@@ -266,5 +265,4 @@ def method(cls: S) -> S:
         raise TypeError(f"{cls.__name__} is not a hexmend.Smoother")
     _check_texts(cls, "name", "title", "help", "source")
     METHODS.add(cls.name, cls)
-    reads_old_names(cls, former_attributes(Smoother) | PARAMETERS.get(cls.name, {}))
     return cls

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import ParameterError
-from hexmend.parameters import current_name, declared, from_strings
+from hexmend.parameters import declared, from_strings
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import read_recipe, supplied_recipes
 from hexmend.smoothers import METHODS, Smoother
@@ -73,15 +73,14 @@ def parse_methods(
         owner, dot, key = setting.rpartition(".")
         if dot and owner not in keys:
             raise ParameterError(f"{setting!r}: {owner!r} is not among the methods compared: {', '.join(keys)}")
-        today = {name: current_name(METHODS[name], key) for name in keys}
-        owners = [owner] if dot else [name for name in keys if today[name] in keys[name]]
+        key = key.replace("-", "_")
+        owners = [owner] if dot else [name for name in keys if key in keys[name]]
         if not owners:
-            key = key.replace("-", "_")
             near = difflib.get_close_matches(key, {known for names in keys.values() for known in names}, n=1)
             hint = f": did you mean {near[0]}?" if near else ""
             raise ParameterError(f"none of the methods {', '.join(keys)} has a parameter {key!r}{hint}")
         for name in owners:
-            words[name][today[name]] = settings[setting]
+            words[name][key] = settings[setting]
     return [
         recipes[name] if name in recipes else from_strings(METHODS[name], words[name], owner=name)
         for name in dict.fromkeys(names)

@@ -99,16 +99,6 @@ def test_a_type_can_have_an_adapter():
         codec.decode(data | {"since": "NEVER"}, Traces)
 
 
-def test_a_field_is_read_under_its_former_name():
-    codec = Codec({}, former={Traces: {"since": "from"}})
-    data = codec.encode(Traces(Since.RUN), Traces)
-    assert codec.decode(data, Traces) == Traces(Since.RUN)
-    earlier = {{"since": "from"}.get(name, name): one for name, one in data.items()}
-    assert codec.decode(earlier, Traces) == Traces(Since.RUN)
-    with pytest.raises(DecodeError, match="an unknown field 'from'"):
-        codec.decode(data | earlier, Traces)
-
-
 @pytest.mark.parametrize("hexes", [(1, True), (1, 2.0), (1, -1), (1, 2**31), (1, "a"), (1, None)])
 def test_each_entry_of_a_list_of_integers_is_checked(hexes):
     for kind, name in ((Show, "hidden"), (Isolate, "hexes")):

@@ -181,12 +181,12 @@ def test_a_window_without_the_feature_keeps_its_data_and_one_with_it_refuses_oth
     assert "notes" not in window.features
     path = tmp_path / "work.hexmend"
     assert window.features["session"].save_and_wait(path)
-    _, data = read_archive(path, "Hexmend session", VERSION)
+    data = read_archive(path, "Hexmend session", VERSION)
     data["window"]["features"]["notes"] = {"3": "thin"}
     write_archive(path, "Hexmend session", VERSION, data)
     open_and_wait(qtbot, window, path)
     assert window.features["session"].save_and_wait(path)
-    _, data = read_archive(path, "Hexmend session", VERSION)
+    data = read_archive(path, "Hexmend session", VERSION)
     assert data["window"]["features"]["notes"] == {"3": "thin"}
     window.features["notes"] = import_module("hexmend_app.features.notes.feature").FeatureNotes(window)
     window.session.feature_states.add(window.features["notes"].states()[0])

@@ -31,10 +31,10 @@ def test_nodes_of_a_curve_slide_on_a_curve_within_a_quarter_of_the_reach(cube, s
     assert (attached.node_class[on] == curve).all()
     (part,) = set(attached.component[on].tolist())
     if curve == NodeClass.CURVE:
-        assert {part} == set(boundary.part[on].tolist())
+        assert {part} == set(boundary.component[on].tolist())
     else:
         side = (boundary.node_class == NodeClass.PATCH) & (mesh.points[:, 1] == 0)
-        assert {part} == set(boundary.part[side].tolist())
+        assert {part} == set(boundary.component[side].tolist())
 
 
 @pytest.mark.parametrize(("shift", "kind"), [(0.99, NodeClass.PATCH), (1.01, NodeClass.CORNER)])
@@ -53,7 +53,7 @@ def test_on_its_own_surface_each_node_slides_where_it_did(cube):
     attached = PartitionedSurface(mesh.points, boundary).attached(mesh.points, boundary, 1.0)
     np.testing.assert_array_equal(attached.node_class, boundary.node_class)
     on = boundary.node_class == NodeClass.CURVE
-    np.testing.assert_array_equal(attached.component[on], boundary.part[on])
+    np.testing.assert_array_equal(attached.component[on], boundary.component[on])
 
 
 def test_normals_at_the_vertices_of_a_patch_are_weighted_by_angles_and_do_not_mix_with_other_patches():
@@ -94,7 +94,7 @@ def test_nodes_slide_on_the_patch_of_the_nearest_face(seed):
     of_side = np.empty(6, dtype=int)
     for side in range(6):
         inside = mesh.points[patch, side % 3] == (0 if side < 3 else 4)
-        (of_side[side],) = set(boundary.part[patch[inside]].tolist())
+        (of_side[side],) = set(boundary.component[patch[inside]].tolist())
     for whole in (None, surface.trees):
         attached = PartitionedSurface(mesh.points, boundary, whole).attached(points, boundary, 10.0)
         np.testing.assert_array_equal(attached.component[patch], of_side[nearest])

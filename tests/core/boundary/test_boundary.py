@@ -22,7 +22,7 @@ def counts(boundary):
 
 def check(mesh, boundary):
     """Check the invariants of a classification."""
-    kind, part = boundary.node_class, boundary.part
+    kind, part = boundary.node_class, boundary.component
     assert kind.dtype == np.uint8
     assert part.dtype == np.int32
     between = np.zeros(mesh.n_nodes, bool) if mesh.interfaces is None else mesh.interfaces.interface_nodes

@@ -92,7 +92,7 @@ def test_a_recipe_has_the_rules_and_repeats_them(path, tmp_path):
 @pytest.mark.parametrize("choice", ["keep", "free"])
 def test_options_replace_the_interfaces_of_a_recipe(path, tmp_path, choice):
     recipe, given = tmp_path / "recipe.toml", tmp_path / "given.toml"
-    recipe.write_text('format = 2\n[motion]\ninterfaces = "slide"\n[[stage]]\nmethod = "mend"\n')
+    recipe.write_text('format = 1\n[motion]\ninterfaces = "slide"\n[[stage]]\nmethod = "mend"\n')
     after = smoothed(path, "--recipe", str(recipe), "--interfaces", choice, "--save-recipe", str(given))
     np.testing.assert_array_equal(after.points, smoothed(path, "--interfaces", choice).points)
     assert read_recipe(given).rules.interfaces == choice
@@ -103,7 +103,7 @@ def test_options_replace_the_interfaces_of_a_recipe(path, tmp_path, choice):
 def test_a_recipe_that_frees_a_set_moves_no_node_outside_the_region(path, tmp_path):
     mesh = io.read(path)
     recipe = tmp_path / "recipe.toml"
-    recipe.write_text('format = 2\n[motion]\nfree = ["high"]\n[[stage]]\nmethod = "mend"\n')
+    recipe.write_text('format = 1\n[motion]\nfree = ["high"]\n[[stage]]\nmethod = "mend"\n')
     outside = np.setdiff1d(np.arange(mesh.n_nodes), mesh.hexes[mesh.hex_sets["low"]])
     after = smoothed(path, "--recipe", str(recipe), "--only", "low", "--rings", "0")
     np.testing.assert_array_equal(after.points[outside], mesh.points[outside])

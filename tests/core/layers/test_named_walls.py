@@ -76,7 +76,7 @@ def test_names_are_texts_and_lists_and_go_through_recipes():
     assert named_walls("set:keep, plate") == ("keep", "plate")
     recipe = Recipe.of(METHODS["mend"](layers=["plate"]))
     assert from_toml(to_toml(recipe)) == recipe
-    text = 'format = 2\n[[stage]]\nmethod = "mend"\nparameters = { layers = ["plate"] }\n'
+    text = 'format = 1\n[[stage]]\nmethod = "mend"\nparameters = { layers = ["plate"] }\n'
     assert from_toml(text).stages[0].smoother.layers == "plate"
     assert iterate(flat(), layers=["plate"], max_iterations=1).layers.walls[0].name == "plate"
 

@@ -3,8 +3,7 @@
 import numpy as np
 
 from hexmend.quality import METRICS, measure
-from hexmend.quality.summary import SUMMARY_QUANTITIES, summarise
-from tests.core.grids import grid
+from hexmend.quality.summary import SUMMARY_QUANTITIES
 
 
 def test_counts_extremes_and_spreads_have_no_better_way_and_all_others_have():
@@ -28,8 +27,3 @@ def test_a_hex_so_large_that_its_volume_is_no_number_has_the_worst():
         values = {name: metric.of(huge, hexes, measure(huge, hexes)) for name, metric in METRICS.items()}
     assert values["jacobian"].tolist() == [-np.inf]
     assert not any(np.isnan(one).any() for one in values.values())
-
-
-def test_a_measured_quality_may_be_passed_under_its_old_name():
-    mesh = grid(2)
-    assert summarise(mesh, figures=measure(mesh.points, mesh.hexes)) == summarise(mesh)

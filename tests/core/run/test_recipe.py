@@ -15,7 +15,7 @@ from hexmend.run.recipe import Recipe, Stage, from_toml, to_toml
 from hexmend.run.recipe_files import read_recipe, write_recipe
 from hexmend.smoothers import METHODS
 
-HEAD = 'format = 2\ntitle = "T"\n'
+HEAD = 'format = 1\ntitle = "T"\n'
 
 
 def values(one):
@@ -60,12 +60,10 @@ def test_what_a_file_does_not_name_has_its_default():
     assert recipe == Recipe.of(METHODS["local-sd"](p=4), "mend", title="T")
 
 
-@pytest.mark.parametrize(("number", "written", "read"), [
-    (1, "0", "unlimited"), (1, "0.0", "unlimited"), (1, "0.3", 0.3), (2, "0", 0.0), (2, '"unlimited"', "unlimited"),
-])  # fmt: skip
-def test_a_surface_tolerance_of_0_was_no_limit_in_the_first_format(number, written, read):
+@pytest.mark.parametrize(("written", "read"), [("0", 0.0), ('"unlimited"', "unlimited")])
+def test_a_surface_tolerance_is_a_number_or_unlimited(written, read):
     stage = f'[[stage]]\nmethod = "mend"\nparameters = {{ boundary = "slide", surface_tolerance = {written} }}'
-    recipe = from_toml(f"format = {number}\n{stage}")
+    recipe = from_toml(HEAD + stage)
     assert recipe.stages[0].smoother.surface_tolerance == read
     assert from_toml(to_toml(recipe)) == recipe
 
@@ -104,9 +102,9 @@ STAGE = '[[stage]]\nmethod = "getme"\n[[stage]]\n'
     ('format = 1\ntitle = "', "is not TOML: unterminated string (at line 2, column 10, the end)"),
     ("n = " + "9" * 5000, "is not TOML"),
     ("a = " + "[" * 5000, "nested too deeply"),
-    ('title = "T"', "the recipe has no format: expected  format = 2"),
-    ("format = 3", "format = 3 is newer than this version of Hexmend, which reads up to 2"),
-    ('format = "1"', "format = '1' is not a format of recipes: expected 2"),
+    ('title = "T"', "the recipe has no format: expected  format = 1"),
+    ("format = 3", "format = 3 is not read: expected 1; use the Hexmend that wrote it"),
+    ('format = "1"', "format = '1' is not read: expected 1"),
     (HEAD, "has no stage: expected [[stage]]"),
     (HEAD + "stage = 3", "has no stage: expected [[stage]]"),
     (HEAD + "stages = 3", "the recipe has no key 'stages': did you mean stage?"),
@@ -147,17 +145,3 @@ def test_the_recipe_of_the_docs_is_one():
     text = (Path(__file__).resolve().parents[3] / "docs" / "recipes.md").read_text(encoding="utf-8")
     (example,) = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
     assert [stage.smoother.name for stage in from_toml(example).stages] == ["getme", "mend"]
-
-
-def test_a_recipe_that_version_0_1_wrote_is_read_with_its_values():
-    recipe = read_recipe(Path(__file__).parent / "data" / "recipe-0.1.toml")
-    then = {"feature_angle": 40.0, "surface_tolerance": 0.3}
-    assert recipe == Recipe.of(
-        METHODS["general"](**then, max_size_ratio=2.5, q_target=0.8),
-        METHODS["getme-sequential"](**then, rejection_penalty=0.02),
-        METHODS["local-patch"](**then, max_backtracks=40, backtrack_factor=0.6, initial_step=0.5),
-        METHODS["global-nr"](**then, max_backtracks=30),
-        METHODS["mend"](**then, goal="shape", p=2.0, initial_epsilon=0.05, max_p=8.0, boundary="slide"),
-        title="Written by 0.1",
-    ).limited(max_iterations=300)
-    assert from_toml(to_toml(recipe)) == recipe

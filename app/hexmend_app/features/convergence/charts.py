@@ -109,6 +109,4 @@ class ChartSettings:
     by_time: bool
 
     def __post_init__(self) -> None:
-        shown = tuple("backtracks" if name == "cuts" else name for name in self.shown)  # of version 0.1
-        object.__setattr__(self, "shown", shown)
-        check_known("chart", shown, CHARTS)
+        check_known("chart", self.shown, CHARTS)

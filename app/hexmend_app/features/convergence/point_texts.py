@@ -81,8 +81,6 @@ def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
     values = []
     for quantity in chart.quantities:
         value = curve.columns.of(quantity.key)[number]
-        if len(chart.quantities) > 1 and not curve.columns.reports(quantity.key):
-            continue  # a session of an earlier version has no minimum scaled Jacobian
         if np.isfinite(value):
             text = figure(int(value)) if quantity.whole else _significant(float(value))
         else:

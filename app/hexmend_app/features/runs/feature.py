@@ -84,5 +84,4 @@ def _figures(record: RunRecord) -> dict[str, Any]:
     if record.end is not None:
         summary = record.end.summary.to_dict()
         return {key: summary[key] for key in KEY_FIGURES}
-    row = record.rows[-1]  # in an earlier version, rows had no minimum scaled Jacobian
-    return {key: row.get(key, record.start.summary.scaled_jacobian_min) for key in KEY_FIGURES}
+    return {key: record.rows[-1][key] for key in KEY_FIGURES}

@@ -172,12 +172,12 @@ class Docks(DockSet):
         }
 
     def restore(self, state: dict[str, object]) -> None:
-        """Restore an arrangement; what is of another version or unreadable remains at its default.
+        """Restore an arrangement; one of another version, or an unreadable one, is ignored.
 
         Parameters
         ----------
         state : dict
-            Return value of `state`, possibly of an older version.
+            Return value of `state`.
         """
         saved = SavedLayout.read(state)
         if saved is None:
@@ -186,8 +186,7 @@ class Docks(DockSet):
         QApplication.sendPostedEvents(self._main, QEvent.Type.LayoutRequest)
         self._restoring = True
         self._drawer_height = saved.drawer
-        if saved.docks is not None:
-            self._placed = self._main.restoreState(saved.docks, LAYOUT) or self._placed
+        self._placed = self._main.restoreState(saved.docks, LAYOUT) or self._placed
         for id in saved.closed:
             if id in self._bars or id in self._docks:
                 self.close_panel(id)

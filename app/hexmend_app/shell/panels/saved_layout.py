@@ -9,8 +9,8 @@ from PySide6.QtCore import QByteArray
 
 from hexmend_app.feature import PanelGroup
 
-#: Version of the saved arrangement; the state of docks is ignored if it is of another version.
-LAYOUT = 9
+#: Version of the saved arrangement; one of another version is ignored.
+LAYOUT = 1
 
 _MINIMUM_DRAWER = 60
 
@@ -21,8 +21,8 @@ class SavedLayout:
 
     Parameters
     ----------
-    docks : QByteArray or None
-        State of the main window; None if it is of another version.
+    docks : QByteArray
+        State of the main window.
     closed : tuple of str
         Ids of closed panels.
     fronts : tuple of str
@@ -37,7 +37,7 @@ class SavedLayout:
         Height of the drawer and width of the right column in pixels; 0 for the default width.
     """
 
-    docks: QByteArray | None
+    docks: QByteArray
     closed: tuple[str, ...]
     fronts: tuple[str, ...]
     folded: bool
@@ -49,19 +49,20 @@ class SavedLayout:
 
     @classmethod
     def read(cls, data: Mapping[str, object]) -> SavedLayout | None:
-        """Read the stored value, of this version or an older one; return None if it is invalid."""
+        """Read the stored value; return None if it is of another version or invalid."""
+        if data.get("layout") != LAYOUT:
+            return None
         try:
-            docks = data.get("state") if data["layout"] == LAYOUT else None
             return cls(
-                docks=QByteArray(docks) if isinstance(docks, (QByteArray, bytes)) else None,
+                docks=QByteArray(data["state"]),
                 closed=tuple(map(str, data["closed"])),
                 fronts=tuple(map(str, data["fronts"])),
                 folded=bool(data["folded"]),
                 hidden=bool(data["hidden"]),
-                group=PanelGroup(data.get("group", PanelGroup.FIND.value)),
-                shares=_shares(data.get("shares")),
+                group=PanelGroup(data["group"]),
+                shares=_shares(data["shares"]),
                 drawer=max(int(data["drawer"]), _MINIMUM_DRAWER),
-                column=int(data.get("column") or 0),
+                column=int(data["column"]),
             )
         except (KeyError, TypeError, ValueError):
             return None

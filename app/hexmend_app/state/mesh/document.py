@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +11,6 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.io import Original
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, measure, summarise
-from hexmend_app.codec.codec import since
 
 #: What the user adds to a mesh, and its iterations have too: pins, tags, marked curves, surface to slide on.
 OWN_PARTS = ("pinned", "hex_sets", "cells", "target")
@@ -78,8 +77,8 @@ class DocumentData:
         State in the file.
     now : State
         State that is shown.
-    files : tuple of FileMesh, optional
-        Files that were opened or saved, the last one at the end; by default the one at `path`.
+    files : tuple of FileMesh
+        Files that were opened or saved, the last one at the end.
     """
 
     path: str | None
@@ -87,7 +86,7 @@ class DocumentData:
     at: int
     saved: State | None
     now: State
-    files: tuple[FileMesh, ...] | None = field(default=None, metadata=since(6))
+    files: tuple[FileMesh, ...]
 
     def __post_init__(self) -> None:
         if not 0 <= self.at < len(self.changes):
@@ -280,9 +279,7 @@ class Document(QObject):
         """Open the mesh of a session file, with its changes."""
         self.now, self._changes, self._at = data.now, list(data.changes), data.at
         self.path, self._saved = None if data.path is None else Path(data.path), data.saved
-        self._files = {self.path: data.saved.mesh} if self.path is not None and data.saved is not None else {}
-        if data.files is not None:
-            self._files = {Path(one.path): one.mesh for one in data.files}
+        self._files = {Path(one.path): one.mesh for one in data.files}
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from hexmend.advice import Advice
-from hexmend_app.codec.codec import since
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import NodeOffsets, RunRecord
 
 #: Columns that the row of every iteration has, for any method.
-_FIGURES = ("seconds", "q_min", "q_mean", "inverted", "largest_move")
+_FIGURES = ("seconds", "q_min", "q_mean", "scaled_jacobian_min", "inverted", "invalid", "largest_move")
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,9 +31,9 @@ class RecordData:
     pauses: tuple[tuple[int, str], ...]
     advice: Advice | None
     offsets: tuple[tuple[int, NodeOffsets], ...]
-    slot: int | None = field(default=None, metadata=since(2))
-    plotted: bool = field(default=True, metadata=since(2))
-    settings: str = field(default="", metadata=since(6))
+    slot: int | None
+    plotted: bool
+    settings: str
 
     def __post_init__(self) -> None:
         numbers = [number for number, _ in self.offsets]

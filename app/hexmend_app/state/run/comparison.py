@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -17,7 +17,6 @@ from hexmend.run import Run, StoppingCriteria
 from hexmend.smoothers import Smoother
 from hexmend.study import compare
 from hexmend.study.table_row import Row, run_one
-from hexmend_app.codec.codec import since
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.tasks.task import Task
 
@@ -49,7 +48,7 @@ class ComparisonData:
     stop: StoppingCriteria
     asked: int
     results: tuple[MethodResult, ...]
-    rules: MotionRules = field(default=MotionRules(), metadata=since(8))
+    rules: MotionRules
 
     def __post_init__(self) -> None:
         if self.results and self.initial is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
@@ -11,11 +11,10 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.named_sets import set_names
-from hexmend.parameters import current_name, from_values
+from hexmend.parameters import from_values
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
-from hexmend_app.codec.codec import since
 
 
 @dataclass(frozen=True)
@@ -25,16 +24,11 @@ class RunSetupData:
     stage: Stage
     reason: str
     values: dict[str, dict[str, Any]]
-    rules: MotionRules = field(default=MotionRules(), metadata=since(7))
+    rules: MotionRules
 
     def __post_init__(self) -> None:
         for method, values in self.values.items():
             from_values(METHODS[method], values, owner=method)
-        current = {
-            method: {current_name(METHODS[method], name): value for name, value in values.items()}
-            for method, values in self.values.items()
-        }
-        object.__setattr__(self, "values", current)
 
 
 class RunSetup(QObject):

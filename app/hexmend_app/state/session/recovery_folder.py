@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 from contextlib import suppress
 from dataclasses import dataclass
@@ -19,8 +18,6 @@ from hexmend_app.state.session import session_data
 from hexmend_app.state.tasks.task import Task
 
 _LOCK, SESSION, ABOUT = "lock", "session.hexmend", "about.json"
-#: Name of a file of an earlier version while its session is rewritten.
-EARLIER = "earlier.hexmend"
 #: Bytes that are read of a description.
 _MAX_ABOUT_BYTES = 10_000
 
@@ -60,10 +57,7 @@ def write_session(folder: Path, session_folder: SessionFolder, data: session_dat
     about = json.dumps({"name": name, "runs": len(data.history.records)})
     with atomic_write(folder / ABOUT) as temporary:
         temporary.write_text(about, encoding="utf-8")
-    if (folder / SESSION).is_file():
-        os.replace(folder / SESSION, folder / EARLIER)
     session_data.write_new(session_folder, data)
-    (folder / EARLIER).unlink(missing_ok=True)
 
 
 def lock_folder(folder: Path) -> QLockFile | None:
@@ -79,12 +73,7 @@ def find_session(folder: Path) -> RecoveredSession | None:
     if lock is None:
         return None
     try:
-        session = folder / SESSION
-        if (folder / EARLIER).is_file() and not (session / DESCRIPTION).exists():  # it was being rewritten
-            shutil.rmtree(session, ignore_errors=True)
-            os.replace(folder / EARLIER, session)
-        written = session if session.is_file() else session / DESCRIPTION  # a file is of an earlier version
-        when = datetime.fromtimestamp(written.stat().st_mtime)
+        when = datetime.fromtimestamp((folder / SESSION / DESCRIPTION).stat().st_mtime)
     except OSError:
         remove_folder(folder, lock)
         return None
@@ -105,7 +94,7 @@ def remove_folder(folder: Path, lock: QLockFile) -> None:
 
 def remove_session(folder: Path) -> None:
     """Delete the session in a window's folder; its description first, so that no partly deleted session is found."""
-    for path in (folder / EARLIER, folder / SESSION / DESCRIPTION, folder / SESSION, folder / ABOUT):
+    for path in (folder / SESSION / DESCRIPTION, folder / ABOUT):
         with suppress(OSError):
             path.unlink()
     shutil.rmtree(folder / SESSION, ignore_errors=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import METHODS, Smoother
-from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter, since
+from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter
 from hexmend_app.picture.named_cameras import NamedCameras
 from hexmend_app.state.mesh.document import DocumentData, State
 from hexmend_app.state.mesh.history import HistoryData
@@ -27,7 +27,6 @@ from hexmend_app.state.run.comparison import ComparisonData
 from hexmend_app.state.run.recipe_draft import RecipeDraftData
 from hexmend_app.state.run.run_setup import RunSetupData
 from hexmend_app.state.run.timeline import TimelineData
-from hexmend_app.state.session.earlier_versions import FORMER, migrate
 from hexmend_app.state.session.state_part import check_feature_data
 from hexmend_app.state.view.side_views import SideViewsData
 from hexmend_app.state.view.view_model import ViewData
@@ -51,8 +50,8 @@ class SessionData:
     run_setup: RunSetupData
     recipe_draft: RecipeDraftData
     breakpoints: Breakpoints
-    cameras: NamedCameras = field(default=NamedCameras(), metadata=since(3))
-    features: dict[str, Any] = field(default_factory=dict)  # encoded, by the names that `StatePart` gives them
+    cameras: NamedCameras
+    features: dict[str, Any]  # encoded, by the names that `StatePart` gives them
 
     def __post_init__(self) -> None:
         mesh = self.document.now.mesh
@@ -84,13 +83,6 @@ class SessionData:
         yield from (result.state for result in self.comparison.results if result.state is not None)
         if self.comparison.initial is not None:
             yield self.comparison.initial
-
-
-#: Former names of the fields of all classes, by class and current name.
-_FORMER = {
-    **FORMER,
-    SessionData: {"recipe_draft": "chain", "run_setup": "order", "side_views": "views", "snapshots": "kept"},
-}
 
 
 def is_session_file(path: Path) -> bool:
@@ -165,7 +157,7 @@ def read(path: Path) -> SessionData:
     Raises
     ------
     FileError
-        If the file is no session, damaged, inconsistent, or of a newer version.
+        If the file is no session, damaged, inconsistent, or of another version.
     """
     stored = read_session(path)
     states = _States(stored.meshes)
@@ -173,9 +165,9 @@ def read(path: Path) -> SessionData:
         Mesh: TypeAdapter(_unused, lambda number: states(number).mesh),
         State: TypeAdapter(_unused, states),
         Smoother: TypeAdapter(_unused, _smoother),
-    }, stored.version, _FORMER)  # fmt: skip
+    })  # fmt: skip
     try:
-        data = codec.decode(migrate(stored.window, stored.version), SessionData, "the window")
+        data = codec.decode(stored.window, SessionData, "the window")
         data.history.check()
         check_feature_data(data.features, "the window.features")
         return data

@@ -44,7 +44,7 @@ class Setting(Generic[T]):
             return self.default
         try:
             return self.decode(settings.value(self.key))
-        except (TypeError, ValueError):  # written by hand or by another version
+        except (TypeError, ValueError):  # written by hand
             return self.default
 
     def clear(self) -> None:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.quality import METRICS
-from hexmend_app.codec.codec import since
 from hexmend_app.picture.appearance import Look, Measurement
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Box, Plane, Sphere
@@ -33,7 +32,7 @@ class ViewData:
     snap: bool
     rings: int
     counted: str | None
-    measuring: bool = field(default=False, metadata=since(9))
+    measuring: bool
 
     def __post_init__(self) -> None:
         cut = self.look.cut

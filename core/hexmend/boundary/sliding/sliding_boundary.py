@@ -7,7 +7,6 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.aliases import reads_old_names
 from hexmend.arrays import index_of, mask
 from hexmend.boundary.classification import NodeClass, classify
 from hexmend.boundary.closest_point import ClosestPointCache
@@ -28,7 +27,6 @@ from hexmend.mesh.topology import CSR
 _OF_SLIDING_NODES = ("sliding_surface", "curved_nodes", "linear_mesh", "_flat", "rings")
 
 
-@reads_old_names
 class SlidingBoundary(SlidingNodes):
     """A mesh whose boundary nodes slide on a surface: nodes of curves along curves, nodes of patches on patches.
 

@@ -90,7 +90,7 @@ def write_array(member: IO[bytes], array: np.ndarray) -> None:
         member.write(data[at : at + _CHUNK])
 
 
-def read_archive(path: str | os.PathLike[str], format: str, version: int) -> tuple[int, Any]:
+def read_archive(path: str | os.PathLike[str], format: str, version: int) -> Any:
     """Read a zip file from `write_archive`, or a folder from `hexmend.io.archive.folder`.
 
     Parameters
@@ -99,26 +99,25 @@ def read_archive(path: str | os.PathLike[str], format: str, version: int) -> tup
     format : str
         Expected kind of file.
     version : int
-        Newest version that is supported.
+        Expected version.
 
     Returns
     -------
-    version : int
-    data : object
+    object
         The tree.
 
     Raises
     ------
     FileError
-        For a file of another kind, of a newer version, or damaged.
+        For a file of another kind or version, or damaged.
     """
     path = Path(path)
     try:
         with open_members(path) as members:
             with members.open(DESCRIPTION) as file:
                 description = json.loads(file.read())
-            found, tree = _check(path, description, format, version)
-            return found, _decode(tree, ArrayReader(path, members))
+            tree = _check(path, description, format, version)
+            return _decode(tree, ArrayReader(path, members))
     except (zipfile.BadZipFile, EOFError) as error:
         raise FileError(path, f"is damaged or incomplete: {_decapitalise(error)}", REMEDY) from None
     except RecursionError:
@@ -134,20 +133,19 @@ def _decapitalise(error: Exception) -> str:
     return message[:1].lower() + message[1:200]
 
 
-def _check(path: Path, description: Any, format: str, version: int) -> tuple[int, Any]:
-    """Check the format and version of a description; returns the version and the tree."""
+def _check(path: Path, description: Any, format: str, version: int) -> Any:
+    """Check the format and version of a description; returns the tree."""
     if not isinstance(description, dict) or description.get("format") != format:
         raise FileError(path, f"is not a {format}", NOT_OURS)
     number = description.get("version")
-    if type(number) is not int or number < 1:
-        raise FileError(path, f"has the version {str(number)[:20]!r}: expected a number from 1 to {version}", REMEDY)
-    if number > version:
-        raise FileError(path, f"is of version {number}: this Hexmend reads up to {version}", "Use a newer Hexmend.")
+    if type(number) is not int or number != version:
+        problem = f"is of version {repr(number)[:20]}: expected {version}"
+        raise FileError(path, problem, "Use the Hexmend that wrote it.")
     unknown = description.keys() - {"format", "version", "data"}
     if unknown or "data" not in description:
         label = f"has an unknown field {min(unknown)[:80]!r}" if unknown else "has no data"
-        raise FileError(path, label, "Use a newer Hexmend." if unknown else REMEDY)
-    return number, description["data"]
+        raise FileError(path, label, REMEDY)
+    return description["data"]
 
 
 def _encode(value: Any, number: Callable[[np.ndarray], int]) -> Any:

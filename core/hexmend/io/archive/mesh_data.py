@@ -15,12 +15,10 @@ from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.validation import check_finite, check_node_numbers
 
 _TABLES = ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets", "field_data")
-#: Fields of a mesh, and the version of sessions that introduced each.
-_SINCE = dict.fromkeys(("points", "hexes", "surface", "pinned", "mid_nodes", "cells", "name", "notes", *_TABLES), 1) | {
-    "target": 2,
-    "side_set_types": 6,
-    "periodic_pairs": 6,
-}
+_FIELDS = {
+    "points", "hexes", "surface", "target", "pinned", "mid_nodes", "cells", "name", "notes", "side_set_types",
+    "periodic_pairs", *_TABLES,
+}  # fmt: skip
 #: Fields that are set for each mesh; meshes with the same other fields share them.
 _UNSHARED = {"points", "surface", "mid_nodes"}
 
@@ -45,16 +43,9 @@ def mesh_to_data(mesh: Mesh) -> dict[str, Any]:
 
 
 class MeshDecoder:
-    """Converter of plain data to meshes; those with the same array of hexes share one topology.
+    """Converter of plain data to meshes; those with the same array of hexes share one topology."""
 
-    Parameters
-    ----------
-    version : int
-        Version of the session that holds the data.
-    """
-
-    def __init__(self, version: int):
-        self._fields = {name for name, since in _SINCE.items() if since <= version}
+    def __init__(self) -> None:
         self._bare: dict[int, Mesh] = {}  # by id of the array of hexes
         self._carriers: dict[tuple, Mesh] = {}  # with all shared fields, by these
         self._targets: dict[tuple, TargetSurface] = {}
@@ -67,7 +58,7 @@ class MeshDecoder:
         MeshError
             For unknown or missing fields, and for invalid values.
         """
-        check_fields("a mesh", data, self._fields)
+        check_fields("a mesh", data, _FIELDS)
         points, surface = (_array(data, name, "f", (-1, 3)) for name in ("points", "surface"))
         carrier, mid_nodes = self._carrier(data, points), data["mid_nodes"]
         mesh = carrier.with_points(surface).keeping_surface().with_points(points)
@@ -80,10 +71,10 @@ class MeshDecoder:
         bare = self._bare.get(id(hexes))
         if bare is None or bare.n_nodes != len(points):
             bare = self._bare[id(hexes)] = Mesh(points, hexes)
-        key = (id(bare), _key({name: data[name] for name in sorted(self._fields - _UNSHARED)}))
+        key = (id(bare), _key({name: data[name] for name in sorted(_FIELDS - _UNSHARED)}))
         if key not in self._carriers:
             carrier = bare.replace(**_decode_fields(data, bare))
-            target = self._target(data.get("target"))
+            target = self._target(data["target"])
             self._carriers[key] = carrier if target is None else carrier.sliding_on(target, check=False)
         return self._carriers[key]
 
@@ -137,8 +128,8 @@ def _decode_fields(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
         "cells": tuple(_cells(block, n) for block in data["cells"]),
         "name": data["name"],
         "notes": tuple(data["notes"]),
-        "side_set_types": data.get("side_set_types", {}),
-        "periodic_pairs": data.get("periodic_pairs", []),
+        "side_set_types": data["side_set_types"],
+        "periodic_pairs": data["periodic_pairs"],
     }
 
 

@@ -9,7 +9,6 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
-from hexmend.aliases import exports, reads_old_members, reads_old_names
 from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
 
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
     from hexmend.io.coordinates.located import LocatedCoordinates
 
 
-@reads_old_members
 class Capability(Enum):
     """Kind of mesh data that a format may be able to store; the value names it in messages."""
 
@@ -53,7 +51,6 @@ class FolderPlace(Protocol):
         """Raise `FileError` where a path cannot take a mesh, which was read from `source` if that is not None."""
 
 
-@reads_old_names
 @dataclass(frozen=True)
 class Format:
     """File format: names, functions that read and write it, and the mesh data that it stores.
@@ -124,6 +121,3 @@ def register(*fields: Any, **named_fields: Any) -> Format:
     """Make a `Format` of its fields and add it to FORMATS."""
     format = Format(*fields, **named_fields)
     return FORMATS.add(format.name, format)
-
-
-__getattr__ = exports(__name__)

@@ -19,7 +19,7 @@ from hexmend.io.storage.toml_files import read_toml
 from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import declared, from_values
 from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Recipe, check_keys, migrate, read_table
+from hexmend.run.recipe import Recipe, check_format, check_keys, read_table
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
 from hexmend.study.batch.case import Case, TaskLimits
@@ -104,7 +104,7 @@ def parse_plan(text: str, folder: Path, title: str = "Study") -> Plan:
     Examples
     --------
     >>> plan = parse_plan('''
-    ... format = 2
+    ... format = 1
     ... methods = ["laplacian"]
     ... [[method]]
     ... method = "local-sd"
@@ -114,7 +114,8 @@ def parse_plan(text: str, folder: Path, title: str = "Study") -> Plan:
     >>> [case.name for case in plan.cases][:3]
     ['laplacian', 'local-sd p=2 max_iterations=50', 'local-sd p=2 max_iterations=100']
     """
-    data = migrate(parse_toml(text, "a recipe"))
+    data = parse_toml(text, "a recipe")
+    check_format(data)
     check_keys("the study", data, _KEYS)
     if not isinstance(title := data.get("title", title), str):
         raise ParameterError(f"title = {title!r} is not a text: expected a title in quotes")

@@ -27,6 +27,7 @@ def record(name, count, parent=None, **more):
             "objective": None if k < 3 else 1000.0 / k,
             "q_min": 0.5 * k / count,
             "q_mean": 0.9,
+            "scaled_jacobian_min": 0.2,
             "inverted": max(0, 100 - 30 * k),
             "largest_move": 1.0 / (k + 1),
             **more,
@@ -196,8 +197,8 @@ def test_the_objective_has_a_gap_where_the_minima_begin_to_rise_and_tooltips_say
 def test_tooltips_give_values_and_the_nearest_stored_iteration(panel):
     text = describe(CHARTS["quality"], BOTH, 9.8, by_time=False)
     assert text.splitlines() == [
-        "getme 10: q min 0.2381, q mean 0.9000 (nearest stored: 8)",
-        "local-sd 2: q min 0.1111, q mean 0.9000 (nearest stored: 0)",
+        "getme 10: q min 0.2381, q mean 0.9000, scaled Jacobian min 0.2000 (nearest stored: 8)",
+        "local-sd 2: q min 0.1111, q mean 0.9000, scaled Jacobian min 0.2000 (nearest stored: 0)",
     ]
     assert describe(CHARTS["objective"], BOTH[:1], 0, by_time=False) == "getme 0: objective infinite"
     assert describe(CHARTS["delta"], BOTH[:1], 4, by_time=False) == "getme 4: delta not reported"

@@ -247,7 +247,7 @@ def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window)
 def test_a_damaged_session_is_rejected_and_the_open_mesh_stays(window, qtbot, tmp_path):
     path = tmp_path / "work.hexmend"
     window.features["session"].save_and_wait(path)
-    _, description = read_archive(path, "Hexmend session", VERSION)
+    description = read_archive(path, "Hexmend session", VERSION)
     description["window"]["view"]["look"]["colour"] = "red"
     write_archive(path, "Hexmend session", VERSION, description)
     now = window.session.document.now

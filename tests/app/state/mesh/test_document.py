@@ -94,7 +94,7 @@ def test_the_boundary_slides_on_that_of_the_opened_mesh(document):
     opened = document.now.mesh.points
     scaled = document.now.mesh.with_points(1.1 * opened)
     document.commit("moved", State.of(scaled.replace(name="pinned since")))
-    np.testing.assert_array_equal(document.now.mesh.surface, opened)
+    np.testing.assert_array_equal(document.now.mesh.surface_points, opened)
     change = surface_change(document.now.mesh, document.now.mesh.with_points(opened))
     assert change.max == 0
     assert surface_change(document.now.mesh, scaled).max > 0

@@ -1,8 +1,7 @@
-"""Sessions of earlier versions are read completely."""
+"""Sessions are read as they were written; data that no window wrote are reported."""
 
 from __future__ import annotations
 
-import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -10,41 +9,26 @@ import pytest
 
 from hexmend.errors import FileError
 from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session import session_file
-from hexmend.iteration import StoppingCriteria
-from hexmend.run.recipe import Stage
+from hexmend.io.formats.session.session_file import VERSION
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
-from hexmend_app.codec import codec
-from hexmend_app.state.run.run_setup import RunSetupData
+from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
-from tests.app.state.session.former_look import former_look, without_later_fields
-
-_FILES = Path(__file__).parent / "files"
-
-
-@pytest.mark.parametrize("version", [1, 2])
-def test_a_session_of_an_earlier_version_is_read_with_its_run(version):
-    data = session_data.read(_FILES / f"version_{version}.hexmend")
-    (record,) = data.history.records
-    assert record.rows[-1]["iteration"] == 3
-    assert record.advice.limiting.dtype == np.int64
-    assert record.advice.reason.startswith("Stopped at the limit of 3 iterations")
+from hexmend_app.state.session.session import Session
+from tests.core.grids import grid, scrambled
+from tests.patience import PATIENCE
 
 
-@pytest.mark.parametrize("version", [6, 7])
-def test_a_session_of_version_6_and_7_is_read_with_its_run(version):
-    data = session_data.read(_FILES / f"version_{version}.hexmend")
-    (record,) = data.history.records
-    assert len(record.rows) == 3
-    assert record.settings == {6: "", 7: "max_iterations=2, keep_last=True"}[version]
-    assert [change.title for change in data.document.changes] == ["open", "tag", "Laplacian"]
-
-
-def test_a_session_of_version_6_without_files_is_read(tmp_path):
-    version, content = read_archive(_FILES / "version_6.hexmend", "Hexmend session", session_file.VERSION)
-    del content["window"]["document"]["files"]
-    write_archive(tmp_path / "first.hexmend", "Hexmend session", version, content)
-    assert session_data.read(tmp_path / "first.hexmend").document.files is None
+@pytest.fixture
+def path(qtbot, tmp_path):
+    """A session with a run of three iterations and its advice, in a file."""
+    session = Session()
+    session.document.replace(State.of(scrambled(grid(3), 0.4)), Path("a.vtu"))
+    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+        session.run.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=3, tolerance=0))
+    session_data.write(tmp_path / "work.hexmend", session.to_data())
+    session.close()
+    return tmp_path / "work.hexmend"
 
 
 @pytest.mark.parametrize("place", [
@@ -52,54 +36,37 @@ def test_a_session_of_version_6_without_files_is_read(tmp_path):
     ("history", "records", 0, "advice"),
     ("history", "records", 0, "offsets", 0),
     ("history", "records", 0, "pauses"),
-    ("view", "look", "scale"),
-    ("choices", "cut"),
+    ("view", "look", "colours"),
+    ("document", "files"),
 ])  # fmt: skip
 @pytest.mark.parametrize("damage", [np.zeros(3), [[1, 2]], [1, 2]])
-def test_data_of_another_type_are_reported(tmp_path, place, damage):
-    version, content = read_archive(_FILES / "version_3.hexmend", "Hexmend session", session_file.VERSION)
+def test_data_of_another_type_are_reported(path, place, damage):
+    content = read_archive(path, "Hexmend session", VERSION)
     part = content["window"]
     for key in place[:-1]:
         part = part[key]
     part[place[-1]] = damage
-    write_archive(tmp_path / "damaged.hexmend", "Hexmend session", version, content)
+    write_archive(path, "Hexmend session", VERSION, content)
     with pytest.raises(FileError, match="inconsistent: the window"):
-        session_data.read(tmp_path / "damaged.hexmend")
+        session_data.read(path)
 
 
-def test_a_proposed_box_that_is_no_box_is_reported(tmp_path):
-    version, content = read_archive(_FILES / "version_3.hexmend", "Hexmend session", session_file.VERSION)
-    content["window"]["choices"]["cut"]["box"]["low"] = [float("nan"), 0.0, 0.0]
-    write_archive(tmp_path / "damaged.hexmend", "Hexmend session", version, content)
-    with pytest.raises(FileError, match="inconsistent: the window"):
-        session_data.read(tmp_path / "damaged.hexmend")
+@pytest.mark.parametrize("key", ["invalid", "scaled_jacobian_min"])
+def test_a_row_without_a_figure_is_reported(path, key):
+    content = read_archive(path, "Hexmend session", VERSION)
+    del content["window"]["history"]["records"][0]["rows"][1][key]
+    write_archive(path, "Hexmend session", VERSION, content)
+    with pytest.raises(FileError, match=r"iteration 1 of .* lacks values of "):
+        session_data.read(path)
 
 
-def test_a_session_is_unchanged_by_reading_and_writing_it(tmp_path):
-    data = session_data.read(_FILES / "version_2.hexmend")
+def test_a_session_is_unchanged_by_reading_and_writing_it(path, tmp_path):
+    data = session_data.read(path)
+    (record,) = data.history.records
+    assert record.rows[-1]["iteration"] == 3
+    assert record.advice.reason.startswith("Stopped at the limit of 3 iterations")
     session_data.write(tmp_path / "again.hexmend", data)
     again = session_data.read(tmp_path / "again.hexmend")
-    assert again.history.records[0].advice.reason == data.history.records[0].advice.reason
+    assert again.history.records[0].rows == record.rows
+    assert again.history.records[0].advice.reason == record.advice.reason
     np.testing.assert_array_equal(again.document.now.mesh.points, data.document.now.mesh.points)
-
-
-@pytest.mark.parametrize(("version", "read"), [(3, "unlimited"), (4, 0.0)])
-def test_a_surface_tolerance_of_0_means_no_limit_up_to_version_3(tmp_path, monkeypatch, version, read):
-    data = session_data.read(_FILES / "version_2.hexmend")
-    stage = Stage(METHODS["mend"](boundary="slide", surface_tolerance=0))
-    data = dataclasses.replace(data, run_setup=dataclasses.replace(data.run_setup, stage=stage))
-    fields = codec._fields
-    monkeypatch.setattr(codec, "_fields", lambda kind, of=version: fields(kind, of))  # as that version wrote them
-    monkeypatch.setattr(session_file, "VERSION", version)
-    session_data.write(tmp_path / "old.hexmend", data)
-    monkeypatch.undo()
-    _, content = read_archive(tmp_path / "old.hexmend", "Hexmend session", version)
-    content["window"]["view"]["look"] = former_look()
-    write_archive(tmp_path / "old.hexmend", "Hexmend session", version, without_later_fields(content))
-    assert session_data.read(tmp_path / "old.hexmend").run_setup.stage.smoother.surface_tolerance == read
-
-
-def test_values_of_version_0_1_are_stored_by_current_parameter_names():
-    stage = Stage(METHODS["mend"](), StoppingCriteria())
-    setup = RunSetupData(stage, "", {"mend": {"softness": 0.05, "highest_p": 4.0}, "general": {"sufficient": 0.5}})
-    assert setup.values == {"mend": {"initial_epsilon": 0.05, "max_p": 4.0}, "general": {"q_target": 0.5}}

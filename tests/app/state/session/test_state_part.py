@@ -5,9 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.codec.codec import DecodeError
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.session.earlier_versions import _with_features
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.session.state_part import StatePart
 from tests.core.grids import grid
@@ -68,9 +66,3 @@ def test_a_part_is_saved_after_changes_and_closed_with_the_session(qapp):
     assert changes == [0]
     session.close()
     assert counter.closed
-
-
-@pytest.mark.parametrize("window", [3, None, {"choices": 3}, {"choices": ["charts"]}])
-def test_damaged_data_of_earlier_versions_are_named(window):
-    with pytest.raises(DecodeError, match="not a table"):
-        _with_features(window)

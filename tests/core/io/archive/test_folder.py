@@ -49,7 +49,7 @@ def test_what_is_there_is_not_written_again_and_what_is_named_no_more_goes(tmp_p
     assert len(before) == len(after) == 2
     (kept,) = before.keys() & after.keys()
     assert before[kept] == after[kept]
-    _, back = read_archive(path, KIND, 1)
+    back = read_archive(path, KIND, 1)
     np.testing.assert_array_equal(back[0], second)
     np.testing.assert_array_equal(back[1], third)
 
@@ -58,7 +58,7 @@ def test_an_array_in_the_place_of_one_that_is_gone_is_written(tmp_path):
     folder = ArchiveFolder(tmp_path / "tree")
     for number in range(50):
         folder.write(KIND, 1, [np.full(3, number)])  # that soon lies where the one before lay
-        assert read_archive(tmp_path / "tree", KIND, 1)[1][0].tolist() == [number] * 3
+        assert read_archive(tmp_path / "tree", KIND, 1)[0].tolist() == [number] * 3
 
 
 @pytest.mark.parametrize("gone", ["arrays/0.npy", "arrays", "."])
@@ -71,7 +71,7 @@ def test_what_was_removed_meanwhile_is_written_again(tmp_path, gone):
         (path / gone).unlink()
     for more in (1, 2):
         folder.write(KIND, 1, [*arrays, more])
-        *back, last = read_archive(path, KIND, 1)[1]
+        *back, last = read_archive(path, KIND, 1)
         assert [one.tolist() for one in back] == [one.tolist() for one in arrays]
         assert last == more
     assert len(arrays_in(path)) == 2
@@ -82,7 +82,7 @@ def test_another_writer_goes_on_in_the_same_folder(tmp_path):
     ArchiveFolder(path).write(KIND, 1, [array, 1])
     ArchiveFolder(path).write(KIND, 1, [array, 2])
     assert len(arrays_in(path)) == 1
-    assert read_archive(path, KIND, 1)[1][1] == 2
+    assert read_archive(path, KIND, 1)[1] == 2
 
 
 @pytest.mark.parametrize("data", [[object()], [np.zeros(3), np.array([None])]])
@@ -91,7 +91,7 @@ def test_where_a_tree_cannot_be_written_the_last_one_stays(tmp_path, data):
     folder.write(KIND, 1, [np.arange(3)])
     with pytest.raises(FileError, match="cannot hold"):
         folder.write(KIND, 1, data)
-    assert read_archive(path, KIND, 1)[1][0].tolist() == [0, 1, 2]
+    assert read_archive(path, KIND, 1)[0].tolist() == [0, 1, 2]
 
 
 def test_where_the_description_cannot_be_written_no_array_is_left(tmp_path):
@@ -102,7 +102,7 @@ def test_where_the_description_cannot_be_written_no_array_is_left(tmp_path):
     assert arrays_in(path) == {}
     (path / DESCRIPTION).rmdir()
     folder.write(KIND, 1, [array])
-    assert read_archive(path, KIND, 1)[1][0].tolist() == [0, 1, 2]
+    assert read_archive(path, KIND, 1)[0].tolist() == [0, 1, 2]
 
 
 @pytest.mark.slow
@@ -114,7 +114,7 @@ def test_whenever_its_writer_is_killed_the_tree_is_whole(tmp_path):
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:
             told = [process.stdout.readline() for _ in range(writes)]
             process.send_signal(signal.SIGKILL)  # wherever it is in the next ones
-        _, tree = read_archive(path, KIND, 1)
+        tree = read_archive(path, KIND, 1)
         assert tree["number"] >= int(told[-1])
         assert str(tree["number"]) in tree["arrays"]
         for name, array in tree["arrays"].items():

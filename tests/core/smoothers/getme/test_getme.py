@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from hexmend.gallery import make
+from hexmend.iteration import Outcome
 from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
-from hexmend.optimise import Outcome
 from hexmend.quality import measure
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS

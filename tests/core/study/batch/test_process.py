@@ -53,7 +53,7 @@ def test_rules_of_motion_hold_in_the_process_of_a_task(tmp_path):
     mesh = gallery.make("bridge-sharp", size=864, scramble=0.4)
     mesh = mesh.replace(node_sets={"some": np.flatnonzero(~mesh.topology.boundary)[:50]})
     io.write(tmp_path / "bridge.vtu", mesh)
-    text = 'format = 2\nmethods = ["mend"]\nstop = { max_iterations = 2 }\n[motion]\nfix = ["some"]'
+    text = 'format = 1\nmethods = ["mend"]\nstop = { max_iterations = 2 }\n[motion]\nfix = ["some"]'
     (case,) = parse_plan(text, tmp_path).cases
     out = tmp_path / "out.vtu"
     row = run_task(task(tmp_path / "bridge.vtu", case.values(), output=str(out)), memory_mb=0, threads=1)

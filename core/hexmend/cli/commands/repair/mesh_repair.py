@@ -6,16 +6,16 @@ import argparse
 
 from hexmend.cli.output.mesh_messages import print_notes
 from hexmend.cli.output.mesh_output import MeshOutput
-from hexmend.doctor import AILMENTS, examine, repair
+from hexmend.doctor import PROBLEMS, examine, repair
 from hexmend.io import read, writer_for
 
 
 def run(args: argparse.Namespace) -> int:
     """Repair the mesh, write it, and print what was repaired and what remains."""
     for name in args.only:
-        AILMENTS[name]  # raises for an unknown name before the mesh is read
+        PROBLEMS[name]  # raises for an unknown name before the mesh is read
     writer_for(args.output, None if args.rewrite else args.mesh)
-    mesh = read(args.mesh, as_is=True, nodes_without_place=True)
+    mesh = read(args.mesh, as_is=True, interpolate_missing=True)
     print_notes(mesh)
     given = mesh
     mesh, repaired = repair(given, args.only)
@@ -23,7 +23,7 @@ def run(args: argparse.Namespace) -> int:
     output.warn_of_losses(mesh)
     written = output.write(mesh)
     for finding in repaired:
-        print(f"Repaired: {finding.message} Done: {AILMENTS[finding.kind].action}.")
+        print(f"Repaired: {finding.message} Done: {PROBLEMS[finding.kind].action}.")
     remaining = examine(mesh)
     for finding in remaining:
         print(f"Remaining: {finding.message} {finding.remedy}".rstrip())

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from hexmend.aliases import exports
 from hexmend.io.base.format import deferred, register
 
 SUFFIX = ".hexmend"
@@ -22,5 +21,3 @@ def is_session(head: bytes) -> bool:
 #: Deferred, because zipfile and json cost 9 ms.
 _read = deferred("hexmend.io.formats.session.session_file:read_shown_mesh")
 register("session", "Hexmend session", (SUFFIX,), encodings=(), read=_read, matches=is_session)
-
-__getattr__ = exports(__name__)

@@ -19,8 +19,8 @@ from hexmend.io.archive.mesh_data import MeshDecoder, check_fields, mesh_to_data
 from hexmend.io.files import check_readable, reading
 from hexmend.mesh.mesh import Mesh
 
-#: Version that is written; earlier ones can be read.
-VERSION = 9
+#: Version of the format.
+VERSION = 1
 #: Largest number of meshes in a session.
 MAX_MESHES = 10_000
 
@@ -38,14 +38,11 @@ class SessionContent:
         Index of the mesh that was shown.
     window : object
         State of the window: plain data with arrays, see `write_archive`.
-    version : int
-        Version of the file; newer fields are missing.
     """
 
     meshes: tuple[Mesh, ...]
     now: int
     window: Any
-    version: int = VERSION
 
 
 def write_session(path: str | os.PathLike[str], meshes: Sequence[Mesh], now: int, window: Any) -> None:
@@ -107,29 +104,29 @@ def read_session(path: str | os.PathLike[str]) -> SessionContent:
     Raises
     ------
     FileError
-        For another file, a damaged one, and a newer version.
+        For another file, a damaged one, and another version.
     """
-    with _opened(path) as (version, data, now):
-        decoder = MeshDecoder(version)
+    with _opened(path) as (data, now):
+        decoder = MeshDecoder()
         meshes = tuple(decoder.decode(mesh) for mesh in data["meshes"])
-        return SessionContent(meshes, now, data["window"], version)
+        return SessionContent(meshes, now, data["window"])
 
 
 def read_shown_mesh(path: Path) -> Mesh:
     """Read the mesh that was shown; raises `FileError` as `read_session`."""
-    with _opened(path) as (version, data, now):
-        return MeshDecoder(version).decode(data["meshes"][now])
+    with _opened(path) as (data, now):
+        return MeshDecoder().decode(data["meshes"][now])
 
 
 @contextmanager
-def _opened(path: str | os.PathLike[str]) -> Iterator[tuple[int, Any, int]]:
-    """Context manager that gives a session's version, data and index shown; invalid meshes become a `FileError`."""
+def _opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, int]]:
+    """Context manager that gives a session's data and index shown; invalid meshes become a `FileError`."""
     if not Path(path).is_dir():
         check_readable(Path(path), "a session")
     with reading(Path(path), "Close other programs."):
-        version, data = read_archive(path, _FORMAT, VERSION)
+        data = read_archive(path, _FORMAT, VERSION)
     try:
-        yield version, data, _shown_index(data)
+        yield data, _shown_index(data)
     except MeshError as error:
         raise FileError(path, str(error), "Use an earlier copy, or open the mesh that it was made from.") from None
 
