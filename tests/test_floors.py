@@ -53,7 +53,6 @@ APP = [
     {"feature"},
     {"features"},
     {"shell"},
-    {"bench"},
     {"cli", "notebook"},
     {"__main__"},
 ]
