@@ -140,4 +140,4 @@ $(VENV)/.kernels: $(VENV)/.app scripts/build-kernels $(shell find core/native -t
 	@touch $@
 
 clean:
-	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .hypothesis core/hexmend/kernels/*.so
+	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .hypothesis core/hexmend/kernels/*.so benchmarks/kernels/*.so
