@@ -14,13 +14,14 @@ from benchmarks.peers import PEERS
 from benchmarks.peers.peer import MissingPeer, Peer
 from benchmarks.peers.record import Comparison
 from benchmarks.peers.tables import comparison_tables
+from benchmarks.prose import wrapped
 from hexmend.boundary.comparison import surface_change
 from hexmend.errors import HexmendError
 from hexmend.io import read
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, objective, summarise
 from hexmend.report.batch import machine_words
-from hexmend.report.markdown import escape, markdown, wrapped
+from hexmend.report.markdown import escape, markdown
 from hexmend.study.batch.mesh_files import find_meshes
 from hexmend.study.machine import machine
 

@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.scale.launching import environment, launcher, on_ranks
 from benchmarks.section import BenchSection
 from hexmend import kernels
 from hexmend.gallery import make
 from hexmend.io import read, write
-from hexmend.ranks.launching import environment, launcher, on_ranks
 
 #: Variable that names other numbers of hexes of five-side, with commas between them.
 _VARIABLE = "HEXMEND_SCALE"

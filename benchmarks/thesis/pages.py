@@ -13,7 +13,7 @@ import re
 import shutil
 from pathlib import Path
 
-from hexmend.report.markdown import wrapped
+from benchmarks.prose import wrapped
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 #: The section written by hand; links to files outside docs/.
