@@ -46,24 +46,27 @@ class BenchSection:
 _SIZES = 10_000, 100_000, 1_000_000
 
 
-def by_size(program: str) -> dict[str, Any]:
-    """Run a program with each size as argument, in a new process, and return the JSON that it prints.
+def probe(program: str, *words: object) -> dict[str, Any]:
+    """Run a program in a new process, and return the JSON that it prints.
 
     Parameters
     ----------
     program : str
-        Python source; the number of hexes is its argument.
+        Python source.
+    *words : object
+        Its arguments.
 
     Returns
     -------
     dict
-        `sizes`: one of them for each size.
     """
-    rows = []
-    for size in _SIZES:
-        done = subprocess.run([sys.executable, "-c", program, str(size)], capture_output=True, text=True, check=True)
-        rows.append(json.loads(done.stdout))
-    return {"sizes": rows}
+    command = [sys.executable, "-c", program, *map(str, words)]
+    return json.loads(subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
+
+
+def by_size(program: str) -> dict[str, Any]:
+    """Run a program with each size as argument; its rows are the `sizes` of the answer."""
+    return {"sizes": [probe(program, size) for size in _SIZES]}
 
 
 def smoothed(mesh: Path, *words: str) -> tuple[dict[str, Any], float]:

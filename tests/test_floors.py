@@ -239,6 +239,17 @@ def test_the_core_names_no_window():
     assert rows == []
 
 
+@pytest.mark.parametrize("package", ["core/hexmend", "app/hexmend_app"])
+def test_what_is_installed_imports_no_benchmarks_and_tests(package):
+    rows = [
+        f"{path}:{line} imports {name}"
+        for path, _ in sources(ROOT / package)
+        for name, line in imported(path)
+        if name.split(".")[0] in ("benchmarks", "tests", "scripts")
+    ]
+    assert rows == []
+
+
 def test_the_modules_that_convert_are_there():
     assert {parts for _, parts in sources(ROOT / "core/hexmend")} >= CONVERTS.keys()
 

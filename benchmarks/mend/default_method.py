@@ -81,11 +81,9 @@ def _untangling_lines(figures: dict[str, Any]) -> list[str]:
 
 _PROBE = """
 import json, sys
-from hexmend.errors import FileError, MeshError
 from hexmend.gallery import make
 from hexmend.run import StoppingCriteria, iterate
 from hexmend.smoothers import METHODS
-from benchmarks.section import collection
 from hexmend.run.memory import peak_mb
 mesh = make("five-side", size=int(sys.argv[1]), scramble=0.3)
 run = iterate(mesh, METHODS["mend"](goal="shape"), StoppingCriteria(max_iterations=1000))

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import os
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 from typing import Any
 
-from benchmarks.section import BenchSection
+from benchmarks.section import BenchSection, probe
 from hexmend.gallery import make
 from hexmend.io import write
 
@@ -46,11 +43,6 @@ print(json.dumps({"seconds": seconds, "peak_mb": peak_mb() - before, "arrays_mb"
 """
 
 
-def _run(program: str, *words: Path) -> dict[str, float]:
-    command = [sys.executable, "-c", program, *map(str, words)]
-    return json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-
-
 def _files() -> dict[str, Any]:
     rows = []
     with tempfile.TemporaryDirectory(prefix="hexmend-") as name:
@@ -59,7 +51,7 @@ def _files() -> dict[str, Any]:
         write(given, mesh)
         for suffix in _SUFFIXES:
             path = Path(name) / f"mesh{suffix}"
-            wrote, read = _run(_WRITE, given, path), _run(_READ, path)
+            wrote, read = probe(_WRITE, given, path), probe(_READ, path)
             rows.append({
                 "suffix": suffix,
                 "mb": path.stat().st_size / 2**20,

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from benchmarks.section import BenchSection
+from benchmarks.section import BenchSection, probe
 from hexmend.gallery import make
 from hexmend.run.memory import FIXED
 from hexmend.smoothers import METHODS
@@ -70,15 +68,11 @@ def measure_memory(name: str, size: int, iterations: int, **values: Any) -> dict
     with tempfile.TemporaryDirectory(prefix="hexmend-") as folder:
         mesh, path = make("cube", size=size, scramble=0.6), Path(folder) / "mesh.npz"
         np.savez(path, points=mesh.points, hexes=mesh.hexes)
-        words = [str(path), name, json.dumps(values), str(iterations)]
-        done = subprocess.run([sys.executable, "-c", _PROBE, *words], capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)
+        return probe(_PROBE, path, name, json.dumps(values), iterations)
 
 
 def _memory() -> dict[str, Any]:
     figures: dict[str, Any] = {}
-    if not Path("/proc/self/status").exists():
-        return figures
     for name, cls in METHODS.items():
         iterations, values = _ITERATIONS_OF.get(name, _ITERATIONS), _VALUES_OF.get(name, {})
         rows = [measure_memory(name, size, iterations, **values) for size in _SIZES]
@@ -87,8 +81,6 @@ def _memory() -> dict[str, Any]:
 
 
 def _lines(figures: dict[str, Any]) -> list[str]:
-    if not figures:
-        return ["not measured: this system does not report the memory of a process"]
     lines = [f"predicted: the bytes a hex that a method declares, and {FIXED >> 20} MiB"]
     for name, row in figures.items():
         sizes = "   ".join(

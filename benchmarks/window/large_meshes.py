@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import os
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 from statistics import median
@@ -14,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.section import probe
 from benchmarks.window.start import measure_start
 from benchmarks.window.windows import draw, measure_meshes, rotation_frame_ms
 from hexmend.gallery import make
@@ -42,9 +40,7 @@ def measure_large() -> list[dict[str, Any]]:
         for size in os.environ.get(VARIABLE, _SIZES).split(","):
             write(path, make("five-side", size=int(size)))
             moments = measure_start(path)
-            words = [sys.executable, "-c", _PROBE, str(path)]
-            output = subprocess.run(words, capture_output=True, text=True, check=True).stdout
-            rows.append(json.loads(output) | {"picture_seconds": moments["picture"]["seconds"]})
+            rows.append(probe(_PROBE, path) | {"picture_seconds": moments["picture"]["seconds"]})
     return rows
 
 

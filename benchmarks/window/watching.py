@@ -17,7 +17,6 @@ from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.history import LIMIT
-from hexmend_app.state.run.pace import Pace
 
 _SCRUBBED, _ITERATIONS, _STOPS = 200, 500, 5
 
@@ -31,7 +30,7 @@ def _row(window: Window) -> dict[str, Any]:
     for record in list(window.session.history.records):
         window.session.timeline.delete(record)
     window.session.history.limit = LIMIT
-    seconds = _run(window, _ITERATIONS)
+    _run(window, _ITERATIONS)
     history, record = window.session.history, window.session.timeline.record
     numbers = history.recorded_numbers(record)
     scrubbed = numbers[np.linspace(0, len(numbers) - 1, _SCRUBBED).astype(int)]
@@ -43,35 +42,16 @@ def _row(window: Window) -> dict[str, Any]:
         "kept_mb": history.bytes / (1 << 20),
         "limit_mb": history.limit / (1 << 20),
         "iteration_mb": history.bytes / (1 << 20) / (len(numbers) - 1),
-        "run_s": seconds,
-        **_eased(window),
         "stop_ms": median(delay for delay, _ in stops),
         "stop_iteration_ms": median(iteration for _, iteration in stops),
     }
 
 
-def _run(window: Window, iterations: int) -> float:
-    """Run the fastest method to fill the history; return the seconds."""
-    start = perf_counter()
+def _run(window: Window, iterations: int) -> None:
+    """Run the fastest method to fill the history."""
     window.session.run.start(Laplacian(), StoppingCriteria(tolerance=0, max_iterations=iterations))
     while window.session.run.busy:
         run_event_loop(0.1)
-    return perf_counter() - start
-
-
-def _eased(window: Window) -> dict[str, float]:
-    """Return the pictures of a short run that is shown eased: their rate, and the longest time between two."""
-    run, document, times = window.session.run, window.session.document, []
-    document.preview(document.start)
-    run.set_pace(Pace.EASED)
-    shown = document.points_moved.connect(lambda: times.append(perf_counter()))
-    run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=20))
-    while run.busy or run.view.eased.active:
-        run_event_loop(0.1)
-    document.points_moved.disconnect(shown)
-    run.set_pace(Pace.FASTEST)
-    gaps = np.diff(times) if len(times) > 1 else np.array([np.nan])
-    return {"eased_fps": float(1 / np.mean(gaps)), "eased_worst_ms": float(1e3 * gaps.max())}
 
 
 def _scrub(window: Window, numbers: np.ndarray) -> float:
@@ -107,9 +87,7 @@ def _lines(row: dict[str, Any]) -> list[str]:
         f"  scrubbing {_SCRUBBED} iterations: {row['scrub_ms']:.1f} ms each "
         f"({1000 / row['scrub_ms']:.0f} per second), {row['jump_ms']:.1f} ms in random order",
         f"  history of {row['iterations']} iterations: positions of {row['kept']} in {row['kept_mb']:.0f} MB "
-        f"({row['iteration_mb']:.2f} each), limit {row['limit_mb']:.0f} MB; the run took {row['run_s']:.1f} s",
-        f"  a short run shown eased: {row['eased_fps']:.0f} pictures a second, at most {row['eased_worst_ms']:.0f} ms "
-        "apart",
+        f"({row['iteration_mb']:.2f} each), limit {row['limit_mb']:.0f} MB",
         f"  stopped after {row['stop_ms']:.0f} ms; an iteration of local-sd takes {row['stop_iteration_ms']:.0f} ms",
     ]
 
