@@ -15,7 +15,7 @@ help:
 	@echo "make soak [SEED=n]     run the tests of properties on many random examples, of this seed or of another each time"
 	@echo "make mutants           put small faults into copies of the core: do its tests find them? half an hour"
 	@echo "make lint              check the style and the types;  make format  mends the style"
-	@echo "make bench             measure speed and memory"
+	@echo "make bench             measure speed, memory and quality; python -m benchmarks --help lists what there is"
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
 	@echo "make docs              write anew what in docs is generated: tables, reference, drawings"
 	@echo "make pictures          take the pictures of docs again; HEXMEND_MESHES names the folder of foreign meshes"
@@ -67,10 +67,11 @@ format: $(VENV)/.test
 
 bench: $(VENV)/.app $(VENV)/.kernels
 	@scripts/debian-packages
-	@scripts/on-screen $(BIN)/hexmend bench
+	@scripts/on-screen $(BIN)/python -m benchmarks bench
 
 study: $(VENV)/.app $(VENV)/.kernels
-	@$(BIN)/hexmend study thesis --quick -o build/study
+	@scripts/debian-packages
+	@scripts/on-screen $(BIN)/python -m benchmarks thesis --quick -o build/study
 
 docs: $(VENV)/.app $(VENV)/.kernels
 	@scripts/debian-packages
@@ -139,4 +140,4 @@ $(VENV)/.kernels: $(VENV)/.app scripts/build-kernels $(shell find core/native -t
 	@touch $@
 
 clean:
-	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .hypothesis core/hexmend/kernels/*.so
+	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .hypothesis core/hexmend/kernels/*.so benchmarks/kernels/*.so

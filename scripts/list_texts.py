@@ -92,7 +92,7 @@ ORDER = [
 #: Methods of the state whose first argument is the title of a change, which Undo shows.
 _TITLED = {"commit", "_amend", "adopt_positions"}
 #: Programs, whose texts are not those of the window.
-_PROGRAMS = {"bench", "cli", "notebook", "report"}
+_PROGRAMS = {"cli", "notebook", "report"}
 
 HEADER = """\
 # Texts of the window of Hexmend, a section for each feature, in the order in which a user meets them.

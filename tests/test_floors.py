@@ -52,7 +52,6 @@ APP = [
     {"feature"},
     {"features"},
     {"shell"},
-    {"bench"},
     {"cli", "notebook"},
     {"__main__"},
 ]
@@ -235,6 +234,17 @@ def test_the_core_names_no_window():
         for path, parts in sources(ROOT / "core/hexmend")
         for name, line in imported(path)
         if name.split(".")[0] in WINDOWS and name != CONVERTS.get(parts)
+    ]
+    assert rows == []
+
+
+@pytest.mark.parametrize("package", ["core/hexmend", "app/hexmend_app"])
+def test_what_is_installed_imports_no_benchmarks_and_tests(package):
+    rows = [
+        f"{path}:{line} imports {name}"
+        for path, _ in sources(ROOT / package)
+        for name, line in imported(path)
+        if name.split(".")[0] in ("benchmarks", "tests", "scripts")
     ]
     assert rows == []
 

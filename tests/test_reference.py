@@ -2,7 +2,6 @@
 
 import argparse
 import importlib.util
-import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,8 +27,7 @@ def script(name):
     return module
 
 
-tables, reference, draw_floors = script("tables"), script("write_reference"), script("draw_floors")
-study = script("write_study")
+tables, reference = script("tables"), script("write_reference")
 
 
 @pytest.mark.parametrize(("name", "registry"), [("methods", METHODS), ("metrics", METRICS), ("formats", FORMATS)])
@@ -88,31 +86,6 @@ def test_options_are_as_argparse_has_them(monkeypatch):
         "| `--boundary {fixed,slide}` | this \\| that |",
         "| `--set K=V` | a value; may be repeated |",
     ]
-
-
-def test_claims_are_arranged_by_the_sections_that_state_them():
-    text = "Thirteen.\n\n- Late. (4.3.1) **Reproduced.** (0.5 s)\n- Early. (4.1, C) **Open.**\n- Drawn. (by Table 4.8) **Open.**\n"
-    assert study.claims(text) == (
-        "Thirteen.\n\n## Section 4.1\n- Early. (4.1, C) **Open.**\n\n"
-        "## Section 4.3.1\n- Late. (4.3.1) **Reproduced.** (0.5 s)\n\n## Tables\n- Drawn. (by Table 4.8) **Open.**"
-    )
-
-
-def test_the_pages_of_the_study_are_arranged_as_the_script_does():
-    written = {path.name: path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("study*.md")}
-    parts = [study.sections(written[name]) for name in ("study.md", "study-offset.md", "study-tables.md")]
-    chapter = parts[0] | parts[1] | parts[2]
-    head, rest = parts[0][""].split("\n", 1)
-    claims = written["study-claims.md"].split("measured.\n", 1)[1]
-    about = {'## The "-1" of (B.20)\n': study.ABOUT_OFFSETS, "## Tables\n": study.ABOUT_OBJECTIVE}
-    offsets, remarks = '## The "-1" of (B.20)\n', "## Remarks of 4.1.2 and 4.1.3, measured\n"
-    chapter["## Tables\n"] = chapter["## Tables\n"].removeprefix(about["## Tables\n"])
-    chapter |= {"": f"{head}\n{rest.removeprefix(study.ORIGIN)}", "## Claims\n": re.sub(r"## .*\n", "", claims)}
-    tables = [chapter[offsets].removeprefix(study.ABOUT_OFFSETS), chapter[remarks].removeprefix(study.ABOUT_REMARKS)]
-    made = study.pages(chapter, chapter[study.OWN], *(table.strip() for table in tables))
-    for name, text in made.items():
-        if name != "study-claims.md":  # whose list has lost its blank lines
-            assert text.split() == written[name].split(), name
 
 
 def test_a_public_name_without_a_page_is_named(monkeypatch):

@@ -11,9 +11,9 @@ from pathlib import Path
 
 from screenshots import close_window, cut_mesh, open_window, screenshot, wait_until_drawn
 
+from benchmarks.window.windows import draw
 from hexmend.gallery import make
 from hexmend.io import write
-from hexmend_app.bench.windows import draw
 
 _HEXES = 10_000_000
 

@@ -11,12 +11,12 @@ from PIL import Image
 from PySide6.QtCore import QEventLoop, QSettings, Qt, QTimer
 from PySide6.QtWidgets import QAbstractButton, QComboBox, QDockWidget
 
+from benchmarks.window.windows import end_run
 from hexmend.gallery import make
 from hexmend.io import write
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import end_run
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window

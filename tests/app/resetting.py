@@ -21,11 +21,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from benchmarks.window.windows import end_run
 from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
-from hexmend_app.bench.windows import end_run
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.named_cameras import NamedCameras
 from hexmend_app.state.mesh.history import LIMIT

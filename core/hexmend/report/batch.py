@@ -32,7 +32,7 @@ def write_batch_study(folder: Path, study: Mapping[str, Any], machine: Mapping[s
     study : mapping
         `hexmend.study.batch.runner.StudyResult.record`.
     machine : mapping
-        The computer, from `hexmend.study.bench.sections.machine`.
+        The computer, from `hexmend.study.machine.machine`.
     """
     rows = study["rows"]
     tables = [cases_table(study), meshes_table(rows)]
@@ -165,5 +165,5 @@ def _line(rows: Rows) -> list[str]:
 
 
 def machine_words(machine: Mapping[str, Any]) -> str:
-    """Describe the computer on which a study was started as a sentence, from `hexmend.study.bench.sections.machine`."""
+    """Describe the computer on which a study was started as a sentence, from `hexmend.study.machine.machine`."""
     return f"Started on: {'; '.join(f'{key} {escape(str(value))}' for key, value in machine.items())}."

@@ -31,6 +31,9 @@ FIGURE_SUFFIXES = (".svg", ".pdf", ".png")
 #: Least and largest width of a figure in mm.
 WIDTHS = (40.0, 1000.0)
 
+#: The colours of Okabe and Ito, which colour-blind readers can distinguish.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+
 #: Pixels of the largest picture.
 _MAX_PIXELS = 2**26
 

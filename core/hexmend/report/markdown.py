@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from textwrap import fill
 
 from hexmend.report.tables import Table
 from hexmend.terminal_text import FailedText, ShortestText
@@ -36,20 +35,3 @@ def _emphasised(cell: str) -> str:
 def escape(text: str) -> str:
     """Escape a text, so that Markdown finds no markup in it."""
     return re.sub(r"([\\`*_{}\[\]<>#|])", r"\\\1", " ".join(text.split()))
-
-
-def wrapped(text: str, width: int = 120) -> str:
-    """Break the lines of prose in a page that are longer than `width` characters; rows of tables stay whole.
-
-    >>> print(wrapped("A long line.\\n| a | row of a table |", 8))
-    A long
-    line.
-    | a | row of a table |
-    """
-    lines = text.split("\n")
-    return "\n".join(
-        fill(line, width, break_long_words=False, break_on_hyphens=False)
-        if len(line) > width and not line.startswith("|")
-        else line
-        for line in lines
-    )

@@ -9,13 +9,13 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QTableWidget
 
+from benchmarks.window.windows import end_run
 from hexmend import io
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import end_run
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box, Plane
 from hexmend_app.scene.layers import mesh as mesh_layer

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from benchmarks.mend.surfaces import refined
 from hexmend import kernels
 from hexmend.boundary import ClosestPointTrees, PartitionedSurface, SlidingBoundary, boundary_of
 from hexmend.boundary.closest_point import ClosestPointCache
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
-from hexmend.study.bench.surfaces import refined
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.curved_shell import curved_shell
 from tests.core.grids import grid

@@ -7,13 +7,16 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, ObjectiveNorm, energies
 from hexmend.energy.target import hex_sizes, node_sizes, wanted_lengths
-from hexmend.kernels import local, objective, scalar_reference
+from hexmend.kernels import local, objective
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES, UNIT_CUBE
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
+from tests.core.native import extension
+
+scalar_reference = extension.scalar_reference()
 
 seeds = st.integers(0, 2**32 - 1)
 weights = st.sampled_from([0.0, 0.7])

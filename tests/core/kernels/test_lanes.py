@@ -8,11 +8,14 @@ from hypothesis import strategies as st
 from hexmend import kernels
 from hexmend.energy import SQUARES, BlockSparsity, MeshEnergy, ObjectiveNorm, energies
 from hexmend.energy.hex_energy import pack_corners, unpack_corners
-from hexmend.kernels import LANES, element_step, local, objective, scalar_reference, step_limits
+from hexmend.kernels import LANES, element_step, local, objective, step_limits
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
+from tests.core.native import extension
+
+scalar_reference = extension.scalar_reference()
 
 #: One hex, a part of a block, one block and a hex, more than a thread takes at a time.
 COUNTS = [1, LANES - 1, LANES + 1, 256 + 12]

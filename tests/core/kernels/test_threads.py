@@ -214,7 +214,7 @@ for delay in (0.01, 0.013, 0.021, 0.034, 0.05):
 
 
 def test_the_bench_says_threads_build_and_system_without_its_version():
-    from hexmend.study.bench.sections import machine
+    from hexmend.study.machine import machine
 
     assert (machine()["threads"], machine()["kernels"]) == (kernels.threads(), kernels.BUILD)
     assert machine()["system"].isalpha()

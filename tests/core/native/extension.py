@@ -1,6 +1,6 @@
-"""Extension module of the native functions that only tests call.
+"""Extension modules of the native functions that only tests and benchmarks call.
 
-It is built with the other kernels by make and by scripts/build-kernels, and is no part of a wheel.
+They are built with the other kernels by make and by scripts/build-kernels, and are no part of a wheel.
 """
 
 from types import ModuleType
@@ -12,4 +12,11 @@ def extension() -> ModuleType:
     """Return the module; skips the tests of the calling file where it is not built."""
     return pytest.importorskip(
         "tests.hexmend_test_kernels", reason="hexmend_test_kernels is not built: run scripts/build-kernels .venv/bin"
+    )
+
+
+def scalar_reference() -> ModuleType:
+    """Return the scalar reference of the kernels; skips the tests of the calling file where it is not built."""
+    return pytest.importorskip(
+        "benchmarks.kernels.scalar_reference", reason="it is not built: run scripts/build-kernels .venv/bin"
     )

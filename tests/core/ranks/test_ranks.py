@@ -11,13 +11,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.scale import launching
 from hexmend.cli.main import main
 from hexmend.energy.ranks import ONE_RANK
 from hexmend.gallery import make
 from hexmend.io import read, write
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
-from hexmend.ranks import launching
 from hexmend.ranks.rank_part import arrays_of_parts, divide, owners_of_nodes
 from tests.core.doctor.faulty_meshes import bent
 

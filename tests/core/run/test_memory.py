@@ -7,13 +7,12 @@ import sys
 import numpy as np
 import pytest
 
+from benchmarks.scale.memory import measure_memory
 from hexmend import gallery, io
 from hexmend.cli.main import main
 from hexmend.run.memory import FIXED, available, needed, shortage
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
-from hexmend.study.bench.memory import measure_memory
-from hexmend.study.thesis.runner import planned_runs
 
 MEBIBYTE = 1 << 20
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nobody says what is free, or what is held")
@@ -165,26 +164,6 @@ def test_a_run_beyond_a_limit_is_refused_before_it_begins_unless_forced(words, m
     assert done.stderr.startswith("hexmend: warning: Mend on 1,000 hexes needs about")
     assert (tmp_path / out).exists()
     assert mesh_file.read_bytes() == before
-
-
-@on_linux
-def test_a_study_is_refused_before_it_begins(tmp_path):
-    done = limited(310, "study", "thesis", "--quick", "-o", tmp_path / "study")
-    assert done.returncode == 3
-    assert "run fewer tables (--only)" in done.stderr
-    assert not (tmp_path / "study").exists()
-
-
-def test_every_table_of_the_thesis_has_its_methods_planned():
-    from hexmend.study.thesis.experiments import load
-
-    thesis = load()
-    for quick in (True, False):
-        plans = list(planned_runs(thesis, quick))
-        assert len(plans) == len(thesis.experiments) + len(thesis.outlooks)
-        for one, (works, hexes) in zip(thesis.experiments, plans, strict=False):
-            assert {work.name for work in works} >= set(one.methods)
-            assert hexes == one.requested_hexes(quick)
 
 
 def test_memory_that_runs_out_all_the_same_is_said_in_a_line(mesh_file, tmp_path, monkeypatch, capsys):

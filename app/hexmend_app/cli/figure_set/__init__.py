@@ -14,15 +14,13 @@ _HELP = "Write the figure set of a mesh: before and after, distributions, conver
 def _arguments(parser: argparse.ArgumentParser) -> None:
     from hexmend_app.cli import run_options
 
-    parser.add_argument("mesh", metavar="MESH", help="the mesh file; with --thesis, plane")
+    parser.add_argument("mesh", metavar="MESH", help="the mesh file")
     parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the figures")
     parser.add_argument("--format", metavar="A,B,...", help="png, pdf, svg (default png)")
     parser.add_argument("--width-mm", metavar="X", help="width of each figure in mm (default 170)")
     text = "surface, cut, distributions, convergence or table; repeat for several parts"
     parser.add_argument("--only", metavar="PART", action="append", default=[], help=text)
     run_options.add_arguments(parser)
-    parser.add_argument("--thesis", action="store_true", help="figures 4.5 to 4.9 of the thesis, of the mesh plane")
-    parser.add_argument("--quick", action="store_true", help="with --thesis: a few seconds per run")
 
 
 command = PictureCommand("figures", _HELP, _arguments, f"{__name__}.figure_files")

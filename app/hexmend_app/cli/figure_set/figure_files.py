@@ -4,40 +4,26 @@ from __future__ import annotations
 
 import argparse
 import sys
-from pathlib import Path
 
 from hexmend.cli.arguments.checks import check_memory
-from hexmend.cli.arguments.run_arguments import given_limits
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.process.interrupts import FinishWriting
-from hexmend.errors import HexmendError
 from hexmend.report import output_folder
 from hexmend.report.charts import WIDTHS, check_matplotlib
-from hexmend.report.thesis import write_plots
-from hexmend.study.thesis import experiments
-from hexmend.study.thesis.mesh_figures import draw_figures
-from hexmend.study.thesis.runner import run_experiments, select_tables
 from hexmend_app.cli import run_options
 from hexmend_app.cli.numbers import invalid_value, numbers
 from hexmend_app.report import figure_set
 from hexmend_app.report.case import command_line, run_methods, source_of
 from hexmend_app.report.figure_captions import write_captions
-from hexmend_app.report.figure_set import PARTS, Figure, Style, check_pages
+from hexmend_app.report.figure_set import PARTS, Style, check_pages
 
 #: Suffixes of figures.
 _FORMATS = ("png", "pdf", "svg")
-
-#: Gallery meshes whose figures are in the thesis, and the number of the table.
-_THESIS = {"plane": "4.14"}
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the methods, draw the figures and write them; invalid options are reported before the runs."""
     check_matplotlib()
-    if args.thesis:
-        return _thesis(args)
-    if args.quick:
-        raise invalid_value("--quick", "", "it together with --thesis")
     options = run_options.words(args, ("mesh", "output", "only", "force"))
     smoothers, stop = run_options.methods(args)
     names = run_options.names(args, len(smoothers))
@@ -80,33 +66,3 @@ def _style(args: argparse.Namespace) -> Style:
     if not WIDTHS[0] <= width <= WIDTHS[1]:
         raise invalid_value("--width-mm", args.width_mm, f"a width from {WIDTHS[0]:g} to {WIDTHS[1]:g} mm")
     return Style(run_options.scene(args), width, _formats(args))
-
-
-def _thesis(args: argparse.Namespace) -> int:
-    """Run the experiments of the thesis on a gallery mesh, and write the figures of the thesis."""
-    if args.mesh not in _THESIS:
-        raise invalid_value("--thesis", args.mesh, f"a mesh of the gallery: {', '.join(_THESIS)}")
-    formats = _formats(args)
-    for option, value in (("--width-mm", args.width_mm), ("--only", ",".join(args.only)), ("--scene", args.scene)):
-        if value:
-            raise invalid_value(option, value, "it without --thesis")
-    thesis = select_tables(experiments.load(), [_THESIS[args.mesh]])
-    if "max_seconds" in given_limits(args):
-        thesis = thesis.with_max_seconds(given_limits(args)["max_seconds"])
-    folder = output_folder(args.output)
-    with FinishWriting():
-        with Progress() as progress:
-            study = run_experiments(thesis, quick=args.quick, watch=progress.show)
-        drawn, missing = draw_figures(folder, study.results, formats)
-        if missing:
-            raise HexmendError(missing)
-        plotted, _ = write_plots(folder, study.record(), formats)
-        figures = []
-        for record in sorted([*drawn, *plotted], key=lambda record: record["number"]):
-            files = [Path(record["file"]).with_suffix(f".{suffix}") for suffix in formats]
-            figures.append(Figure(record["number"], f"{record['caption']}.", tuple(folder / file for file in files)))
-            print(f"{', '.join(map(str, files))}: {record['caption']}.")
-        command = command_line(["figures", args.mesh, *run_options.words(args, ("mesh", "output")), "-o", args.output])
-        write_captions(folder, args.mesh, [(figure, command) for figure in figures])
-        print(f"Written to {args.output}, with captions.md and commands.sh.")
-    return progress.signals.status if study.interrupted else 0

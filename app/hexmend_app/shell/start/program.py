@@ -59,12 +59,10 @@ def open_window(mesh: str | None = None, language: str | None = None) -> int:
     """
     app = application()
     install_language(app, language)
-    from hexmend_app.shell.start.start_report import report_start
     from hexmend_app.shell.start.window_start import WindowStart
     from hexmend_app.shell.window import Window
 
     window = Window()
-    report_start(window)
     report_unexpected_errors(window)
     window.ready.connect(lambda: [feature.program_started() for feature in window.features.values()])
     window.ready.connect(app.findChild(UiThreadGC).freeze)

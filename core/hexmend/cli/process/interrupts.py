@@ -209,19 +209,17 @@ class ExitAfterIteration(CleanExit):
 
     Parameters
     ----------
-    unit : str
-        The word for one pass of the loop, for the message.
     quiet : bool
         Write no message: another process does.
     """
 
-    def __init__(self, unit: str = "iteration", quiet: bool = False):
+    def __init__(self, quiet: bool = False):
         super().__init__()
-        self._unit, self._quiet = unit, quiet
+        self._quiet = quiet
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
         if count == 1 and not self._quiet:
-            write_line(f"Ending after this {self._unit}; a second Ctrl-C ends at once.")
+            write_line("Ending after this iteration; a second Ctrl-C ends at once.")
         elif count > 1:
             super()._answer(count - 1, number, frame)
 

@@ -12,7 +12,6 @@ from hexmend.parameters import Parametrised, parameter
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage, read_stage
 from hexmend.smoothers import Smoother
-from hexmend.study.batch.peer_case import PeerCase, read_peer_case
 
 
 @dataclass(frozen=True)
@@ -88,25 +87,23 @@ class Case:
         return {"recipe": title, **motion, "stages": [stage.values() for stage in self.stages]}
 
 
-def read_case(data: Mapping[str, Any]) -> Case | PeerCase:
+def read_case(data: Mapping[str, Any]) -> Case:
     """Make a case from its `values`; its name is that of the method, recipe or program.
 
     Parameters
     ----------
     data : mapping
-        `Case.values` or `PeerCase.values`.
+        `Case.values`.
 
     Returns
     -------
-    Case or PeerCase
+    Case
 
     Raises
     ------
     ParameterError
         For data that this version of Hexmend does not know.
     """
-    if "peer" in data:
-        return read_peer_case(data)
     stages = tuple(read_stage(number, stage) for number, stage in enumerate(data["stages"], 1))
     rules = MotionRules.from_values(data.get("motion", {}))
     if data["recipe"] is not None:

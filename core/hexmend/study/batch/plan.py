@@ -23,7 +23,6 @@ from hexmend.run.recipe import Recipe, check_format, check_keys, read_table
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
 from hexmend.study.batch.case import Case, TaskLimits
-from hexmend.study.batch.peer_case import PeerCase
 from hexmend.toml_text import parse_toml
 
 #: Most cases of one study.
@@ -43,7 +42,7 @@ class Plan:
     Parameters
     ----------
     title : str
-    cases : tuple of Case or PeerCase
+    cases : tuple of Case
         With unique names.
     limits : TaskLimits
         Limits of each task.
@@ -52,7 +51,7 @@ class Plan:
     """
 
     title: str
-    cases: tuple[Case | PeerCase, ...]
+    cases: tuple[Case, ...]
     limits: TaskLimits = field(default_factory=TaskLimits)
     surface: Path | None = None
 

@@ -14,7 +14,6 @@ from typing import Any, Protocol, TypeAlias
 from hexmend.errors import FileError
 from hexmend.io import writable_suffixes
 from hexmend.study.batch.case import Case
-from hexmend.study.batch.peer_case import PeerCase
 from hexmend.study.batch.plan import Plan
 from hexmend.study.batch.store import Store
 from hexmend.study.batch.table_columns import PLACE, Status, answer
@@ -196,7 +195,7 @@ def _table(plan: Plan, meshes: Sequence[Path], tasks: _Tasks, rows: _Rows) -> It
                 yield dict(zip((column.name for column in PLACE), values, strict=True)) | rows[place]
 
 
-def _name(mesh: Path, case: Case | PeerCase, key: str) -> str:
+def _name(mesh: Path, case: Case, key: str) -> str:
     """Return the file name of a result: mesh, case and part of the key."""
     suffix = mesh.suffix if mesh.suffix.lower() in writable_suffixes() else ".vtu"
     return f"{mesh.stem}-{re.sub(r'[^A-Za-z0-9]+', '-', case.name)[:80]}-{key[:8]}{suffix}"

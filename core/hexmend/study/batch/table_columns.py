@@ -48,12 +48,8 @@ def _figures(when: str, description: str) -> tuple[Column, ...]:
 PLACE = (
     Column("mesh", str, "The mesh file, as given on the command line."),
     Column("case", str, "Name of the case: the method with its values from the lists."),
-    Column("method", str, "The method's name, a recipe's title, or another program's name."),
-    Column(
-        "parameters",
-        str,
-        "All values of the method, as `name=value` words; empty for a recipe, the version of another program.",
-    ),
+    Column("method", str, "The method's name, or a recipe's title."),
+    Column("parameters", str, "All values of the method, as `name=value` words; empty for a recipe."),
     Column("mesh_hash", str, "SHA-256 of the mesh file."),
     Column("key", str, "Key of the task; its result is `tasks/KEY.json`."),
 )
@@ -80,9 +76,7 @@ ANSWER = (
     Column("message", str, "The reason with its figures, in sentences."),
     Column("iterations", int, "Iterations until the run ended."),
     Column("kept", int, "Number of the iteration that is the result."),
-    Column(
-        "seconds", float, "Seconds in the method, without its preparation; of another program those of its process."
-    ),
+    Column("seconds", float, "Seconds in the method, without its preparation."),
     Column("setup_seconds", float, "Seconds of the preparation of the method."),
     Column("task_seconds", float, "Seconds of the whole process, including start, reading and writing."),
     Column("threads", int, "Number of threads of the task."),

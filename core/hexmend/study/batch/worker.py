@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
 import threading
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from hexmend import kernels
-from hexmend.boundary.comparison import surface_change
 from hexmend.errors import FileError, HexmendError
 from hexmend.io import read, read_surface, write
 from hexmend.mesh.mesh import Mesh
@@ -21,7 +17,6 @@ from hexmend.quality import measure, objective, summarise
 from hexmend.run import smooth
 from hexmend.run.memory import peak_mb
 from hexmend.study.batch.case import Case, read_case
-from hexmend.study.batch.peer_case import PeerCase, bare_mesh
 from hexmend.study.batch.process_group import end_group
 from hexmend.study.batch.table_columns import Status, answer
 from hexmend.study.batch.task import Task, content_hash
@@ -49,12 +44,10 @@ def run(task: Task, version: str) -> dict[str, Any]:
         _check_environment(task, version)
         case = read_case(task.case)
         mesh = _mesh(task)
-        if isinstance(case, PeerCase):
-            mesh = bare_mesh(mesh)
         figures = _figures(mesh)
         row |= {key: figures.pop(key) for key in ("hexes", "nodes", "free_nodes")}
         row |= {f"{key}_before": value for key, value in figures.items()}
-        result, more = _run_peer(case, mesh, task) if isinstance(case, PeerCase) else _run_case(case, mesh)
+        result, more = _run_case(case, mesh)
         row |= {f"{key}_after": value for key, value in _figures(result).items() if key in figures}
         row |= more
         if task.output:
@@ -65,8 +58,6 @@ def run(task: Task, version: str) -> dict[str, Any]:
         status, reason = Status.LOST, str(error)
     except FileError as error:
         status, reason = _status_of(task, error), str(error)
-    except subprocess.TimeoutExpired as error:
-        status, reason = Status.TIME, f"It was not done within {error.timeout:g} s, and was ended."
     except MemoryError:
         status, reason = Status.MEMORY, "It needed more memory than it may have."
     except HexmendError as error:
@@ -121,14 +112,6 @@ def _run_case(case: Case, mesh: Mesh) -> tuple[Mesh, dict[str, Any]]:
     more |= {"worse": " ".join(result.worse), "outcome": result.outcome.key}
     more["boundary_distance"] = result.surface.max_percent_of_diagonal if result.surface else 0.0
     return result.mesh, more
-
-
-def _run_peer(case: PeerCase, mesh: Mesh, task: Task) -> tuple[Mesh, dict[str, Any]]:
-    """Run another program; return the result and columns of the row."""
-    result, seconds = case.run(mesh, task.max_seconds)
-    moved = not np.array_equal(result.points[mesh.fixed], mesh.points[mesh.fixed])
-    distance = surface_change(mesh, result).max_percent_of_diagonal if moved else 0.0
-    return result, {"seconds": seconds, "boundary_distance": distance}
 
 
 def _figures(mesh: Mesh) -> dict[str, Any]:

@@ -8,8 +8,8 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
+from benchmarks.window.windows import end_run
 from hexmend.run import StoppingCriteria
-from hexmend_app.bench.windows import end_run
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, choose, click, phase, press
 from tests.patience import PATIENCE

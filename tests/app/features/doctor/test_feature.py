@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QLabel, QPushButton
 
+from benchmarks.window.windows import end_run
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import end_run
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import press

@@ -10,9 +10,9 @@ from PIL import Image
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 
+from benchmarks.window.windows import end_run
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import end_run
 from hexmend_app.cli import figure_set
 from hexmend_app.features.figures.versions import versions_of
 from hexmend_app.picture import read_scene

@@ -10,11 +10,11 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit
 
+from benchmarks.window.windows import save_and_wait
 from hexmend import io
 from hexmend.boundary import NodeClass
 from hexmend.quality import METRICS
 from hexmend.run import StoppingCriteria
-from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.boundary_classifier import node_classes

@@ -9,10 +9,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel
 
+from benchmarks.window.windows import end_run
 from hexmend import gallery, io
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import end_run
 from hexmend_app.picture.appearance import Arrows, Since
 from hexmend_app.picture.colours import Range
 from hexmend_app.picture.cut import Cut

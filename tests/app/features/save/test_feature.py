@@ -12,9 +12,9 @@ from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
+from benchmarks.window.windows import save_and_wait
 from hexmend import io
 from hexmend.gallery import make
-from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.save.feature import FeatureSave
 from hexmend_app.picture import LineStyle, Page, write_scene
 from hexmend_app.picture.appearance import Structure

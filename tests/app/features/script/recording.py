@@ -6,11 +6,11 @@ import sys
 
 import numpy as np
 
+from benchmarks.window.windows import save_and_wait
 from hexmend import io
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.state.run.run_controller import Phase
 from tests.patience import PATIENCE
 

@@ -6,8 +6,8 @@ import sys
 import pytest
 from PySide6.QtWidgets import QApplication, QFileDialog, QPlainTextEdit, QPushButton
 
+from benchmarks.window.windows import save_and_wait
 from hexmend.run import StoppingCriteria
-from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, click, named, phase, press
 from tests.patience import PATIENCE

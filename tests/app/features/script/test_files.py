@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
+from benchmarks.window.windows import save_and_wait
 from hexmend import io
 from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.film.film_dialog import FilmChoice
 from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.state.mesh.history import RecordedIteration

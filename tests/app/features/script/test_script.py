@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from benchmarks.window.windows import save_and_wait
 from hexmend import io
 from hexmend.doctor import examine
 from hexmend.gallery import make
@@ -11,7 +12,6 @@ from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import save_and_wait
 from tests.app.features.script.recording import ENDLESS, SHORT, opened, paused, run, same_again, stage, stop
 from tests.patience import PATIENCE
 

@@ -5,9 +5,9 @@ import sys
 
 import pytest
 
+from benchmarks.window.windows import save_and_wait
 from hexmend import io
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.script.script import Script
 from hexmend_app.picture import Scene
 from hexmend_app.state.session.session import Session

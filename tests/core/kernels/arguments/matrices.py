@@ -20,10 +20,9 @@ def _energies() -> Iterator[Row]:
     m, k, sparsity = case().m, case().k, case().sparsity
     blocks = {"off_diagonal": sparsity.blocks + 1, "diagonal": k}
     yield row("target.TargetMatrices", listed="inverse_lengths", inverse_lengths=m, size_weight=0.0)
-    for family in "objective", "scalar_reference":
-        yield row(f"{family}.energies", "points", eta=m)
-        yield row(f"{family}.gradient", "points", shares=m)
-        yield row(f"{family}.hessian_product", "points values", slots=sparsity.slots, values=k, shares=m)
+    yield row("objective.energies", "points", eta=m)
+    yield row("objective.gradient", "points", shares=m)
+    yield row("objective.hessian_product", "points values", slots=sparsity.slots, values=k, shares=m)
     yield row("objective.gather", shares=8 * m, rows=k)
     bands = {"jacobian_band": 0.1, "quality_band": 0.1, "weight": 1.0}
     yield row("floor_barrier.Floors", jacobians=m, qualities=m, ignored=m, **bands)

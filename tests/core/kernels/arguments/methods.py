@@ -44,7 +44,6 @@ def _local() -> Iterator[Row]:
     groups = {"groups": colours.start, "nodes": colours.items}
     term = SurfaceTerm(np.ones((f, 4), np.uint8), np.ones((f, 3)), None, 1.0, 0.1)
     yield row("local.sweep", tangents=case().sliding.tangents(mesh.points), term=term, **groups)
-    yield row("scalar_reference.sweep", **groups)
     star, x = common()["corners"][:1], (1.0, 0.0, 0.0)
     yield row("local.patch_energy", "points", "star", star=star, factor=0.0)
     yield row("local.recorded_step", "points", "star", star=star)

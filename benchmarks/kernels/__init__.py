@@ -1,0 +1,1 @@
+"""Speed of the kernels, of iterations and of linear solvers."""

@@ -1,0 +1,1 @@
+"""Quality that `mend` and other methods reach."""

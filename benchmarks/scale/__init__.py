@@ -1,0 +1,1 @@
+"""Seconds and memory of whole processes against the size of the mesh."""
