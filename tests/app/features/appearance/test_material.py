@@ -5,9 +5,9 @@ import pytest
 from PySide6.QtWidgets import QComboBox
 
 from hexmend.gallery import make
-from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session import session_file
 from hexmend_app.features.appearance.feature import FeatureAppearance
+from hexmend_app.formats.session import session_file
+from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.picture import Range, from_toml
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.state.session import session_data

@@ -11,8 +11,8 @@ import pytest
 from PySide6.QtCore import QSettings
 
 from hexmend.errors import FileError
-from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session.session_file import VERSION
+from hexmend_app.formats.session.archive import read_archive, write_archive
+from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Colours, Isolate, Plane, Range, Show, read_scene
 from hexmend_app.picture.appearance import Arrows, Since, Structure, Traces
 from hexmend_app.picture.cut import Cut, CutKind, CutStyle

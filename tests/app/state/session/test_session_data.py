@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from hexmend.errors import FileError
-from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session import session_file
 from hexmend.iteration import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.codec import codec
+from hexmend_app.formats.session import session_file
+from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.state.run.run_setup import RunSetupData
 from hexmend_app.state.session import session_data
 from tests.app.state.session.former_look import former_look, without_later_fields

@@ -5,8 +5,7 @@
 
 from __future__ import annotations
 
-from hexmend.aliases import exports
-from hexmend.io.base.format import deferred, register
+from hexmend.io.base.format import Format, deferred
 
 SUFFIX = ".hexmend"
 
@@ -20,7 +19,5 @@ def is_session(head: bytes) -> bool:
 
 
 #: Deferred, because zipfile and json cost 9 ms.
-_read = deferred("hexmend.io.formats.session.session_file:read_shown_mesh")
-register("session", "Hexmend session", (SUFFIX,), encodings=(), read=_read, matches=is_session)
-
-__getattr__ = exports(__name__)
+_read = deferred("hexmend_app.formats.session.session_file:read_shown_mesh")
+FORMAT = Format("session", "Hexmend session", (SUFFIX,), encodings=(), read=_read, matches=is_session)

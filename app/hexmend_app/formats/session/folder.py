@@ -17,10 +17,10 @@ from typing import Any
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.archive.archive import encode_description, write_array
-from hexmend.io.archive.members import ARRAYS, DESCRIPTION, MEMBER
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.temporary_files import flush_file, flush_folder, make_folder
+from hexmend_app.formats.session.archive import encode_description, write_array
+from hexmend_app.formats.session.members import ARRAYS, DESCRIPTION, MEMBER
 
 
 class ArchiveFolder:
@@ -38,7 +38,7 @@ class ArchiveFolder:
         self._next = 0
 
     def write(self, format: str, version: int, data: Any) -> None:
-        """Update the folder to a tree; parameters as of `hexmend.io.archive.archive.write_archive`.
+        """Update the folder to a tree; parameters as of `hexmend_app.formats.session.archive.write_archive`.
 
         Raises
         ------

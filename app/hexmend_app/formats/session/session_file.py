@@ -1,6 +1,6 @@
 """Reading and writing of sessions.
 
-The file is an archive, see `hexmend.io.archive`. The viewer defines the data under the key "window".
+The file is an archive, see `hexmend_app.formats.session`. The viewer defines the data under the key "window".
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import FileError, MeshError
-from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.archive.folder import ArchiveFolder
-from hexmend.io.archive.mesh_data import MeshDecoder, check_fields, mesh_to_data
 from hexmend.io.files import check_readable, reading
 from hexmend.mesh.mesh import Mesh
+from hexmend_app.formats.session.archive import read_archive, write_archive
+from hexmend_app.formats.session.folder import ArchiveFolder
+from hexmend_app.formats.session.mesh_data import MeshDecoder, check_fields, mesh_to_data
 
 #: Version that is written; earlier ones can be read.
 VERSION = 9
@@ -67,7 +67,7 @@ def write_session(path: str | os.PathLike[str], meshes: Sequence[Mesh], now: int
 class SessionFolder:
     """Session in a folder that is updated again and again, of which only new arrays are written.
 
-    The folder is readable at any moment, even if the process is killed; see `hexmend.io.archive.folder`.
+    The folder is readable at any moment, even if the process is killed; see `hexmend_app.formats.session.folder`.
 
     Parameters
     ----------

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from hexmend.errors import FileError
-from hexmend.io.archive.archive import DESCRIPTION, read_archive
-from hexmend.io.archive.folder import ArchiveFolder
+from hexmend_app.formats.session.archive import DESCRIPTION, read_archive
+from hexmend_app.formats.session.folder import ArchiveFolder
 
 KIND = "test tree"
 
@@ -22,7 +22,7 @@ _WRITER = """
 import sys
 from pathlib import Path
 import numpy as np
-from hexmend.io.archive.folder import ArchiveFolder
+from hexmend_app.formats.session.folder import ArchiveFolder
 
 folder, arrays = ArchiveFolder(Path(sys.argv[1])), {}
 for number in range(10**6):
@@ -143,3 +143,21 @@ def test_no_link_is_followed(tmp_path):
     (path / "arrays/0.npy").symlink_to(tmp_path / "elsewhere.npy")
     with pytest.raises(FileError, match="which it does not contain"):
         read_archive(path, KIND, 1)
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self/fd"), reason="no /proc")
+def test_only_new_arrays_are_flushed_before_the_description_names_them(tmp_path, monkeypatch):
+    flushed, flush = [], os.fsync
+
+    def recorded_flush(handle):
+        flushed.append(os.path.basename(os.readlink(f"/proc/self/fd/{handle}")))
+        flush(handle)
+
+    folder, first = ArchiveFolder(tmp_path / "session"), np.arange(3)
+    folder.write("test", 1, [first])
+    monkeypatch.setattr(os, "fsync", recorded_flush)
+    folder.write("test", 1, [first, np.arange(4), np.arange(5)])
+    *arrays, description, parent = flushed
+    assert arrays == ["1.npy", "2.npy", "arrays"]
+    assert description.endswith("description.json")
+    assert parent == "session"

@@ -11,13 +11,13 @@ from hexmend import io
 from hexmend.boundary import SkinSurface
 from hexmend.errors import FileError
 from hexmend.gallery import make
-from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session import SUFFIX
-from hexmend.io.formats.session.session_file import VERSION, read_session, write_session
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES
+from hexmend_app.formats.session import SUFFIX
+from hexmend_app.formats.session.archive import read_archive, write_archive
+from hexmend_app.formats.session.session_file import VERSION, read_session, write_session
 
 KIND = "Hexmend session"
 

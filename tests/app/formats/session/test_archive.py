@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.errors import FileError
-from hexmend.io.archive.archive import DESCRIPTION, read_archive, write_archive
+from hexmend_app.formats.session.archive import DESCRIPTION, read_archive, write_archive
 
 KIND = "test tree"
 

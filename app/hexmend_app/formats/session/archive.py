@@ -16,7 +16,7 @@ from typing import IO, Any
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.archive.members import ARRAYS, DESCRIPTION, NOT_OURS, REMEDY, ArrayReader, open_members
+from hexmend_app.formats.session.members import ARRAYS, DESCRIPTION, NOT_OURS, REMEDY, ArrayReader, open_members
 
 #: Key of an array's number in the description. A further "$" precedes keys of the tree that begin with "$".
 _ARRAY = "$array"
@@ -91,7 +91,7 @@ def write_array(member: IO[bytes], array: np.ndarray) -> None:
 
 
 def read_archive(path: str | os.PathLike[str], format: str, version: int) -> tuple[int, Any]:
-    """Read a zip file from `write_archive`, or a folder from `hexmend.io.archive.folder`.
+    """Read a zip file from `write_archive`, or a folder from `hexmend_app.formats.session.folder`.
 
     Parameters
     ----------
