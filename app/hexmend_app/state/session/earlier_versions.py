@@ -9,13 +9,13 @@ import numpy as np
 from hexmend.advice import Advice
 from hexmend.aliases import former_attributes
 from hexmend.errors import ParameterError
-from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import migrate_surface_tolerance
 from hexmend_app.codec.codec import DecodeError
 from hexmend_app.codec.config_table import encode
 from hexmend_app.picture.appearance import with_material_colours
 from hexmend_app.picture.cut import CutKind, proposed_cuts
 from hexmend_app.state.mesh.run_record import NodeOffsets
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_setup import RunSetupData
 
 #: Former names of fields, by class and current name.

@@ -13,7 +13,6 @@ from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
-from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import METHODS, Smoother
 from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter, since
 from hexmend_app.formats.session import SUFFIX, is_session
@@ -23,6 +22,7 @@ from hexmend_app.state.mesh.document import DocumentData, State
 from hexmend_app.state.mesh.history import HistoryData
 from hexmend_app.state.mesh.selection import SelectionData
 from hexmend_app.state.mesh.snapshots import Snapshot
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.comparison import ComparisonData
 from hexmend_app.state.run.recipe_draft import RecipeDraftData
 from hexmend_app.state.run.run_setup import RunSetupData

@@ -10,9 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from hexmend.aliases import reads_old_members, reads_old_names
 from hexmend.energy import ObjectiveNorm
-from hexmend.quality.descent import descent
+from hexmend_app.state.node_step.descent import descent
 
 #: Relative change of an energy that counts as rounding: energies of patches are computed with an error of about 2e-15.
 _ROUNDING = 1e-13
@@ -24,7 +23,6 @@ _NO_MOVE = 1e-9
 _NO_CHANGE = 1e-12
 
 
-@reads_old_members
 class StepStatus(Enum):
     """Outcome of the step of a node, as a sentence."""
 
@@ -59,7 +57,6 @@ class Pull(NamedTuple):
     weight: float | None
 
 
-@reads_old_names
 @dataclass(frozen=True, eq=False)
 class NodeStep:
     """The step of one node by a method.
@@ -143,7 +140,7 @@ class NodeStep:
 
     @cached_property
     def descent(self) -> np.ndarray:
-        """Negative gradient, (3,); zero if it is within rounding, see `hexmend.quality.descent.descent`."""
+        """Negative gradient, (3,); zero if it is within rounding, see `hexmend_app.state.node_step.descent.descent`."""
         return descent(self.gradient, self.hessian, self.before / self.unit if self.unit else self.before)
 
     @property

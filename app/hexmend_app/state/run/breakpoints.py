@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.aliases import reads_old_names
 from hexmend.iteration import Iteration
 from hexmend.terminal_text import count_phrase
 
@@ -29,7 +28,6 @@ class Hit:
     nodes: tuple[int, ...] = ()
 
 
-@reads_old_names
 @dataclass(frozen=True)
 class Breakpoints:
     """Events at which a run pauses; none by default.

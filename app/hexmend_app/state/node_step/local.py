@@ -7,9 +7,9 @@ import numpy as np
 from hexmend.energy.target import target_matrices
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step.patch import Patch, curve_length
-from hexmend.node_step.record import NodeStep, StepStatus, Trial
 from hexmend.smoothers.local.single_node import LocalDescent
+from hexmend_app.state.node_step.patch import Patch, curve_length
+from hexmend_app.state.node_step.record import NodeStep, StepStatus, Trial
 
 _STATUS = {
     local.StepStatus.MOVED: StepStatus.MOVED,

@@ -92,43 +92,6 @@ def without_curves(mesh: Mesh, nodes: Sequence[int] | np.ndarray | None = None) 
     return mesh.replace(cells=tuple(_unmarked(mesh.cells, keys, mesh.n_nodes)))
 
 
-def curve_through(mesh: Mesh, node: int) -> tuple[int, ...]:
-    """Find the marked curve through a node: a chain that ends where marked edges end or branch.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    node : int
-
-    Returns
-    -------
-    tuple of int
-        Nodes of the chain in order; the first node again at the end of a closed one; empty if no edge is marked there.
-    """
-    neighbours: dict[int, list[int]] = {}
-    for one, other in marked_segments(mesh).tolist():
-        neighbours.setdefault(one, []).append(other)
-        neighbours.setdefault(other, []).append(one)
-    chain = [node]
-    for _ in range(2):  # to one end, then from there to the other
-        chain = _walk(neighbours, list(reversed(chain)))
-        if len(chain) > 2 and chain[0] == chain[-1]:
-            break
-    return tuple(chain) if len(chain) > 1 else ()
-
-
-def _walk(neighbours: dict[int, list[int]], chain: list[int]) -> list[int]:
-    """Extend a chain at its end along marked edges, until these end, branch or lead back to its begin."""
-    while True:
-        node, at = chain[-1], neighbours.get(chain[-1], [])
-        if len(chain) > 1 and (len(at) != 2 or node == chain[0]):
-            return chain
-        onward = [other for other in at if len(chain) < 2 or other != chain[-2]]
-        if not onward:
-            return chain
-        chain.append(onward[0])
-
-
 def _edges_of(mesh: Mesh, nodes: Sequence[int] | np.ndarray) -> np.ndarray:
     """Return the edges between successive nodes of a chain, (k - 1, 2) int64."""
     nodes = as_set(nodes, "chain of nodes", mesh.n_nodes)

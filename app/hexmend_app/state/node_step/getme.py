@@ -6,13 +6,13 @@ import numpy as np
 
 from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step.explain import explain_free_node
-from hexmend.node_step.mean_step import next_step, step_to_target
-from hexmend.node_step.record import NodeStep, Pull, StepStatus
 from hexmend.quality import measure
 from hexmend.smoothers.general import General
 from hexmend.smoothers.getme.sequential import SequentialGETMe
 from hexmend.smoothers.getme.simultaneous import GETMe
+from hexmend_app.state.node_step.explain import explain_free_node
+from hexmend_app.state.node_step.mean_step import next_step, step_to_target
+from hexmend_app.state.node_step.record import NodeStep, Pull, StepStatus
 
 
 @explain_free_node.register

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import (
+from hexmend.quality import measure
+from hexmend_app.picture.displacement import (
     DISPLACEMENT_QUANTITIES,
     MENDED,
     NEWLY_INVALID,
@@ -11,7 +12,6 @@ from hexmend.boundary.displacement import (
     Displacement,
     ReferenceState,
 )
-from hexmend.quality import measure
 from tests.core.boundary.solids import slid
 from tests.core.grids import grid, scrambled
 

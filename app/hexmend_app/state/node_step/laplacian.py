@@ -6,11 +6,11 @@ import numpy as np
 
 from hexmend.kernels import laplacian as kernels
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step.explain import explain_free_node
-from hexmend.node_step.mean_step import step_to_target
-from hexmend.node_step.record import NodeStep, Pull
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
+from hexmend_app.state.node_step.explain import explain_free_node
+from hexmend_app.state.node_step.mean_step import step_to_target
+from hexmend_app.state.node_step.record import NodeStep, Pull
 
 
 @explain_free_node.register

@@ -9,11 +9,11 @@ import numpy as np
 from hexmend.energy import energy_of
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step.patch import Patch, curve_length
-from hexmend.node_step.record import NodeStep, StepStatus, Trial
 from hexmend.optimise.descent import descend
 from hexmend.quality import measure
 from hexmend.smoothers.global_.base import GlobalDescent
+from hexmend_app.state.node_step.patch import Patch, curve_length
+from hexmend_app.state.node_step.record import NodeStep, StepStatus, Trial
 
 #: Samples of the energy along the direction; each needs the energy of the whole mesh.
 _SAMPLES = 25

@@ -7,13 +7,13 @@ from functools import singledispatch
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index
-from hexmend.node_step.global_step import global_step
-from hexmend.node_step.local import local_step
-from hexmend.node_step.mean_step import next_step, step_to_target
-from hexmend.node_step.record import NodeStep, StepStatus
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.global_.base import GlobalDescent
 from hexmend.smoothers.local.single_node import LocalDescent
+from hexmend_app.state.node_step.global_step import global_step
+from hexmend_app.state.node_step.local import local_step
+from hexmend_app.state.node_step.mean_step import next_step, step_to_target
+from hexmend_app.state.node_step.record import NodeStep, StepStatus
 
 
 def explain(mesh: Mesh, smoother: Smoother, node: int) -> NodeStep:

@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.aliases import exports
 from hexmend.boundary import SkinSurface
 from hexmend.kernels import corner_values
 from hexmend.mesh.mesh import Mesh
@@ -246,6 +245,3 @@ class DisplacementCounts:
     worse: int
     newly_invalid: int
     mended: int
-
-
-__getattr__ = exports(__name__)

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.quality.binning import bin_counts
+from hexmend.kernels import binning
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 40), st.booleans(), st.booleans())
@@ -20,10 +20,7 @@ def test_every_value_is_counted_once_where_it_belongs(seed, bins, open_low, open
     at[place[~none] >= bins] = bins if open_high else bins - 1
     expected = np.bincount(at, minlength=bins + 3)
     expected[bins + 2] = none.sum()
-    counts = bin_counts(values, inverted, (low, high), bins, open_low, open_high)
+    counts = np.empty(bins + 3, dtype=np.int64)
+    binning.count(values, inverted, low, bins / (high - low), open_low, open_high, counts)
     assert counts.tolist() == expected.tolist()
     assert counts.sum() == values.size
-
-
-def test_nothing_is_counted_of_nothing():
-    assert bin_counts(np.empty(0), np.empty(0, bool), (0.0, 1.0), 3).tolist() == [0] * 6

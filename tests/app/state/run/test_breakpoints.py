@@ -10,7 +10,7 @@ from hexmend import gallery
 from hexmend.iteration import Iteration
 from hexmend.quality import measure
 from hexmend.run import StoppingCriteria, iterate
-from hexmend.run.breakpoints import Breakpoints
+from hexmend_app.state.run.breakpoints import Breakpoints
 
 MESH = gallery.make("bridge-sharp", size=864)  # Laplacian inverts hexes of it
 
@@ -68,7 +68,7 @@ def test_cuts_of_the_line_search():
 
 
 @pytest.mark.parametrize(
-    "one", [{"inverts": True}, {"q_min_falls": True}, {"node": 0}, {"hex": 0}, {"cuts": 0}], ids=str
+    "one", [{"inverts": True}, {"q_min_falls": True}, {"node": 0}, {"hex": 0}, {"backtracks": 0}], ids=str
 )
 def test_each_of_them_alone_is_something_to_pause_at(one):
     assert Breakpoints(**one).any

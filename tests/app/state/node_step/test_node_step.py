@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from hexmend.errors import MeshError
 from hexmend.gallery import make
-from hexmend.node_step import StepStatus, Sweep, explain
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
+from hexmend_app.state.node_step import StepStatus, Sweep, explain
+from tests.app.state.node_step.node_steps import LOCAL, after, patch_energy, swept
 from tests.core.grids import grid, scrambled
-from tests.core.node_steps import LOCAL, after, patch_energy, swept
 
 # Local methods
 
@@ -161,7 +161,7 @@ def test_looking_at_a_node_moves_none():
 
 
 def test_the_example_of_the_docs_runs(capsys):
-    text = (Path(__file__).resolve().parents[3] / "docs" / "node-step.md").read_text(encoding="utf-8")
+    text = (Path(__file__).resolve().parents[4] / "docs" / "node-step.md").read_text(encoding="utf-8")
     (program,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     exec(compile(program, "node-step.md", "exec"), {})
     first, second = capsys.readouterr().out.splitlines()

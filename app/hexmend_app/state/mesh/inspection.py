@@ -1,4 +1,4 @@
-"""Details of one hex and of one node, and the ranking of the worst hexes."""
+"""Details of one hex and of one node."""
 
 from __future__ import annotations
 
@@ -6,16 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.errors import MeshError
 from hexmend.kernels import local
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.validation import as_index, as_reals
-from hexmend.quality.descent import descent
+from hexmend.mesh.validation import as_index
 from hexmend.quality.file_ids import hex_ids, node_ids
-from hexmend.quality.measure import ElementQuality, corner_qualities, locked_hexes, measure
+from hexmend.quality.measure import corner_qualities, locked_hexes, measure
 from hexmend.quality.metric import METRICS
 from hexmend.quality.validity import least_jacobian
+from hexmend_app.state.node_step.descent import descent
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +140,7 @@ class NodeDetails:
         Sum of eta(H)^2 over these hexes, (3.3); +inf if one of them is inverted.
     downhill : (3,) float64
         Negative gradient of that energy with respect to the position, per mean edge length of these hexes; 0 if the
-        energy is infinite or the gradient is within rounding, see `hexmend.quality.descent.descent`.
+        energy is infinite or the gradient is within rounding, see `hexmend_app.state.node_step.descent.descent`.
     pinned : bool
         True for a pinned node, also on the boundary.
     file_id : int, optional
@@ -206,49 +205,3 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
         between = mesh.interfaces is not None and mesh.interfaces.interface_nodes[number]
         kind = "interface" if between and not mesh.immovable[number] else "pinned" if pinned else "fixed"
     return NodeDetails(number, mesh.points[number], kind, ring, energy, downhill, pinned, file_id)
-
-
-def rank_worst(values: np.ndarray, quality: ElementQuality, count: int, better: int = 1) -> np.ndarray:
-    """Find the worst hexes: inverted ones, then those that are invalid inside, then the others, each by a metric.
-
-    Among equal values, such as q = 0, the lower scaled Jacobian comes first, then the lower number. NaN is the worst.
-
-    Parameters
-    ----------
-    values : (m,) float64
-        Values of the metric.
-    quality : ElementQuality
-        Quality of the same hexes.
-    count : int
-        Largest number of hexes to be returned.
-    better : int
-        +1 if higher values are better, -1 if lower ones are.
-
-    Returns
-    -------
-    (at most count,) int64
-        Numbers of hexes, worst first.
-
-    Raises
-    ------
-    MeshError
-        For values of another shape or type.
-    """
-    keys = better * as_reals(values, "values")
-    if keys.shape != quality.q.shape:
-        raise MeshError(f"values have shape {keys.shape}: expected {quality.q.shape}, one for each hex")
-    keys[np.isnan(keys)] = -np.inf
-    soundness = 2 - quality.invalid.astype(np.int8) - quality.inverted
-    numbers = _least(soundness, np.arange(keys.size), count, keys, quality.scaled_jacobian)
-    return numbers[np.lexsort((numbers, quality.scaled_jacobian[numbers], keys[numbers], soundness[numbers]))]
-
-
-def _least(keys: np.ndarray, numbers: np.ndarray, count: int, *others: np.ndarray) -> np.ndarray:
-    """Select the `count` hexes with the least keys, in no order; ties are decided by the other keys."""
-    if count >= numbers.size:
-        return numbers
-    mine = keys[numbers]
-    bound = np.partition(mine, count - 1)[count - 1] if count else -np.inf
-    below, equal = numbers[mine < bound], numbers[mine == bound]
-    missing = count - below.size
-    return np.concatenate([below, _least(others[0], equal, missing, *others[1:]) if others else equal[:missing]])

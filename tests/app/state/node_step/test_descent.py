@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from hexmend.node_step import explain
-from hexmend.quality import describe_node
 from hexmend.smoothers import METHODS
+from hexmend_app.state.mesh.inspection import describe_node
+from hexmend_app.state.node_step import explain
 from tests.core.grids import grid
 
 SHEAR = np.array([[1, 0.4, 0.1], [0, 1, 0.3], [0, 0, 0.6]])

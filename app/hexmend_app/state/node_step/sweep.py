@@ -6,19 +6,17 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hexmend.aliases import reads_old_names
 from hexmend.energy.target import target_matrices
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index
-from hexmend.node_step.local import local_step
-from hexmend.node_step.record import NodeStep
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend.smoothers.visit_order import ORDERS
 from hexmend.terminal_text import count_phrase
+from hexmend_app.state.node_step.local import local_step
+from hexmend_app.state.node_step.record import NodeStep
 
 
-@reads_old_names
 class Sweep(Iterator[NodeStep]):
     """Iterator that moves one free node after the other, in the order in which `LocalDescent` visits them.
 

@@ -10,11 +10,11 @@ import numpy as np
 
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step.patch import MARGIN, Patch
-from hexmend.node_step.record import NodeStep, Pull, StepStatus
 from hexmend.quality import measure
 from hexmend.smoothers.base import Smoother
 from hexmend.smoothers.constrained_steps import constrained_steps
+from hexmend_app.state.node_step.patch import MARGIN, Patch
+from hexmend_app.state.node_step.record import NodeStep, Pull, StepStatus
 
 #: delta of the energy that is shown for a patch with an inverted hex; methods of this kind have no delta.
 DISPLAY_DELTA = 0.01

@@ -1,4 +1,4 @@
-"""Chains of boundary edges between two nodes."""
+"""Chains of boundary edges: the shortest between two nodes, and the marked curve through a node."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.features import dihedral_angles
+from hexmend.boundary.marking import marked_segments
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 
@@ -83,3 +84,40 @@ def _shortest(rows: tuple[Sequence[int], Sequence[int], Sequence[float]], start:
                 distance[others[at]], before[others[at]] = total, node
                 heapq.heappush(waiting, (total, others[at]))
     return before
+
+
+def curve_through(mesh: Mesh, node: int) -> tuple[int, ...]:
+    """Find the marked curve through a node: a chain that ends where marked edges end or branch.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    node : int
+
+    Returns
+    -------
+    tuple of int
+        Nodes of the chain in order; the first node again at the end of a closed one; empty if no edge is marked there.
+    """
+    neighbours: dict[int, list[int]] = {}
+    for one, other in marked_segments(mesh).tolist():
+        neighbours.setdefault(one, []).append(other)
+        neighbours.setdefault(other, []).append(one)
+    chain = [node]
+    for _ in range(2):  # to one end, then from there to the other
+        chain = _walk(neighbours, list(reversed(chain)))
+        if len(chain) > 2 and chain[0] == chain[-1]:
+            break
+    return tuple(chain) if len(chain) > 1 else ()
+
+
+def _walk(neighbours: dict[int, list[int]], chain: list[int]) -> list[int]:
+    """Extend a chain at its end along marked edges, until these end, branch or lead back to its begin."""
+    while True:
+        node, at = chain[-1], neighbours.get(chain[-1], [])
+        if len(chain) > 1 and (len(at) != 2 or node == chain[0]):
+            return chain
+        onward = [other for other in at if len(chain) < 2 or other != chain[-2]]
+        if not onward:
+            return chain
+        chain.append(onward[0])

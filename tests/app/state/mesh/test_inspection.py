@@ -1,17 +1,14 @@
-"""Details of one hex and of one node, and the order of the worst hexes."""
-
-from types import SimpleNamespace
+"""Details of one hex and of one node."""
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
+from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import ElementQuality, describe_hex, describe_node, measure, rank_worst
-from hexmend.quality.validity import Validity
+from hexmend.quality import METRICS, measure
+from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from tests.core.grids import grid, scrambled
 
 
@@ -22,34 +19,13 @@ def test_an_element_says_what_the_whole_mesh_says_of_it():
         one = describe_hex(mesh, h)
         assert one.number == h
         np.testing.assert_array_equal(one.nodes, mesh.hexes[h])
-        assert one.values["q"] == figures.q[h] == pytest.approx(one.corners.mean())
-        assert one.values["scaled-jacobian"] == figures.scaled_jacobian[h]
+        assert figures.q[h] == pytest.approx(one.corners.mean())
+        for name, metric in METRICS.items():
+            assert one.values[name] == pytest.approx(metric.values(mesh, figures)[h], rel=1e-9, abs=1e-6, nan_ok=True)
         assert one.inverted == figures.inverted[h]
         np.testing.assert_array_equal(one.fixed, mesh.fixed[one.nodes])
         shared = [len(set(one.nodes) & set(mesh.hexes[k])) if k >= 0 else 4 for k in one.neighbours]
         assert shared == [4] * 6
-
-
-@given(st.integers(0, 2**32 - 1), st.integers(0, 40), st.sampled_from([1, -1]))
-def test_the_worst_are_inverted_then_invalid_inside_then_the_lowest(seed, count, better):
-    random = np.random.default_rng(seed)
-    values, jacobian = random.integers(0, 6, (2, 30)) / 5.0
-    sigma = random.choice([-1.0, 1.0], 30, p=[0.3, 0.7])
-    inside = np.where(random.random(30) < 0.2, Validity.INVALID_INSIDE, Validity.VALID)
-    validity = np.where(sigma <= 0, Validity.INVERTED, inside).astype(np.uint8)
-    figures = ElementQuality(values, sigma, jacobian, values, validity)
-    got = rank_worst(values, figures, count, better)
-    order = [Validity.INVERTED, Validity.INVALID_INSIDE, Validity.VALID]
-    everything = sorted(range(30), key=lambda h: (order.index(validity[h]), better * values[h], jacobian[h], h))
-    assert got.tolist() == everything[:count]
-
-
-def test_what_has_no_value_is_the_worst_whichever_way_is_better():
-    values = np.array([0.5, np.nan, 3.0, np.inf])
-    figures = ElementQuality(values, np.ones(4), np.zeros(4), values, np.zeros(4, np.uint8))
-    assert rank_worst(values, figures, 4).tolist() == [1, 0, 2, 3]
-    assert rank_worst(values, figures, 3, better=-1).tolist() == [1, 3, 2]
-    assert np.isnan(values[1])  # not written into
 
 
 def test_a_node_says_what_the_mesh_says_of_it():
@@ -90,12 +66,7 @@ def test_a_node_of_no_hex_is_unused_and_goes_nowhere():
     assert one.point.tolist() == [9, 9, 9]
 
 
-@pytest.mark.parametrize("count", [0, 1, 7, 100, 2_999, 3_000, 4_000])
-@pytest.mark.parametrize("levels", [2, 40, 10**9])
-def test_of_many_hexes_the_worst_are_found_without_sorting_all(count, levels):
-    random = np.random.default_rng(count)
-    q, scaled = (random.integers(0, levels, 3_000) / levels for _ in range(2))
-    order = np.lexsort((np.arange(3_000), scaled, q))
-    valid = np.zeros(3_000, bool)
-    figures = SimpleNamespace(q=q, scaled_jacobian=scaled, inverted=valid, invalid=valid)
-    assert rank_worst(q, figures, count).tolist() == order[:count].tolist()
+@pytest.mark.parametrize("number", [-1, 8, 1.5, "a", None, True])
+def test_a_hex_that_does_not_exist_is_refused(number):
+    with pytest.raises(MeshError, match="expected a whole number from 0 to"):
+        describe_hex(grid(2), number)
