@@ -13,7 +13,7 @@ from hexmend.mesh.second_order.curved_geometry import (
     quad_normals,
 )
 from hexmend.mesh.second_order.mid_node_lookup import edge_mid_nodes, face_mid_nodes
-from hexmend.mesh.structure import SHARP_DEGREES
+from hexmend_app.state.mesh.structure import SHARP_DEGREES
 
 #: Number of lines into which an edge is divided.
 DIVISIONS = 8

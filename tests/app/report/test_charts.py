@@ -8,8 +8,8 @@ import pytest
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.report.charts import ChartStyle, chart_png, write_chart
-from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
-from hexmend.report.histogram import Histogram, Outline
+from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
+from hexmend_app.report.histogram import Histogram, Outline
 
 HISTOGRAM = Histogram(
     [Outline("before", "#5b6573", [1, 2, 3], filled=True, note="2 inverted"), Outline("after", "#0072B2", [0, 4, 9])],

@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.iteration.figures import HISTORY, objective_changes
-from hexmend.report.charts import ChartStyle, write_chart
-from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
-from hexmend.report.histogram import Histogram, Outline
-from hexmend.report.plots import COLOURS
+from hexmend.report.charts import COLOURS, ChartStyle, write_chart
+from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
+from hexmend_app.report.histogram import Histogram, Outline
 
 #: Colour of the initial mesh.
 _INITIAL_COLOUR = "#5b6573"

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from hexmend.gallery import make
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import find_structure
 from hexmend.mesh.topology import Topology
+from hexmend_app.state.mesh.structure import find_structure
 from tests.core.grids import grid
 from tests.core.mesh.topology.test_topology import closed, loose
 

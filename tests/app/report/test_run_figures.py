@@ -4,7 +4,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from hexmend.report.run_figures import write_convergence, write_distributions
+from hexmend_app.report.run_figures import write_convergence, write_distributions
 
 ROWS = [
     {"iteration": k, "q_min": 0.1 * k, "objective": None if k == 0 else 9.0 / k, "inverted": 3 - k, "invalid": 4 - k}
