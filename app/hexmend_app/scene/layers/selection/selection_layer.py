@@ -7,10 +7,11 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order.curved_geometry import edge_middles, hex_nodes
+from hexmend.mesh.second_order.curved_geometry import hex_nodes
 from hexmend.mesh.second_order.mid_node_lookup import EDGE_COLUMNS
 from hexmend.quality import corner_qualities
 from hexmend.quality.validity import Validity, certify
+from hexmend_app.scene.geometry.curved_elements import edge_middles
 from hexmend_app.scene.layers.selection.highlight import Highlight
 from hexmend_app.scene.layers.selection.negative_jacobian import NegativeJacobian
 from hexmend_app.scene.layers.selection.node_step import NodeStepMarks

@@ -8,16 +8,14 @@ from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.second_order import NODE_POSITIONS
 from hexmend.mesh.second_order.curved_geometry import (
     QUAD_POSITIONS,
-    evaluate_edges,
-    evaluate_hexes,
     evaluate_quads,
     grid,
     hex_nodes,
     quad_functions,
     quad_nodes,
-    quad_normals,
 )
-from hexmend.mesh.second_order.mid_node_lookup import edge_mid_nodes, face_mid_nodes
+from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
+from hexmend_app.scene.geometry.curved_elements import edge_mid_nodes, evaluate_edges, evaluate_hexes, quad_normals
 from tests.core.curved_shell import curved_shell
 
 
