@@ -31,8 +31,9 @@ import numpy as np
 from hexmend import gallery, io
 from hexmend.errors import HexmendError
 from hexmend.io.base.format import FORMATS, Format
-from hexmend.io.formats.session.session_file import write_session
 from hexmend.mesh.mesh import Mesh
+from hexmend_app.formats.session import FORMAT as SESSION
+from hexmend_app.formats.session.session_file import write_session
 
 #: Memory limit of the process in bytes, time limit per file in seconds, and size limit of foreign files in bytes.
 MEMORY, SECONDS, LARGEST = 3 << 30, 20, 3_000_000
@@ -108,7 +109,7 @@ def seeds(format: Format, meshes: Path | None) -> list[Seed]:
                     }
                     beside.pop(path.name, None)
                     found.append(Seed(format.suffixes[0], path.read_bytes(), beside))
-    if format.name == "session":  # which holds more than a mesh, so that no mesh is written as one
+    if format is SESSION:  # which holds more than a mesh, so that no mesh is written as one
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "session.hexmend"
             write_session(path, _meshes(), 1, {"look": [0.5, None]})
@@ -229,8 +230,9 @@ def main() -> int:
     signal.signal(signal.SIGALRM, _ring)
     kept = Path(tempfile.mkdtemp(prefix="spoilt-"))
     bad = 0
-    for name in args.formats or list(FORMATS):
-        counts = fuzz(FORMATS[name], args.cases, args.seed, args.meshes and Path(args.meshes), kept)
+    formats = {**FORMATS, SESSION.name: SESSION}
+    for name in args.formats or formats:
+        counts = fuzz(formats[name], args.cases, args.seed, args.meshes and Path(args.meshes), kept)
         wrong = sum(counts.values()) - counts["mesh"] - counts["error"]
         bad += wrong
         print(

@@ -16,11 +16,9 @@ from enum import StrEnum
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.iteration import Outcome
 from hexmend.iteration.figures import DIAGNOSTICS, HISTORY
 from hexmend.iteration.stopping import StoppingCriteria
-from hexmend.node_step import StepStatus
 from hexmend.parameters import declared
 from hexmend.quality import METRICS, SUMMARY_QUANTITIES
 from hexmend.report.charts import ChartStyle
@@ -35,11 +33,13 @@ from hexmend_app.features.compare.comparison_table import INITIAL
 from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.picture import Scene
 from hexmend_app.picture.colour_map import COLOUR_MAPS
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.picture.layer_switch import LAYERS
 from hexmend_app.picture.quantities import MATERIAL
 from hexmend_app.resources import recipes
 from hexmend_app.state.mesh.comparison_base import FILE_OPENED
 from hexmend_app.state.mesh.hex_groups import GROUPS
+from hexmend_app.state.node_step import StepStatus
 from hexmend_app.state.view.side_views import NOW
 from hexmend_app.translation import section_of
 from hexmend_app.widgets.wording import name_in_words

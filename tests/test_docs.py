@@ -12,8 +12,8 @@ from PIL import Image
 
 from hexmend import io, smooth
 from hexmend.cli.main import commands, main
-from hexmend.io.formats.session import session_file
 from hexmend.run import recipe
+from hexmend_app.formats.session import session_file
 from hexmend_app.picture import scene
 from hexmend_app.scene.film.film_page import FilmPage
 from tests.examples import blocks, run_page

@@ -30,7 +30,7 @@ CORE = [
     {"smoothers"},
     {"io"},
     {"interop", "ranks", "run"},
-    {"node_step", "padding"},
+    {"padding"},
     {"advice"},
     {"notebook", "report", "study"},
     {"cli"},

@@ -20,6 +20,7 @@ import hexmend
 from hexmend import gallery, io
 from hexmend.cli.main import main
 from hexmend.io import FORMATS
+from hexmend_app.formats.session import SUFFIX
 
 ROOT = Path(__file__).resolve().parents[1]
 DESKTOP = ROOT / "desktop"
@@ -69,7 +70,7 @@ def test_the_viewer_opens_all_types_and_no_others():
 
 def test_every_format_has_a_type():
     known = {suffix for some in suffixes().values() for suffix in some}
-    assert known == {suffix for format in FORMATS.values() for suffix in format.suffixes} - COMMON
+    assert known == {suffix for format in FORMATS.values() for suffix in format.suffixes} - COMMON | {SUFFIX}
 
 
 def test_icons_are_of_their_sizes_and_installed():

@@ -10,9 +10,9 @@ from pathlib import Path
 
 from screenshots import cut_mesh, run_method, set_method, take_screenshots, wait_until, zoom_out
 
-from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.shell.window import Window
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.theme_choice import ThemeChoice, choose
 from hexmend_app.widgets.section import Section

@@ -9,7 +9,6 @@ from PySide6.QtCore import QCoreApplication, Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QComboBox, QTabBar, QTableView, QTreeView, QWidget
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.doctor import PROBLEMS
 from hexmend.errors import FileError, ParameterError
 from hexmend.iteration import Outcome
@@ -20,6 +19,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.catalogue import Translation, quoted, read_catalogue
 from hexmend_app.picture.appearance import Since
 from hexmend_app.picture.colour_map import COLOUR_MAPS
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.resources import recipes
 from hexmend_app.shell.start import language
 from hexmend_app.shell.start.language import install_language

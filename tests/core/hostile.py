@@ -21,17 +21,7 @@ from hexmend.mesh.fixing import fix_outside, with_pinned
 from hexmend.mesh.patches import partition_patches
 from hexmend.mesh.tags import with_tag
 from hexmend.mesh.topology import Topology
-from hexmend.node_step import Sweep, explain
-from hexmend.quality import (
-    METRICS,
-    corner_determinants,
-    corner_qualities,
-    describe_hex,
-    describe_node,
-    locked_hexes,
-    rank_worst,
-)
-from hexmend.quality.binning import bin_counts
+from hexmend.quality import METRICS, corner_determinants, corner_qualities, locked_hexes, rank_worst
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
 from tests.core.grids import grid, scrambled
 
@@ -101,7 +91,6 @@ CALLS: dict[str, Callable[[object], object]] = {
     "corner_determinants, which": lambda v: corner_determinants(X, H, v),
     "corner_qualities": lambda v: corner_qualities(X, v),
     "rank_worst, values": lambda v: rank_worst(v, QUALITY, 3),
-    "bin_counts": lambda v: bin_counts(v, QUALITY.inverted, (0.0, 1.0), 5),
     **{f"{name}, hexes": lambda v, of=one.of: of(X, v, QUALITY) for name, one in METRICS.items()},
     **{f"{name}, points": lambda v, of=one.of: of(v, H, QUALITY) for name, one in METRICS.items()},
     "mean_edge_length": lambda v: mean_edge_length(X, v),
@@ -144,10 +133,6 @@ CALLS: dict[str, Callable[[object], object]] = {
     "fix_outside": lambda v: fix_outside(MESH, v),
     "with_tag": lambda v: with_tag(MESH, "a", v),
     "partition_patches": lambda v: partition_patches(MESH, v, 1),
-    "describe_hex": lambda v: describe_hex(MESH, v),
-    "describe_node": lambda v: describe_node(MESH, v),
-    "explain": lambda v: explain(MESH, SD, v),
-    "Sweep.preview": lambda v: Sweep(MESH, SD).preview(v),
 }
 
 SHAPES = st.sampled_from(

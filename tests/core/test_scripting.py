@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import hexmend as hx
-from hexmend.errors import FileError, MeshError, ParameterError
-from hexmend.quality import METRICS, describe_hex, worst_hexes
+from hexmend.errors import FileError, ParameterError
+from hexmend.quality import METRICS, worst_hexes
 
 MESH = hx.gallery.make("bridge-sharp", size=500, scramble=0.4, seed=1)
 
@@ -148,12 +148,6 @@ def test_a_name_that_is_nearly_right_is_suggested():
             getattr(hx, wrong)
     with pytest.raises(ParameterError, match=r"no metric 'scaled-jacobain': did you mean scaled-jacobian\?"):
         MESH.quality("scaled_jacobain")
-
-
-@pytest.mark.parametrize("number", [-1, MESH.n_hexes, 1.5, "a", None, True])
-def test_there_is_nothing_to_know_of_a_hex_or_node_that_does_not_exist(number):
-    with pytest.raises(MeshError, match="expected a whole number from 0 to"):
-        describe_hex(MESH, number)
 
 
 def test_a_mesh_in_the_wrong_place_is_named_with_the_right_one(tmp_path):

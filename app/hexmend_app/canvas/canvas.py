@@ -12,8 +12,7 @@ from PySide6.QtGui import QCloseEvent, QColor, QPainter, QPaintEvent, QResizeEve
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step import NodeStep
-from hexmend.quality import ElementQuality, NodeDetails
+from hexmend.quality import ElementQuality
 from hexmend_app.canvas.camera_view import CameraView
 from hexmend_app.canvas.pointer import Pointer
 from hexmend_app.canvas.shading_task import ShadingTask
@@ -29,6 +28,8 @@ from hexmend_app.scene.cutting.plane_widget import PlaneWidget
 from hexmend_app.scene.cutting.sphere_widget import SphereWidget
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.picking import Hit
+from hexmend_app.state.mesh.inspection import NodeDetails
+from hexmend_app.state.node_step import NodeStep
 from hexmend_app.state.view.side_views import Wipe
 from hexmend_app.theme.palette import BLUE, THEME
 from hexmend_app.theme.spacing import on_grid

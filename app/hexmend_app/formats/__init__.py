@@ -1,1 +1,1 @@
-"""File formats that require VTK, registered through the entry-point group `hexmend.formats`."""
+"""File formats of the viewer, registered through the entry-point group `hexmend.formats`."""

@@ -64,7 +64,7 @@ def cameras_of(path: str | os.PathLike[str]) -> dict[str, Camera]:
     FileError
         If the file cannot be read, or its cameras are invalid.
     """
-    from hexmend.io.formats.session.session_file import read_session
+    from hexmend_app.formats.session.session_file import read_session
 
     window = read_session(path).window
     data = window.get(_KEY) if isinstance(window, dict) else None

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
 from hexmend.quality import METRICS, HexQuantity
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
 
 #: The material of a hex; its values are names, each with a colour of its own.
 MATERIAL = HexQuantity(

@@ -7,15 +7,15 @@ from dataclasses import dataclass, replace
 from math import ceil, sqrt
 from pathlib import Path
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.errors import ParameterError
 from hexmend.report import comparison_rows, comparison_table, write_documents
-from hexmend.report.run_figures import write_convergence, write_distributions
 from hexmend.report.tables import Table
 from hexmend_app.picture import Colours, Cut, PicturePanel, Plane, Scene, TextPlace
 from hexmend_app.picture.appearance import Traces
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.report.caption_phrases import coloured_by, cut_open, listed, opposite, seen_from
 from hexmend_app.report.case import Case
+from hexmend_app.report.run_figures import write_convergence, write_distributions
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
 

@@ -1,6 +1,5 @@
 """Locked hexes: those that no movement of nodes can mend while the boundary stays as it is, with proofs."""
 
-from hexmend.locking.free_positions import FreePositions, find_free_positions
 from hexmend.locking.locked_corners import LockedCorner, Reason, find_locked_corners
 from hexmend.locking.locking import Locking, find_locking
 from hexmend.locking.overlapping_corners import (
@@ -11,12 +10,10 @@ from hexmend.locking.overlapping_corners import (
 from hexmend.locking.visibility import nodes_without_space
 
 __all__ = [
-    "FreePositions",
     "LockedCorner",
     "Locking",
     "Reason",
     "describe_overlap",
-    "find_free_positions",
     "find_locked_corners",
     "find_locking",
     "hexes_without_valid_position",

@@ -1,4 +1,4 @@
-"""Hexes that stay inverted while the boundary is fixed: those that sliding frees, and those that need another layer."""
+"""Hexes that stay inverted while the boundary is fixed, and proofs that sliding does not free them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
 from hexmend.boundary.sliding import SlidingBoundary
-from hexmend.locking.free_positions import find_free_positions
 from hexmend.locking.locked_corners import LockedCorner, find_locked_corners
 from hexmend.locking.visibility import nodes_without_space
 from hexmend.mesh.mesh import Mesh
@@ -28,9 +27,6 @@ class Locking:
     ----------
     hexes : (k,) int64
         Hexes with a corner that is inverted, or flat, wherever the free nodes are while the boundary is fixed.
-    freed : (k,) bool
-        True for those that are sound at positions that were found, the nodes of the boundary on their patches and
-        curves, while no other hex is inverted that was not before.
     needs_layer : (k,) bool
         True for those with a corner of `corners`: no movement mends them while the boundary keeps its patches and
         curves. A layer of hexes under the boundary takes them off it (`hexmend.pad`).
@@ -42,15 +38,14 @@ class Locking:
     """
 
     hexes: np.ndarray
-    freed: np.ndarray
     needs_layer: np.ndarray
     unmendable: np.ndarray
     corners: tuple[LockedCorner, ...] = field(default=())
 
     @property
     def undecided(self) -> np.ndarray:
-        """True for hexes for which neither was shown, (k,) bool."""
-        return ~self.freed & ~self.needs_layer & ~self.unmendable
+        """True for hexes that sliding may free: nothing was proved of them, (k,) bool."""
+        return ~self.needs_layer & ~self.unmendable
 
     @property
     def phrase(self) -> str:
@@ -62,21 +57,20 @@ class Locking:
         """
         if not self.hexes.size:
             return ""
-        marks = self.freed, self.needs_layer, self.unmendable, self.undecided
-        freed, layer, neither, open_ = (int(np.count_nonzero(which)) for which in marks)
-        words = [f"{self.hexes.size:,} locked", f"sliding frees {freed:,}" if freed else "sliding frees none"]
+        marks = self.needs_layer, self.unmendable, self.undecided
+        layer, neither, undecided = (int(np.count_nonzero(which)) for which in marks)
+        words = [f"{self.hexes.size:,} locked"]
+        if undecided:
+            words.append(f"sliding may free {undecided:,}")
         if layer:
             words.append(f"{layer:,} {'needs' if layer == 1 else 'need'} another layer")
         if neither:
             words.append(f"{neither:,} that neither mends")
-        if open_:
-            words.append(f"{open_:,} undecided")
         return "; ".join(words)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the lists of hexes and the proofs as plain data."""
         marks = {
-            "freed_by_sliding": self.freed,
             "need_layer": self.needs_layer,
             "unmendable": self.unmendable,
             "undecided": self.undecided,
@@ -90,7 +84,7 @@ class Locking:
 
 
 def find_locking(mesh: Mesh, feature_angle: float = FEATURE_ANGLE, quality: ElementQuality | None = None) -> Locking:
-    """Find the locked hexes of a mesh, and what frees them.
+    """Find the locked hexes of a mesh, and proofs that sliding does not free them.
 
     Parameters
     ----------
@@ -111,22 +105,21 @@ def find_locking(mesh: Mesh, feature_angle: float = FEATURE_ANGLE, quality: Elem
     >>> points = mesh.points.copy()
     >>> points[0] = points[[1, 4]].mean(axis=0)  # a corner between its neighbours: two edges on one line
     >>> find_locking(mesh.with_points(points)).phrase
-    '1 locked; sliding frees none; 1 that neither mends'
+    '1 locked; 1 that neither mends'
     """
     quality = measure(mesh.points, mesh.hexes) if quality is None else quality
     locked = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)
     candidates = np.flatnonzero(locked | (quality.scaled_jacobian <= _FLAT))
     if not candidates.size:
         nothing = np.empty(0, dtype=bool)
-        return Locking(candidates, nothing, nothing, nothing)
+        return Locking(candidates, nothing, nothing)
     sliding = SlidingBoundary(mesh, feature_angle)
     corners = find_locked_corners(mesh, sliding, candidates)
     proven = np.unique(np.array([one.hex for one in corners], dtype=np.int64))
     hexes = np.union1d(np.flatnonzero(locked), proven)
-    is_proven, freed = np.isin(hexes, proven), np.zeros(hexes.size, dtype=bool)
-    freed[~is_proven] = find_free_positions(mesh, sliding, hexes[~is_proven]).free
+    is_proven = np.isin(hexes, proven)
     unmendable = is_proven & np.isin(hexes, _without_layer(mesh, corners, proven))
-    return Locking(hexes, freed, is_proven & ~unmendable, unmendable, corners)
+    return Locking(hexes, is_proven & ~unmendable, unmendable, corners)
 
 
 def _without_layer(mesh: Mesh, corners: tuple[LockedCorner, ...], hexes: np.ndarray) -> np.ndarray:

@@ -8,9 +8,8 @@ import importlib
 import pkgutil
 
 from hexmend.quality import metrics
-from hexmend.quality.inspection import HexDetails, NodeDetails, describe_hex, describe_node, rank_worst
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked_hexes, measure
-from hexmend.quality.mesh_quality import metric_values, worst_hexes
+from hexmend.quality.mesh_quality import metric_values, rank_worst, worst_hexes
 from hexmend.quality.metric import METRICS, HexQuantity, Metric
 from hexmend.quality.metrics.q import Q
 from hexmend.quality.metrics.scaled_jacobian import SCALED_JACOBIAN
@@ -30,18 +29,14 @@ __all__ = [
     "SCALED_JACOBIAN",
     "SUMMARY_QUANTITIES",
     "ElementQuality",
-    "HexDetails",
     "HexQuantity",
     "Metric",
     "MetricStatistics",
-    "NodeDetails",
     "Q",
     "SecondOrderSummary",
     "Summary",
     "corner_determinants",
     "corner_qualities",
-    "describe_hex",
-    "describe_node",
     "describe_regressions",
     "locked_hexes",
     "measure",

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.errors import ParameterError
+from hexmend.errors import MeshError, ParameterError
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.validation import as_reals
 from hexmend.parameters import Parameter
-from hexmend.quality.inspection import rank_worst
 from hexmend.quality.measure import ElementQuality, measure
 from hexmend.quality.metric import METRICS, Metric
 
@@ -94,3 +94,49 @@ def _of(mesh: Mesh, metric: str) -> tuple[Metric, np.ndarray, ElementQuality]:
     declared = find_metric(metric)
     quality = measure_mesh(mesh)
     return declared, declared.values(mesh, quality), quality
+
+
+def rank_worst(values: np.ndarray, quality: ElementQuality, count: int, better: int = 1) -> np.ndarray:
+    """Find the worst hexes: inverted ones, then those that are invalid inside, then the others, each by a metric.
+
+    Among equal values, such as q = 0, the lower scaled Jacobian comes first, then the lower number. NaN is the worst.
+
+    Parameters
+    ----------
+    values : (m,) float64
+        Values of the metric.
+    quality : ElementQuality
+        Quality of the same hexes.
+    count : int
+        Largest number of hexes to be returned.
+    better : int
+        +1 if higher values are better, -1 if lower ones are.
+
+    Returns
+    -------
+    (at most count,) int64
+        Numbers of hexes, worst first.
+
+    Raises
+    ------
+    MeshError
+        For values of another shape or type.
+    """
+    keys = better * as_reals(values, "values")
+    if keys.shape != quality.q.shape:
+        raise MeshError(f"values have shape {keys.shape}: expected {quality.q.shape}, one for each hex")
+    keys[np.isnan(keys)] = -np.inf
+    soundness = 2 - quality.invalid.astype(np.int8) - quality.inverted
+    numbers = _least(soundness, np.arange(keys.size), count, keys, quality.scaled_jacobian)
+    return numbers[np.lexsort((numbers, quality.scaled_jacobian[numbers], keys[numbers], soundness[numbers]))]
+
+
+def _least(keys: np.ndarray, numbers: np.ndarray, count: int, *others: np.ndarray) -> np.ndarray:
+    """Select the `count` hexes with the least keys, in no order; ties are decided by the other keys."""
+    if count >= numbers.size:
+        return numbers
+    mine = keys[numbers]
+    bound = np.partition(mine, count - 1)[count - 1] if count else -np.inf
+    below, equal = numbers[mine < bound], numbers[mine == bound]
+    missing = count - below.size
+    return np.concatenate([below, _least(others[0], equal, missing, *others[1:]) if others else equal[:missing]])

@@ -114,38 +114,6 @@ def least_jacobian(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray 
     return min((kernels.least_jacobian(points, linear), *curved))
 
 
-def jacobian_field(nodes: np.ndarray, divisions: int = 16) -> tuple[np.ndarray, np.ndarray]:
-    """Compute positions and det J on a regular grid of the unit cube, of one hex.
-
-    Parameters
-    ----------
-    nodes : (8, 3) or (27, 3) float64
-        Corners, or all nodes of the second order as `hexmend.mesh.second_order.curved_geometry.hex_nodes` has them.
-    divisions : int
-
-    Returns
-    -------
-    positions : (d + 1, d + 1, d + 1, 3) float64
-        First index along x.
-    determinants : (d + 1, d + 1, d + 1) float64
-        In the cube of the nodes' unit of length.
-    """
-    t = np.linspace(0.0, 1.0, divisions + 1)
-    if len(nodes) == 27:
-        values = np.column_stack([(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)])
-        slopes = np.column_stack([4 * t - 3, 4 - 8 * t, 4 * t - 1])
-    else:
-        values, slopes = np.column_stack([1 - t, t]), np.tile([-1.0, 1.0], (len(t), 1))
-    order = np.lexsort(NODE_POSITIONS[: len(nodes)].T[::-1])
-    lattice = nodes[order].reshape(*[values.shape[1]] * 3, 3)
-
-    def evaluate(*along: np.ndarray) -> np.ndarray:
-        return np.einsum("ia,jb,kc,abcx->ijkx", *along, lattice, optimize=True)
-
-    gradients = [evaluate(*(slopes if axis == other else values for other in range(3))) for axis in range(3)]
-    return evaluate(values, values, values), np.linalg.det(np.stack(gradients, axis=-2))
-
-
 def _checked(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Points and hexes as kernels take them; raises `MeshError`."""
     points = as_points(points)

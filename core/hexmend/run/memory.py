@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ctypes
+import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
@@ -24,9 +25,6 @@ A_FACE = 4500
 
 #: Bytes of address space that libraries and threads reserve without using them; a limit of RLIMIT_AS includes them.
 _RESERVED = 256 << 20
-
-#: Control groups of version 1 write "no limit" as a number above this one, in bytes.
-_UNLIMITED = 1 << 60
 
 #: Methods needing less memory that are named at most.
 _MAX_NAMED = 3
@@ -142,10 +140,22 @@ def available(root: Path = Path("/")) -> int | None:
     -----
     https://docs.kernel.org/admin-guide/cgroup-v2.html, memory; proc_meminfo(5), MemAvailable; getrlimit(2), RLIMIT_AS.
     """
-    found = [*_of_control_groups(root), *_of_address_space(root)]
-    kilobytes = _figure(root / "proc/meminfo", "MemAvailable:")
-    if kilobytes is not None:
+    found = []
+    if (kilobytes := _figure(root / "proc/meminfo", "MemAvailable:")) is not None:
         found.append(kilobytes << 10)
+    group = re.search(r"^0::/(.*)$", _text(root / "proc/self/cgroup"), re.MULTILINE)
+    inside = PurePosixPath(group[1]) if group and ".." not in group[1] else PurePosixPath()
+    for folder in (root / "sys/fs/cgroup" / part for part in (inside, *inside.parents)):
+        most, used = _figure(folder / "memory.max"), _figure(folder / "memory.current")
+        if most is not None and used is not None:
+            found.append(most - used + (_figure(folder / "memory.stat", "inactive_file") or 0))
+    taken = _figure(root / "proc/self/status", "VmSize:")
+    if taken is not None:
+        import resource  # not on Windows
+
+        limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+        if limit != resource.RLIM_INFINITY:
+            found.append(limit - (taken << 10) - _RESERVED)
     return max(0, min(found)) if found else None
 
 
@@ -157,52 +167,10 @@ def format_bytes(size: int) -> str:
     return f"{size / 1e9:.1f} GB" if size >= 1e9 else f"{size / 1e6:.0f} MB"
 
 
-def _of_control_groups(root: Path) -> Iterator[int]:
-    """Yield the bytes that each control group of the process leaves, from the innermost to the outermost."""
-    for line in _text(root / "proc/self/cgroup").splitlines():
-        _, controllers, path = line.split(":", 2)
-        if not controllers:
-            mounts: tuple[str, ...] = ("sys/fs/cgroup", "sys/fs/cgroup/unified")
-            names = ("memory.max", "memory.current", "inactive_file")
-        elif "memory" in controllers.split(","):
-            mounts = ("sys/fs/cgroup/memory",)
-            names = ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file")
-        else:
-            continue
-        inside = PurePosixPath(path.lstrip("/"))
-        inside = PurePosixPath() if ".." in inside.parts else inside  # outside the namespace of this process
-        for folder in (root / mount / group for mount in mounts for group in (inside, *inside.parents)):
-            yield from _of_a_group(folder, *names)
-
-
-def _of_a_group(folder: Path, limit: str, usage: str, reclaimable: str) -> Iterator[int]:
-    most, used = _number(_text(folder / limit)), _number(_text(folder / usage))
-    if most is not None and used is not None and most < _UNLIMITED:
-        yield most - used + (_figure(folder / "memory.stat", reclaimable) or 0)
-
-
-def _of_address_space(root: Path) -> Iterator[int]:
-    try:
-        import resource
-    except ImportError:  # on Windows
-        return
-    limit, taken = resource.getrlimit(resource.RLIMIT_AS)[0], _figure(root / "proc/self/status", "VmSize:")
-    if limit != resource.RLIM_INFINITY and taken is not None:
-        yield limit - (taken << 10) - _RESERVED
-
-
-def _figure(path: Path, name: str) -> int | None:
-    """Return the number after a name at the beginning of a line."""
-    for line in _text(path).splitlines():
-        words = line.split()
-        if len(words) > 1 and words[0] == name:
-            return _number(words[1])
-    return None
-
-
-def _number(text: str) -> int | None:
-    text = text.strip()
-    return int(text) if text.isascii() and text.isdigit() else None
+def _figure(path: Path, name: str = "") -> int | None:
+    """Return the number after a name at the beginning of a line; None where there is no such number."""
+    found = re.search(rf"^{re.escape(name)}\s*(\d+)\b", _text(path), re.MULTILINE)
+    return int(found[1]) if found else None
 
 
 def _text(path: Path) -> str:
@@ -225,12 +193,12 @@ def peak_mb() -> float:
 
     `ru_maxrss` is the fallback only: a process inherits it from its parent.
     """
-    try:
-        return _status_mb("VmHWM")
-    except OSError:
+    kilobytes = _figure(Path("/proc/self/status"), "VmHWM:")
+    if kilobytes is None:
         import resource
 
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+        kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return kilobytes / 1024
 
 
 def resident_mb() -> float:
@@ -241,12 +209,10 @@ def resident_mb() -> float:
     OSError
         If the system has no /proc.
     """
-    return _status_mb("VmRSS")
-
-
-def _status_mb(field: str) -> float:
-    with open("/proc/self/status", encoding="ascii") as file:
-        return next(int(line.split()[1]) / 1024 for line in file if line.startswith(field))
+    kilobytes = _figure(Path("/proc/self/status"), "VmRSS:")
+    if kilobytes is None:
+        raise OSError("the system has no /proc/self/status")
+    return kilobytes / 1024
 
 
 def release_freed() -> None:

@@ -65,6 +65,26 @@ class Measures:
             ratios[part] = divide(lengths.max(axis=0), lengths.min(axis=0), np.inf)
         return ratios
 
+    @property
+    def cell_volumes(self) -> np.ndarray:
+        """Sums of the pyramids of each hex, (m,) float64, in the cube of the mesh's unit of length."""
+        return self.cells.volumes * self.cells.unit**3
+
+    @property
+    def internal_faces(self) -> np.ndarray:
+        """True for faces between two hexes, (f,) bool."""
+        return self.faces.internal
+
+    @property
+    def boundary_faces(self) -> np.ndarray:
+        """True for faces of one hex, (f,) bool."""
+        return ~self.faces.internal
+
+    @property
+    def first_order(self) -> np.ndarray:
+        """True for hexes without mid-nodes, (m,) bool."""
+        return ~self.second_order
+
     @cached_property
     def second_order(self) -> np.ndarray:
         """True for hexes with mid-nodes, (m,) bool."""

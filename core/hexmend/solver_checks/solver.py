@@ -1,14 +1,18 @@
-"""A solver's checks together, their registry, and the report on a mesh."""
+"""Checks of each solver, read from `limits.toml`, and the report on a mesh."""
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.measure import ElementQuality
 from hexmend.registry import Registry
-from hexmend.solver_checks.check import Check, CheckResult
+from hexmend.solver_checks.check import Check, CheckResult, Level
 from hexmend.solver_checks.measures import Measures
+from hexmend.solver_checks.quantities import quantity
 from hexmend.solver_checks.validity import VALIDITY
 from hexmend.terminal_text import count_phrase
 
@@ -44,10 +48,6 @@ class Solver:
     def checks(self) -> tuple[Check, ...]:
         """Its own checks, and that for invalid hexes, which every solver has."""
         return *self.own_checks, VALIDITY
-
-    def register(self) -> Solver:
-        """Add the solver to `SOLVERS` under its name and return it; raises `ValueError` if the name is taken."""
-        return SOLVERS.add(self.name, self)
 
 
 @dataclass(frozen=True)
@@ -105,3 +105,17 @@ def check_mesh(mesh: Mesh, solver: str, quality: ElementQuality | None = None) -
 
 SOLVERS: Registry[Solver] = Registry("solver")
 """Solvers by name."""
+
+
+def _check(better: str, level: str, of: str, where: str = "", **fields: Any) -> Check:
+    """Make a check of its entry in the table."""
+    values = {"unit_of_count": "hexes", "limit": None} | fields
+    return Check(of=quantity(of, where), better=1 if better == "higher" else -1, level=Level[level.upper()], **values)
+
+
+for _name, _entry in tomllib.loads(Path(__file__).with_name("limits.toml").read_text(encoding="utf-8")).items():
+    _checks = tuple(_check(**check) for check in _entry["checks"])
+    _reservation = QUOTED if _entry.get("quoted") else ""
+    SOLVERS.add(
+        _name, Solver(_name, _entry["title"], _entry["tests_validity"], _checks, _entry["omitted"], _reservation)
+    )

@@ -9,13 +9,13 @@ import pytest
 
 from hexmend.errors import ParameterError
 from hexmend.run import StoppingCriteria
-from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter
 from hexmend_app.picture.appearance import Arrows, Look, Since, Structure, Traces
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box, Plane
 from hexmend_app.picture.visibility import Isolate, Show
+from hexmend_app.state.run.breakpoints import Breakpoints
 
 
 @dataclass(frozen=True)

@@ -119,5 +119,5 @@ def test_without_the_app_the_error_names_the_package_that_reads_it(library, monk
 
 def test_the_entry_point_is_registered():
     data = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())
-    (value,) = data["project"]["entry-points"]["hexmend.formats"].values()
+    value = data["project"]["entry-points"]["hexmend.formats"]["cgns-adf"]
     assert EntryPoint("cgns-adf", value, "hexmend.formats").load() is FORMAT

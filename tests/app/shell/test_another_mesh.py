@@ -11,10 +11,10 @@ from PySide6.QtWidgets import QApplication
 
 from hexmend import gallery, io
 from hexmend.run import StoppingCriteria
-from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.picture.appearance import Arrows, Structure, Traces
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE

@@ -16,9 +16,9 @@ import hexmend_app.features
 from hexmend import gallery
 from hexmend.cli.main import main
 from hexmend.io import write
-from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session.session_file import VERSION
 from hexmend.quality import METRICS
+from hexmend_app.formats.session.archive import read_archive, write_archive
+from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Page
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.palette.palette_entries import command_entries

@@ -8,7 +8,7 @@ from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QApplication
 
-from hexmend.quality import describe_hex, describe_node, measure, summarise
+from hexmend.quality import measure, summarise
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.features.appearance.colour_panel import ColourPanel
 from hexmend_app.features.convergence.curves import Columns, Curve
@@ -30,6 +30,7 @@ from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.shell.palette.ranking import PaletteEntry
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.state.settings.recent_files import RecentFiles
 from hexmend_app.theme import palette as theme

@@ -7,11 +7,12 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.boundary import NodeClass, SlidingBoundary, boundary_with_kept_corners
-from hexmend.boundary.marking import curve_through, edge_path, marked_segments, with_curve, without_curves
+from hexmend.boundary.marking import marked_segments, with_curve, without_curves
 from hexmend.cli.main import main
 from hexmend.errors import FileError, MeshError
 from hexmend.io.surfaces.curve_file import with_curves_of_file
 from hexmend.mesh.cells import Cells
+from hexmend_app.features.curves.edge_path import curve_through, edge_path
 from tests.core.boundary.solids import ball
 from tests.core.grids import grid
 

@@ -11,8 +11,8 @@ from hexmend.gallery import make
 from hexmend.gallery.five_side import DIVISIONS
 from hexmend.gallery.pairing import corner_angles, pair_triangles
 from hexmend.gallery.pentagon import CORNERS, fan, pentagon, subdivide
-from hexmend.mesh.structure import find_structure
 from hexmend.quality import summarise
+from hexmend_app.state.mesh.structure import find_structure
 
 #: The thesis's FiveSide4, 5, 6, 60k, 90k and 110k: hexes, quads, boundary nodes of the quads' mesh, free nodes.
 THESIS = [

@@ -14,8 +14,9 @@ from hexmend.mesh.second_order import MID_NODE_WEIGHTS, NODE_POSITIONS, jacobian
 from hexmend.mesh.second_order.curved_geometry import hex_nodes
 from hexmend.mesh.second_order.shape_functions import lagrange
 from hexmend.quality import measure, summarise
-from hexmend.quality.validity import Validity, certify, jacobian_bounds, jacobian_field, least_jacobian
+from hexmend.quality.validity import Validity, certify, jacobian_bounds, least_jacobian
 from hexmend.run import iterate
+from hexmend_app.scene.geometry.curved_elements import jacobian_field
 from tests.core.grids import grid, scrambled, with_edge_midpoints
 from tests.core.quality.test_validity import BETWEEN, random_hexes, separate
 

@@ -9,7 +9,8 @@ from hexmend import kernels
 from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.quality import corner_determinants, measure
-from hexmend.quality.validity import Validity, certify, jacobian_bounds, jacobian_field, least_jacobian
+from hexmend.quality.validity import Validity, certify, jacobian_bounds, least_jacobian
+from hexmend_app.scene.geometry.curved_elements import jacobian_field
 
 CORNERS = UNIT_CUBE.astype(int)
 #: All corners are positive, and det J is negative within the edge of x = 1, z = 1, but not at its middle.

@@ -120,14 +120,6 @@ TWO = {
     "sys/fs/cgroup/a/b/memory.max": "max\n",
     "sys/fs/cgroup/a/b/memory.current": "1000\n",
 }
-ONE = {
-    "proc/self/cgroup": "4:cpu,memory:/x\n2:pids:/y\n",
-    "sys/fs/cgroup/memory/memory.limit_in_bytes": "9223372036854771712\n",
-    "sys/fs/cgroup/memory/memory.usage_in_bytes": "500\n",
-    "sys/fs/cgroup/memory/x/memory.limit_in_bytes": "4000000\n",
-    "sys/fs/cgroup/memory/x/memory.usage_in_bytes": "1000000\n",
-    "sys/fs/cgroup/memory/x/memory.stat": "inactive_file 1\ntotal_inactive_file 7\n",
-}
 
 
 @pytest.mark.parametrize(("texts", "free"), [
@@ -135,7 +127,6 @@ ONE = {
     (INFO, 8000 << 10),
     (INFO | TWO, 1_700_000),
     (TWO, 1_700_000),
-    (INFO | ONE, 3_000_007),
     (INFO | {"proc/self/cgroup": "0::/../elsewhere\n"}, 8000 << 10),
     (INFO | TWO | {"sys/fs/cgroup/a/memory.current": "9000000\n"}, 0),
     (INFO | TWO | {"sys/fs/cgroup/a/memory.max": "\n"}, 8000 << 10),

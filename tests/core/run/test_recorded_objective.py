@@ -11,12 +11,12 @@ from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.iteration.figures import objective_changes
 from hexmend.quality import measure, objective
 from hexmend.report import comparison_rows, record_table
-from hexmend.report.run_figures import write_convergence
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 from hexmend.study.compare import compare
+from hexmend_app.report.run_figures import write_convergence
 
 OPTIMISERS = [name for name, cls in METHODS.items() if issubclass(cls, ObjectiveSmoother)]
 POWERS = [ObjectiveNorm(p, offset) for p in (1.0, 2.0, 4.0) for offset in (0.0, 1.0)]

@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from hexmend import kernels
 from hexmend.gallery import make
 from hexmend.kernels import local
-from hexmend.node_step import Sweep
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend.smoothers.visit_order import ORDERS, VisitOrder
+from hexmend_app.state.node_step import Sweep
 from tests.core.grids import grid, scrambled
 
 LOCAL = [name for name, method in METHODS.items() if issubclass(method, LocalDescent)]

@@ -6,7 +6,6 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.cli.arguments.checks import check_memory
 from hexmend.cli.arguments.run_arguments import method_and_limits, with_surface
 from hexmend.cli.output.progress import follow, show_count
@@ -16,6 +15,7 @@ from hexmend.run import iterate
 from hexmend_app.cli.numbers import invalid_value, parse_integer, parse_size
 from hexmend_app.cli.scene_options import look_of, view_of
 from hexmend_app.picture.appearance import Arrows, Since, Traces
+from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.film.film import format_of, pictures, write_film
 from hexmend_app.scene.film.film_frames import chosen_iterations, film_frames
 from hexmend_app.state.mesh.document import State

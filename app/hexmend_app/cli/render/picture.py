@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.io import read
-from hexmend.io.formats.session import SUFFIX
 from hexmend.io.storage.atomic import check_writable
 from hexmend_app.cli.numbers import invalid_value, numbers, parse_size
 from hexmend_app.cli.scene_options import with_options
+from hexmend_app.formats.session import SUFFIX
 from hexmend_app.picture import Camera, PicturePanel, Scene, TextPlace, camera_from, read_scene, write_scene
 from hexmend_app.picture.named_cameras import cameras_of
 from hexmend_app.scene.page.page_renderer import format_of

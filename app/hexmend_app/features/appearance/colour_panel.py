@@ -8,11 +8,11 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
 from hexmend_app.features.appearance.map_box import MapBox
 from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.picture.quantities import MATERIAL, colour_quantity
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import better, declared_range

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hexmend.boundary.marking import curve_through, edge_path, marked_segments
+from hexmend.boundary.marking import marked_segments
 from hexmend.errors import HexmendError
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.feature import Action, Feature, Host
+from hexmend_app.features.curves.edge_path import curve_through, edge_path
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted
 

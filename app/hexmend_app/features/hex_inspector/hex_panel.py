@@ -19,7 +19,8 @@ from PySide6.QtWidgets import (
 )
 from superqt import QFlowLayout
 
-from hexmend.quality import METRICS, HexDetails, Metric, NodeDetails
+from hexmend.quality import METRICS, Metric
+from hexmend_app.state.mesh.inspection import HexDetails, NodeDetails
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import (
     INVERTED_TEXT,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.quality.binning import bin_counts
+from hexmend.kernels import binning
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.cells import Cells
 from hexmend_app.picture.visibility import Show
@@ -104,7 +104,9 @@ def distribute(values: np.ndarray, inverted: np.ndarray, axis: Axis, bins: int =
         raise ValueError(
             f"values have shape {values.shape} and inverted {inverted.shape}: expected 1-D arrays of the same length"
         )
-    counts = bin_counts(values, inverted, (axis.low, axis.high), bins, axis.open_low, axis.open_high)
+    counts = np.empty(bins + 3, dtype=np.int64)
+    scale = bins / (axis.high - axis.low)
+    binning.count(values, inverted, axis.low, scale, axis.open_low, axis.open_high, counts)
     return Distribution(values, inverted, axis, counts[:bins], *(int(counts[bins + k]) for k in (2, 1, 0)))
 
 

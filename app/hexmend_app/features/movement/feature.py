@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.movement.movement_panel import MovementPanel
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, Displacement
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.translation import tr
 

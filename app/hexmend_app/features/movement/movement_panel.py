@@ -7,8 +7,8 @@ import dataclasses
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, DisplacementCounts
 from hexmend_app.picture.appearance import Arrows, Since, Traces
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, DisplacementCounts
 from hexmend_app.scene.layers.arrows import MAX_ARROWS
 from hexmend_app.theme.style import note, set_help, tabular
 from hexmend_app.translation import tr

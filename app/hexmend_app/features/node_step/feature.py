@@ -8,12 +8,12 @@ from functools import partial
 import numpy as np
 from PySide6.QtCore import QTimer
 
-from hexmend.node_step import NodeStep
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Action, ActionFace, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.node_step.panel import SWEEP, NodePanel
 from hexmend_app.features.node_step.reasons import reason_for_no_step, reason_for_no_sweep, worst_free_node
 from hexmend_app.picture.visibility import Isolate
+from hexmend_app.state.node_step import NodeStep
 from hexmend_app.translation import tr
 
 #: Milliseconds until the panel reports that the step is being computed.

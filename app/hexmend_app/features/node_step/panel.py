@@ -16,10 +16,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.node_step import NodeStep, StepStatus
 from hexmend_app.features.node_step.figures import NodeFigures
 from hexmend_app.features.node_step.step_plot import NodePlot
 from hexmend_app.features.node_step.step_texts import rows
+from hexmend_app.state.node_step import NodeStep, StepStatus
 from hexmend_app.theme.palette import DESCENT, OTHERWISE, SEARCH, TAKEN, TRIED
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint

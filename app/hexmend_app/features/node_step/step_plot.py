@@ -8,7 +8,7 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from hexmend.node_step import NodeStep
+from hexmend_app.state.node_step import NodeStep
 from hexmend_app.theme.palette import AMBER, MUTED, PANEL, SEARCH, TAKEN, TEXT, TRIED
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import on_theme_change, set_help, smaller

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.node_step import NodeStep
 from hexmend.smoothers import METHODS
+from hexmend_app.state.node_step import NodeStep
 from hexmend_app.theme.palette import TEXT, WORSE, Role
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted, figure, name_in_words, short_number

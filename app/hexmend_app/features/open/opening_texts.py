@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hexmend.io.formats.session import SUFFIX
+from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredMesh, RestoredPicture, RestoreProblem
 from hexmend_app.state.tasks.mesh_opener import LoadProgress, LoadStage
 from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS

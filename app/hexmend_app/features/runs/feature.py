@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from hexmend.quality.dominance import KEY_FIGURES, dominating
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
+from hexmend_app.features.runs.dominance import KEY_FIGURES, dominating
 from hexmend_app.features.runs.run_table import RunRow
 from hexmend_app.features.runs.runs_panel import RunsPanel
 from hexmend_app.state.mesh.run_record import RunRecord

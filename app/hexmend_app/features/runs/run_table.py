@@ -11,7 +11,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.quality import SUMMARY_QUANTITIES
-from hexmend.quality.dominance import KEY_FIGURES
+from hexmend_app.features.runs.dominance import KEY_FIGURES
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.theme.palette import Role
 from hexmend_app.theme.style import MUTED, TEXT, WORSE, tabular

@@ -9,12 +9,12 @@ from typing import Any
 
 from hexmend.errors import FileError, HexmendError
 from hexmend.io import unsupported_data
-from hexmend.io.formats.session import SUFFIX
 from hexmend.io.storage.file_progress import FileProgress
 from hexmend.run.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.features.save.visible_saver import VisibleSaver, warn_of_omitted
+from hexmend_app.formats.session import SUFFIX
 from hexmend_app.picture import Page, Scene, write_scene
 from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
 from hexmend_app.state.mesh.document import State

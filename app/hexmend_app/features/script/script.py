@@ -11,7 +11,6 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.iteration import Result
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step import Sweep
 from hexmend.report import write_comparison
 from hexmend.study.table_row import Row
 from hexmend_app.features.script.lines import ScriptLines, call
@@ -22,6 +21,7 @@ from hexmend_app.features.script.view_lines import ViewLines
 from hexmend_app.picture import Scene
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import RunRecord
+from hexmend_app.state.node_step import Sweep
 from hexmend_app.state.run.node_sweep import SweepResult
 from hexmend_app.state.session.restored_picture import RestoredPicture
 from hexmend_app.state.session.session import Session

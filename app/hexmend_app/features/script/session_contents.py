@@ -8,8 +8,8 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from hexmend.io.formats.session.session_file import read_session
 from hexmend_app.features.script.lines import ScriptLines
+from hexmend_app.formats.session.session_file import read_session
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.comparison import MethodResult

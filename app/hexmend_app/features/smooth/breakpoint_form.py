@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QSpinBox, QWidget
 
-from hexmend.run.breakpoints import Breakpoints
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.theme.style import set_help, tabular
 from hexmend_app.translation import tr
 

@@ -7,7 +7,6 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QWidget
 
 from hexmend.boundary import NodeClass
-from hexmend.mesh.structure import Structure as MeshStructure
 from hexmend_app.features.structure.layer_row import Entry, LayerRow
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.layer_switch import EDGE_LAYERS, ordered_layers
@@ -22,6 +21,7 @@ from hexmend_app.scene.layers.optional.structure import (
     SHARP,
     VALENCES,
 )  # fmt: skip
+from hexmend_app.state.mesh.structure import Structure as MeshStructure
 from hexmend_app.state.tasks.boundary_classifier import LEFT, PIN, WHISKER, BoundaryClasses
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted

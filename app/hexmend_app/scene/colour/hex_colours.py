@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.picture.quantities import MATERIAL
 from hexmend_app.scene.colour.colouring import Colouring, fitted, invalid_kinds, resolve
 from hexmend_app.scene.colour.material_colours import material_names, material_values

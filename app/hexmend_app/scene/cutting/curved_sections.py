@@ -8,11 +8,12 @@ from vtkmodules.vtkFiltersCore import vtkPlaneCutter
 
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order.curved_geometry import evaluate_hexes, hex_nodes
+from hexmend.mesh.second_order.curved_geometry import hex_nodes
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.cutting.cut import half_spaces, vtk_plane_of
 from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
+from hexmend_app.scene.geometry.curved_elements import evaluate_hexes
 from hexmend_app.scene.geometry.edge_flags import clipped, set_edge_flags, set_normals
 from hexmend_app.scene.layers.surface import coloured
 

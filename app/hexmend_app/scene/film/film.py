@@ -11,10 +11,10 @@ import numpy as np
 from PIL import Image
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkProp
 
-from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend_app.picture.appearance import Look, Since
+from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.colour.colouring import INVALID_COLOURS
 from hexmend_app.scene.film.film_frames import FilmFrame
 from hexmend_app.scene.film.film_page import FilmPage, InitialPicture

@@ -5,15 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order.curved_geometry import (
-    QUAD_POSITIONS,
-    edge_middles,
-    evaluate_edges,
-    quad_nodes,
-    quad_normals,
-)
-from hexmend.mesh.second_order.mid_node_lookup import edge_mid_nodes, face_mid_nodes
-from hexmend.mesh.structure import SHARP_DEGREES
+from hexmend.mesh.second_order.curved_geometry import QUAD_POSITIONS, quad_nodes
+from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
+from hexmend_app.scene.geometry.curved_elements import edge_mid_nodes, edge_middles, evaluate_edges, quad_normals
+from hexmend_app.state.mesh.structure import SHARP_DEGREES
 
 #: Number of lines into which an edge is divided.
 DIVISIONS = 8

@@ -9,8 +9,9 @@ import numpy as np
 import pyvista as pv
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order.curved_geometry import evaluate_quads, grid, quad_nodes, quad_normals
+from hexmend.mesh.second_order.curved_geometry import evaluate_quads, grid, quad_nodes
 from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
+from hexmend_app.scene.geometry.curved_elements import quad_normals
 from hexmend_app.scene.geometry.edge_flags import NORMALS, set_edge_flags, set_normals
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.surface import coloured, colours_of, quads, set_colours, set_points

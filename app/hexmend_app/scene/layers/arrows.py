@@ -6,8 +6,8 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
-from hexmend.boundary.displacement import ROUNDING, Displacement
 from hexmend_app.picture.appearance import Arrows
+from hexmend_app.picture.displacement import ROUNDING, Displacement
 from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.layers.optional.structure import points_kept_by_cut

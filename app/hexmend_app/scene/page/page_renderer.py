@@ -12,7 +12,6 @@ from PIL import Image
 
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
-from hexmend.node_step import NodeStep
 from hexmend_app.picture import Scene
 from hexmend_app.scene.geometry.filters import Filters
 from hexmend_app.scene.page.drawing import Drawing
@@ -22,6 +21,7 @@ from hexmend_app.scene.page.page_colour_bar import draw_bar
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.triad import draw_axes
 from hexmend_app.scene.render.rasters import Rasters, rasters
+from hexmend_app.state.node_step import NodeStep
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

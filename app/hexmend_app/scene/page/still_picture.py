@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement, ReferenceState
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend.run.recipe import Recipe
 from hexmend_app.picture import Scene
 from hexmend_app.picture.appearance import Arrows
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, Displacement, ReferenceState
 from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import PageRenderer, draw_page

@@ -9,7 +9,6 @@ import numpy as np
 from PIL import Image
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkProp
 
-from hexmend.node_step import NodeStep
 from hexmend_app.picture import Camera, PicturePanel, Scene
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.camera.camera_controller import CameraController
@@ -25,6 +24,7 @@ from hexmend_app.scene.render.tiles import AT_ONCE, Tiles
 from hexmend_app.scene.views.frame import Frame, same_hexes
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
+from hexmend_app.state.node_step import NodeStep
 
 #: Background of transparent pages: black, so that colours are premultiplied by coverage.
 _TRANSPARENT = "#000000"

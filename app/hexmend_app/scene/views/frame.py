@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hexmend.boundary.displacement import Displacement
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.displacement import Displacement
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend_app.picture.appearance import FILE_OPENED, Since
+from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.state.mesh import history
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History

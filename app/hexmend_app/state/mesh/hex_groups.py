@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.displacement import MENDED, NEWLY_INVALID, STILL_INVALID, Displacement
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes
+from hexmend_app.picture.displacement import MENDED, NEWLY_INVALID, STILL_INVALID, Displacement
 
 #: Groups that a displacement defines.
 _OF_DISPLACEMENT = {"newly invalid": NEWLY_INVALID, "still invalid": STILL_INVALID, "mended": MENDED}

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.node_step import NodeStep, Sweep
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.node_step import NodeStep, Sweep
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,11 +14,11 @@ from hexmend.advice import Advice
 from hexmend.iteration import Outcome
 from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
-from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_settings import rules_text, settings_text
 from hexmend_app.state.run.run_view import RunView

@@ -13,11 +13,11 @@ from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.quality import summarise
 from hexmend.run import Run, StoppingCriteria, iterate
-from hexmend.run.breakpoints import Breakpoints, Hit
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.metric_cache import metric_values
+from hexmend_app.state.run.breakpoints import Breakpoints, Hit
 from hexmend_app.state.tasks.task import Task
 
 

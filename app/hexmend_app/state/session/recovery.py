@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 
 from hexmend.errors import HexmendError
-from hexmend.io.formats.session.session_file import SessionFolder
 from hexmend.io.storage.temporary_files import flush_folder, make_folder
+from hexmend_app.formats.session.session_file import SessionFolder
 from hexmend_app.state.session.recovery_folder import (
     ABOUT,
     SESSION,

@@ -11,9 +11,9 @@ from pathlib import Path
 
 from PySide6.QtCore import QLockFile
 
-from hexmend.io.archive.members import DESCRIPTION
-from hexmend.io.formats.session.session_file import SessionFolder
 from hexmend.io.storage.atomic import atomic_write
+from hexmend_app.formats.session.members import DESCRIPTION
+from hexmend_app.formats.session.session_file import SessionFolder
 from hexmend_app.state.session import session_data
 from hexmend_app.state.tasks.task import Task
 

@@ -9,20 +9,20 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import FileError, MeshError
-from hexmend.io.formats.session import SUFFIX, is_session
-from hexmend.io.formats.session.session_file import SessionFolder, read_session, write_session
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
-from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import METHODS, Smoother
 from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter
+from hexmend_app.formats.session import SUFFIX, is_session
+from hexmend_app.formats.session.session_file import SessionFolder, read_session, write_session
 from hexmend_app.picture.named_cameras import NamedCameras
 from hexmend_app.state.mesh.document import DocumentData, State
 from hexmend_app.state.mesh.history import HistoryData
 from hexmend_app.state.mesh.selection import SelectionData
 from hexmend_app.state.mesh.snapshots import Snapshot
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.comparison import ComparisonData
 from hexmend_app.state.run.recipe_draft import RecipeDraftData
 from hexmend_app.state.run.run_setup import RunSetupData

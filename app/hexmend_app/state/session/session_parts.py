@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.io.formats.session import SUFFIX
+from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.mesh.comparison_base import ComparisonBases
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History

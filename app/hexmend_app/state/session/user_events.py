@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hexmend.boundary.displacement import Displacement
+from hexmend_app.picture.displacement import Displacement
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import RunRecord
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.io import Original, Written, replaces_coordinates, unsupported_data, write_as_given
-from hexmend.io.formats.session import SUFFIX
 from hexmend.io.storage.file_progress import watch_files
+from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session_data import SessionData

@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step import NodeStep, explain
 from hexmend.smoothers import Smoother
+from hexmend_app.state.node_step import NodeStep, explain
 from hexmend_app.state.tasks.latest_task import LatestTask
 from hexmend_app.state.tasks.task import Task
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import Structure, find_structure
 from hexmend_app.state.mesh.document import Document
+from hexmend_app.state.mesh.structure import Structure, find_structure
 from hexmend_app.state.tasks.task import Task, drop
 
 #: Milliseconds from opening a mesh to the search: the mesh is drawn first.

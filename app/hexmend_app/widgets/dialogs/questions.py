@@ -12,7 +12,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox, QWidget
 
 from hexmend.io import readable_suffixes, writable_suffixes
-from hexmend.io.formats.session import SUFFIX
+from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.settings.settings import FOLDER
 from hexmend_app.translation import tr
 

@@ -1,4 +1,4 @@
-"""Points and normals of the curved faces of second-order hexes, and points inside the hexes.
+"""Points of the curved faces of second-order hexes, and all nodes of faces and hexes.
 
 Coordinates run from 0 to 1 along the first edge and along the last edge of a quad. Its nodes are numbered as VTK
 numbers types 23 (8 nodes) and 28 (9 nodes)::
@@ -17,8 +17,6 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.second_order.mid_node_lookup import EDGE_COLUMNS
-from hexmend.mesh.second_order.mid_nodes import NODE_POSITIONS
-from hexmend.mesh.second_order.shape_functions import lagrange
 
 #: Coordinates of the nodes of a quad, (9, 2).
 QUAD_POSITIONS = np.array(
@@ -90,30 +88,6 @@ def evaluate_quads(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
     return _weighted(quad_functions(at, _width(nodes))[0], nodes)
 
 
-def quad_normals(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Compute unit normals of second-order quads at points of the unit square.
-
-    A normal points to the side from which the nodes are counter-clockwise. Where the map is singular, as at a collapsed
-    edge, it is the normal of the quad of the corners; (0, 0, 0) if that has no area either. Parameters and errors are
-    those of `evaluate_quads`.
-
-    Returns
-    -------
-    (k, g, 3) float64
-    """
-    gradients = quad_functions(at, _width(nodes))[1]
-    normals = _cross(_weighted(gradients[..., 0], nodes), _weighted(gradients[..., 1], nodes))
-    lengths = np.sqrt(np.einsum("kgx,kgx->kg", normals, normals))
-    singular = lengths <= 1e-9 * lengths.max(axis=1, initial=0.0)[:, None]
-    if singular.any():
-        quads = np.flatnonzero(singular.any(axis=1))
-        flat = _cross(nodes[quads, 2] - nodes[quads, 0], nodes[quads, 3] - nodes[quads, 1])
-        normals[quads] = np.where(singular[quads, :, None], flat[:, None], normals[quads])
-        lengths[quads] = np.linalg.norm(normals[quads], axis=2)
-    normals /= np.where(lengths > 0, lengths, 1.0)[..., None]
-    return normals
-
-
 def quad_nodes(points: np.ndarray, corners: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
     """Return the positions of all nine nodes of quads.
 
@@ -165,46 +139,6 @@ def hex_nodes(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> n
     return answer
 
 
-def evaluate_hexes(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Evaluate second-order hexes of 27 nodes, (k, 27, 3), at points of the unit cube, (g, 3); returns (k, g, 3)."""
-    return _weighted(lagrange(at, NODE_POSITIONS)[0], nodes)
-
-
-def evaluate_edges(ends: np.ndarray, middles: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Evaluate edges of three nodes.
-
-    Parameters
-    ----------
-    ends : (e, 2, 3) float64
-    middles : (e, 3) float64
-    at : (g,) float64
-        From 0 at the first end to 1 at the second.
-
-    Returns
-    -------
-    (e, g, 3) float64
-    """
-    weights = np.column_stack([(1 - at) * (1 - 2 * at), at * (2 * at - 1), 4 * at * (1 - at)])
-    return _weighted(weights, np.concatenate([ends, middles[:, None]], axis=1))
-
-
-def edge_middles(points: np.ndarray, edges: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
-    """Return the positions of the mid-nodes of edges; a missing one is the mean of the ends.
-
-    Parameters
-    ----------
-    points : (n, 3) float64
-    edges : (..., 2) int
-    mid_nodes : (...) int
-        -1 where an edge has none.
-
-    Returns
-    -------
-    (..., 3) float64
-    """
-    return np.where((mid_nodes < 0)[..., None], points[edges].mean(axis=-2), points[mid_nodes])
-
-
 def _width(nodes: np.ndarray) -> int:
     if nodes.ndim != 3 or nodes.shape[1] not in (8, 9) or nodes.shape[2] != 3:
         raise MeshError(f"nodes of quads have shape {nodes.shape}: expected (quads, 8 or 9, 3)")
@@ -214,11 +148,3 @@ def _width(nodes: np.ndarray) -> int:
 def _weighted(weights: np.ndarray, nodes: np.ndarray) -> np.ndarray:
     """Return the sums of positions, (k, w, 3), with weights, (g, w), as (k, g, 3)."""
     return weights @ nodes  # a product of small matrices for each element, ten times faster than one of large matrices
-
-
-def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return cross products of vectors, (..., 3), several times faster than NumPy."""
-    answer = np.empty(np.broadcast_shapes(a.shape, b.shape))
-    for x, (y, z) in enumerate(((1, 2), (2, 0), (0, 1))):
-        np.subtract(a[..., y] * b[..., z], a[..., z] * b[..., y], out=answer[..., x])
-    return answer

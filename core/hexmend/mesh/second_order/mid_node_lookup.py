@@ -38,35 +38,3 @@ def face_mid_nodes(hexes: np.ndarray, mid_nodes: np.ndarray, owners: np.ndarray,
     # Corners that coincide have one number, so that sums of collapsed faces are those of no face.
     columns = np.column_stack([edges, _CENTRE_COLUMNS[(1 << local).sum(axis=1) & 255]])
     return np.where(columns >= 0, mid_nodes[owners[:, None], columns], -1)
-
-
-def edge_mid_nodes(hexes: np.ndarray, mid_nodes: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """Return the mid-nodes of edges.
-
-    Parameters
-    ----------
-    hexes : (m, 8) int32
-    mid_nodes : (m, 19) int32
-    edges : (e, 2) int
-        Nodes at the ends of edges of hexes.
-
-    Returns
-    -------
-    (e,) int64
-        -1 for edges without a mid-node.
-    """
-    if not len(edges) or not len(hexes):
-        return np.full(len(edges), -1)
-    nodes = int(hexes.max()) + 1
-    end = np.zeros(nodes, dtype=bool)
-    end[edges] = True
-    near = np.flatnonzero(end[hexes].sum(axis=1) > 1)
-    ends, middles = hexes[near][:, MID_EDGES].reshape(-1, 2).astype(np.int64), mid_nodes[near, :12].ravel()
-    known = np.unique(np.column_stack([ends.min(axis=1) * nodes + ends.max(axis=1), middles]), axis=0)
-    known = known[known[:, 1] >= 0]
-    wanted = np.asarray(edges, dtype=np.int64)
-    wanted = wanted.min(axis=1) * nodes + wanted.max(axis=1)
-    if not len(known):
-        return np.full(len(edges), -1)
-    at = np.minimum(np.searchsorted(known[:, 0], wanted), len(known) - 1)
-    return np.where(known[at, 0] == wanted, known[at, 1], -1)

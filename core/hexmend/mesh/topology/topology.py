@@ -236,7 +236,7 @@ class Topology:
         """Boundary edges without exactly two hexes, as numbers of `edges`, (k,) int64.
 
         They include the sharp edges of the boundary, with one hex if convex, three if concave, which
-        `hexmend.mesh.structure` leaves out.
+        `hexmend_app.state.mesh.structure` leaves out.
         """
         return np.flatnonzero((self.edge_valence != 2) & self.edge_on_boundary)
 

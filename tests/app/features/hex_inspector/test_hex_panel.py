@@ -7,8 +7,9 @@ from PySide6.QtGui import QTextDocumentFragment
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
 
-from hexmend.quality import describe_hex, describe_node, measure
+from hexmend.quality import measure
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
+from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.widgets.wording import figure
 from tests.app.invalid_hexes import BENT, INSIDE, THREE, VALID
 from tests.core.grids import grid, scrambled

@@ -11,10 +11,10 @@ from PySide6.QtWidgets import QAbstractButton, QLabel, QTabBar
 
 from hexmend.io import write
 from hexmend.mesh.second_order import MID_EDGES
-from hexmend.node_step import explain
 from hexmend.smoothers import METHODS
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Isolate
+from hexmend_app.state.node_step import explain
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks.task import running
 from hexmend_app.theme import theme_choice

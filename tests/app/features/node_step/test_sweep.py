@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
-from hexmend.node_step import StepStatus
 from hexmend.smoothers import METHODS
+from hexmend_app.state.node_step import StepStatus
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose_by_keys, click, key, phase, press
 from tests.app.features.node_step.step_display import button, shown_step, texts, wait_for_step

@@ -8,10 +8,10 @@ from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QLabel, QLin
 
 from hexmend.iteration import StoppingCriteria
 from hexmend.run import smooth
-from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.run_setup import RunSetup

@@ -9,16 +9,16 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
 from benchmarks.window.windows import end_run
-from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session.session_file import VERSION
 from hexmend.run import StoppingCriteria
-from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
+from hexmend_app.formats.session.archive import read_archive, write_archive
+from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera
 from hexmend_app.picture.appearance import Arrows, Structure, Traces
 from hexmend_app.picture.cut import Cut
 from hexmend_app.shell.start.window_start import WindowStart
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE

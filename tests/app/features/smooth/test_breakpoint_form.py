@@ -2,8 +2,8 @@
 
 import pytest
 
-from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
+from hexmend_app.state.run.breakpoints import Breakpoints
 from tests.patience import PATIENCE
 
 

@@ -12,18 +12,18 @@ from hexmend import gallery, io
 from hexmend.boundary import NodeClass
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import find_structure
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.page import Page
 from hexmend_app.scene.layers.optional.structure import KINDS, LOCKED, PINNED, VALENCES
 from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.structure import find_structure
 from hexmend_app.state.tasks.boundary_classifier import PIN
 from tests.app.driving import choose, click, open_and_wait, tick, turn
 from tests.app.features.structure.layers import count, open_and_know, pixels, press_key, texts
+from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
-from tests.core.mesh.test_structure import tetrahedron
 from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow

@@ -9,15 +9,15 @@ import pytest
 from PySide6.QtWidgets import QLabel
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import find_structure
 from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.layers.optional.original_surface import OriginalSurface
 from hexmend_app.shell.start.program import application
+from hexmend_app.state.mesh.structure import find_structure
 from tests.app.driving import turn
 from tests.app.features.structure.layers import press, texts
+from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.grids import grid
-from tests.core.mesh.test_structure import tetrahedron
 from tests.patience import PATIENCE
 
 

@@ -5,11 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Arrows, Look, Traces
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.layers import arrows as layer
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame

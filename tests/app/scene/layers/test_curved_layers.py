@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import pyvista as pv
 
-from hexmend.mesh.structure import sharp_edges
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut import Cut, CutStyle
@@ -18,6 +17,7 @@ from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
+from hexmend_app.state.mesh.structure import sharp_edges
 from tests.core.curved_shell import curved_shell
 
 MESH = curved_shell(27, around=5, angle=1.5 * np.pi)

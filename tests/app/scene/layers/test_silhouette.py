@@ -5,9 +5,9 @@ import pytest
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import sharp_edges
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.layers.silhouette import Silhouette, form_lines
+from hexmend_app.state.mesh.structure import sharp_edges
 from tests.core.grids import grid
 from tests.core.mesh.topology.test_topology import closed
 

@@ -32,8 +32,8 @@ from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
 from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER, classify_boundary
+from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.grids import grid
-from tests.core.mesh.test_structure import tetrahedron
 
 
 def five_blocks(segments, layers):

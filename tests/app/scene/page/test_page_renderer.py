@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.errors import ParameterError
 from hexmend_app.picture import (
     AxesStyle,
@@ -30,6 +29,7 @@ from hexmend_app.picture import (
 )
 from hexmend_app.picture.appearance import Arrows, Traces
 from hexmend_app.picture.colour_map import COLOUR_MAPS
+from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page

@@ -5,11 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.colours import Colours
+from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.render.stage import Stage

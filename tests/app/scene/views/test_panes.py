@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.quality import measure
 from hexmend_app.picture import Page, Scene
 from hexmend_app.picture.appearance import Arrows, Look, Traces
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.cut import Cut
+from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
 from hexmend_app.scene.render.stage import Stage

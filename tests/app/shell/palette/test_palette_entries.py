@@ -4,10 +4,10 @@ import pytest
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QCheckBox, QMainWindow, QVBoxLayout, QWidget
 
-from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import METRICS
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Panel, PanelPlace
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries, panel_entries
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.theme.style import set_help

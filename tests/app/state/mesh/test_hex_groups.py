@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.quality import measure, summarise
 from hexmend_app.picture.colours import Colours
+from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.picture.visibility import Isolate
 from hexmend_app.scene.colour.colouring import resolve
 from hexmend_app.state.mesh.document import Document, State

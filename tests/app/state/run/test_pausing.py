@@ -8,9 +8,9 @@ import pytest
 
 from hexmend import gallery
 from hexmend.run import StoppingCriteria, iterate
-from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend_app.state.mesh.document import State
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.session import Session
 from tests.core.grids import grid, scrambled

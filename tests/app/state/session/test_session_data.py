@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from hexmend.errors import FileError
-from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session.session_file import VERSION
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
+from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session import Session

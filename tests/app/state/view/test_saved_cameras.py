@@ -6,8 +6,8 @@ import pytest
 
 from benchmarks.window.windows import save_and_wait
 from hexmend.errors import FileError, ParameterError
-from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session.session_file import VERSION
+from hexmend_app.formats.session.archive import read_archive, write_archive
+from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera
 from hexmend_app.picture.named_cameras import MAX_CAMERAS, NamedCameras, cameras_of, merged
 from hexmend_app.state.mesh.document import State

@@ -6,12 +6,10 @@ import os
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 
 from hexmend import gallery, io
 from hexmend.errors import FileError
-from hexmend.io.archive.folder import ArchiveFolder
 from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.storage import temporary_files
 from hexmend.io.storage.atomic import atomic_write
@@ -76,18 +74,6 @@ def test_a_file_is_on_the_disk_before_it_is_renamed_and_its_name_after(tmp_path,
     (_, temporary), *rest = recorded
     assert temporary.endswith("-mesh.vtu")
     assert rest == [("replace", temporary, "mesh.vtu"), ("fsync", tmp_path.name)]
-
-
-@needs_proc
-def test_only_new_arrays_of_a_folder_are_flushed_before_its_description_names_them(tmp_path, recorded):
-    folder, first = ArchiveFolder(tmp_path / "session"), np.arange(3)
-    folder.write("test", 1, [first])
-    recorded.clear()
-    folder.write("test", 1, [first, np.arange(4), np.arange(5)])
-    names = [call[1] for call in recorded]
-    temporary = names[3]
-    assert names == ["1.npy", "2.npy", "arrays", temporary, temporary, "session"]
-    assert recorded[4] == ("replace", temporary, "description.json")
 
 
 @needs_proc

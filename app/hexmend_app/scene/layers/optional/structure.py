@@ -9,8 +9,6 @@ from hexmend.boundary import NodeClass
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
 from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import Structure as MeshStructure
-from hexmend.mesh.structure import find_structure
 from hexmend.quality import ElementQuality, locked_hexes
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
@@ -19,6 +17,8 @@ from hexmend_app.scene.geometry.curved_edges import CurvedEdges
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.marks import Marks
 from hexmend_app.scene.views.pane import Pane
+from hexmend_app.state.mesh.structure import Structure as MeshStructure
+from hexmend_app.state.mesh.structure import find_structure
 from hexmend_app.state.tasks.boundary_classifier import LEFT, PIN, WHISKER, departures_from_surface, node_classes
 
 #: Colours of edges by their number of hexes, from the palette of Okabe and Ito; OTHER is for all other numbers.

@@ -1,7 +1,7 @@
 """Switches of the layers drawn by `structure.StructureLayers`: edges and nodes of the mesh structure."""
 
-from hexmend.mesh.structure import SHARP_DEGREES as DEGREES
 from hexmend_app.picture.layer_switch import LAYERS, LayerSwitch
+from hexmend_app.state.mesh.structure import SHARP_DEGREES as DEGREES
 
 for _switch in (
     LayerSwitch(

@@ -8,7 +8,7 @@ from vtkmodules.vtkFiltersCore import vtkClipPolyData, vtkContourFilter
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
-from hexmend.quality.validity import jacobian_field
+from hexmend_app.scene.geometry.curved_elements import jacobian_field
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import FIELD, INVERTED, rgb

@@ -7,8 +7,8 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES, FACES
-from hexmend.node_step import NodeStep
 from hexmend_app.scene.views.pane import Pane
+from hexmend_app.state.node_step import NodeStep
 from hexmend_app.theme.palette import DESCENT, OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, Role, rgb
 
 _RIM = "#11151c"

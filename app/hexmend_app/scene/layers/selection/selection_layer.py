@@ -7,15 +7,17 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order.curved_geometry import edge_middles, hex_nodes
+from hexmend.mesh.second_order.curved_geometry import hex_nodes
 from hexmend.mesh.second_order.mid_node_lookup import EDGE_COLUMNS
-from hexmend.node_step import NodeStep
-from hexmend.quality import NodeDetails, corner_qualities
+from hexmend.quality import corner_qualities
 from hexmend.quality.validity import Validity, certify
+from hexmend_app.scene.geometry.curved_elements import edge_middles
 from hexmend_app.scene.layers.selection.highlight import Highlight
 from hexmend_app.scene.layers.selection.negative_jacobian import NegativeJacobian
 from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
 from hexmend_app.scene.views.pane import Pane
+from hexmend_app.state.mesh.inspection import NodeDetails
+from hexmend_app.state.node_step import NodeStep
 
 _NONE = np.empty(0, dtype=np.int64)
 

@@ -106,11 +106,9 @@ def _untangling(path: str, quality: ElementQuality, locking: Locking | None) -> 
     """Return the command for inverted hexes: sliding or a layer where all of them are locked by the boundary."""
     if locking is None or not np.isin(np.flatnonzero(quality.inverted), locking.hexes).all():
         return _command("smooth", path)
-    if locking.freed.any():
+    if locking.undecided.any():
         return _command("smooth", path, "--boundary", "slide")
-    if locking.needs_layer.any():
-        return _command("pad", path)
-    return _command("smooth", path, "--boundary", "slide") if locking.undecided.any() else ""
+    return _command("pad", path) if locking.needs_layer.any() else ""
 
 
 def _command(name: str, path: str, *options: str) -> str:

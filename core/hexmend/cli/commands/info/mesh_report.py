@@ -170,7 +170,7 @@ def _locking(mesh: Mesh, quality: ElementQuality) -> Locking | None:
 
 
 def _print_locked(args: argparse.Namespace, mesh: Mesh, locking: Locking) -> None:
-    """Print how many locked hexes sliding frees, and with --doctor the proofs for the others."""
+    """Print how many locked hexes sliding may free, and with --doctor the proofs for the others."""
     print(f"{locking.phrase}.")
     if args.doctor:
         for corner in locking.corners[:_MAX_PLACES]:

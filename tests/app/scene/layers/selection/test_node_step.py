@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from hexmend.node_step import explain
 from hexmend.smoothers import METHODS
 from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.pane import Pane
+from hexmend_app.state.node_step import explain
 from hexmend_app.theme.palette import DESCENT, SEARCH
 from tests.core.grids import grid, scrambled
 from tests.core.quality.test_descent import MIDDLE, sheared

@@ -1,1 +1,0 @@
-"""Archives of plain data and arrays, as a zip file or a folder."""

@@ -1,0 +1,114 @@
+"""Charts as files: sizes, letters, names."""
+
+import re
+import struct
+import xml.etree.ElementTree as ET
+
+import pytest
+
+from hexmend.errors import FileError, ParameterError
+from hexmend.report.charts import ChartStyle, chart_png, write_chart
+from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
+from hexmend_app.report.histogram import Histogram, Outline
+
+HISTOGRAM = Histogram(
+    [Outline("before", "#5b6573", [1, 2, 3], filled=True, note="2 inverted"), Outline("after", "#0072B2", [0, 4, 9])],
+    "bridge",
+    "q(H)",
+    "hexes",
+    [(0.0, "0"), (1.0, "1")],
+    (0.0, 1.0),
+)
+CURVE = DrawnCurve("mend", "#0072B2", [0, 1, 2], [3.0, 2.0, 0.5])
+CONVERGENCE = Convergence([DrawnChart("quality", [CURVE])], "bridge", "iteration")
+
+
+def written(path, draw, **style):
+    """What a chart says in SVG, and its size in mm."""
+    write_chart(path, draw, ChartStyle(**style))
+    root = ET.parse(path).getroot()
+    size = [float(root.get(side).removesuffix("pt")) / 72 * 25.4 for side in ("width", "height")]
+    return [one.text for one in root.iter("{http://www.w3.org/2000/svg}text")], size
+
+
+@pytest.mark.parametrize("drawn", [HISTOGRAM, CONVERGENCE])
+def test_a_chart_is_as_large_as_it_is_asked_to_be(tmp_path, drawn):
+    assert written(tmp_path / "a.svg", drawn.draw, width=85.0, height=50.0)[1] == pytest.approx([85, 50], abs=0.1)
+    wide, high = written(tmp_path / "b.svg", drawn.draw, width=120.0)[1]
+    assert wide == pytest.approx(120, abs=0.1)
+    assert 0.3 * wide < high < wide
+    data = chart_png(drawn.draw, ChartStyle(width=100.0, height=60.0), 127)
+    assert struct.unpack(">II", data[16:24]) == (500, 300)
+
+
+def test_a_png_has_so_many_pixels_per_inch(tmp_path):
+    write_chart(tmp_path / "a.png", HISTOGRAM.draw, ChartStyle(width=50.8, height=50.8, resolution=100))
+    assert struct.unpack(">II", (tmp_path / "a.png").read_bytes()[16:24]) == (200, 200)
+
+
+def test_names_and_title_are_what_they_are_said_to_be(tmp_path):
+    said, _ = written(tmp_path / "a.svg", HISTOGRAM.draw)
+    assert {"bridge", "before (2 inverted)", "after"} <= set(said)
+    said, _ = written(tmp_path / "a.svg", HISTOGRAM.draw, title="", names={"before": "as given", "after": "$x_{"})
+    assert {"as given (2 inverted)", "$x_{"} <= set(said)
+    assert not {"bridge", "before (2 inverted)", "after"} & set(said)
+
+
+@pytest.mark.parametrize("drawn", [HISTOGRAM, CONVERGENCE])
+def test_no_letter_makes_a_name_vanish(tmp_path, drawn):
+    said, _ = written(tmp_path / "a.svg", drawn.draw, names={"after": "_ours", "mend": "_ours"})
+    assert "_ours" in said
+
+
+def test_powers_of_ten_need_something_to_be_counted(tmp_path):
+    nothing = Histogram([Outline("a", "#5b6573", [0, 0])], "", "q", "hexes", [(0.0, "0")], (0.0, 1.0), log=True)
+    assert "a" in written(tmp_path / "a.svg", nothing.draw)[0]
+
+
+def test_a_picture_of_too_many_pixels_is_refused_once_its_height_is_known(tmp_path):
+    many = Convergence([DrawnChart(str(k), [CURVE]) for k in range(8)], "bridge", "iteration")
+    style = ChartStyle(width=169.0, resolution=1200)
+    write_chart(tmp_path / "a.svg", CONVERGENCE.draw, style)
+    with pytest.raises(ParameterError, match="too many pixels"):
+        many.draw(style)
+
+
+def test_letters_have_their_size(tmp_path):
+    sizes = []
+    for letters in (6.0, 12.0):
+        write_chart(tmp_path / "a.svg", CONVERGENCE.draw, ChartStyle(letters=letters))
+        found = re.findall(r'font[^"]*?([\d.]+)px', (tmp_path / "a.svg").read_text())
+        sizes.append(max(map(float, found)))
+    assert sizes[1] == pytest.approx(2 * sizes[0])
+
+
+def test_charts_without_curves_are_left_out_unless_there_are_no_others(tmp_path):
+    empty = DrawnChart("objective", [])
+    said, _ = written(tmp_path / "a.svg", Convergence([empty, *CONVERGENCE.charts], "bridge", "iteration").draw)
+    assert "quality" in said
+    assert "objective" not in said
+    assert "objective" in written(tmp_path / "a.svg", Convergence([empty], "bridge", "iteration").draw)[0]
+
+
+@pytest.mark.parametrize(
+    ("y", "scale"),
+    [([45.0, 44.0], "linear"), ([45.0, 0.0], "linear"), ([45.0, 4.0], "log"), ([45.0, 4.0, 0.0], "symlog")],
+)
+def test_an_axis_goes_by_powers_of_ten_where_there_are_some(y, scale):
+    curve = DrawnCurve("mend", "#0072B2", list(range(len(y))), y)
+    axes = Convergence([DrawnChart("inverted", [curve], True, True)], "a", "iteration").draw(ChartStyle()).axes[0]
+    assert axes.get_yscale() == scale
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"width": 5}, {"height": 7}, {"letters": 1}, {"resolution": 5000}, {"width": 1000, "resolution": 1200}]
+)
+def test_sizes_that_cannot_be_are_refused(wrong):
+    with pytest.raises(ParameterError, match=next(iter(wrong)) if len(wrong) == 1 else "pixels"):
+        ChartStyle(**wrong)
+
+
+def test_another_suffix_is_refused(tmp_path):
+    with pytest.raises(FileError, match=r"\.gif"):
+        write_chart(tmp_path / "a.gif", HISTOGRAM.draw)
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,93 @@
+"""What a run pauses at."""
+
+import dataclasses
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from hexmend import gallery
+from hexmend.iteration import Iteration
+from hexmend.quality import measure
+from hexmend.run import StoppingCriteria, iterate
+from hexmend_app.state.run.breakpoints import Breakpoints
+
+MESH = gallery.make("bridge-sharp", size=864)  # Laplacian inverts hexes of it
+
+
+def iteration(number, points, **diagnostics):
+    return Iteration(number, points, measure(points, MESH.hexes), 0.0, 0.0, diagnostics)
+
+
+@pytest.fixture(scope="module")
+def run():
+    run = iterate(MESH, "laplacian", StoppingCriteria(max_iterations=15, tolerance=0))
+    return [run.start, *run]
+
+
+def test_nothing_is_asked_for_by_default(run):
+    assert not Breakpoints().any
+    assert all(Breakpoints().hit(a, b, 1.0) is None for a, b in pairwise(run))
+
+
+def test_an_element_that_inverts_is_named(run):
+    for before, now in pairwise(run):
+        hit = Breakpoints(inverts=True).hit(before, now, 1.0)
+        expected = np.flatnonzero(now.quality.inverted & ~before.quality.inverted)
+        assert (hit is not None) == bool(len(expected))
+        if hit is not None:
+            assert hit.hexes == tuple(expected)
+    assert run[-1].quality.n_inverted > 0
+
+
+def test_q_min_falling_is_told_with_its_element(run):
+    before, now = run[0], next(one for one in run if one.quality.q.min() < run[0].quality.q.min())
+    hit = Breakpoints(q_min_falls=True).hit(before, now, 1.0)
+    assert hit.hexes == (int(now.quality.q.argmin()),)
+    assert Breakpoints(q_min_falls=True).hit(now, before, 1.0) is None
+
+
+def test_moves_and_changes_are_measured_against_what_is_asked(run):
+    before, now = run[:2]
+    moves = np.linalg.norm(now.points - before.points, axis=1)
+    node = int(moves.argmax())
+    unit = MESH.mean_edge_length
+    assert Breakpoints(node=node, move=moves[node] / unit * 0.99).hit(before, now, unit).nodes == (node,)
+    assert Breakpoints(node=node, move=moves[node] / unit * 1.01).hit(before, now, unit) is None
+    changes = np.abs(now.quality.q - before.quality.q)
+    hex = int(changes.argmax())
+    assert Breakpoints(hex=hex, change=changes[hex] * 0.99).hit(before, now, unit).hexes == (hex,)
+    assert Breakpoints(hex=hex, change=changes[hex] * 1.01).hit(before, now, unit) is None
+
+
+def test_cuts_of_the_line_search():
+    still, cut = iteration(1, MESH.points), iteration(2, MESH.points, backtracks=5, step_length=0.17)
+    assert Breakpoints(backtracks=5).hit(still, cut, 1.0) is None
+    assert "5 times, to 0.17" in Breakpoints(backtracks=4).hit(still, cut, 1.0).sentence
+    assert Breakpoints(backtracks=0).hit(cut, still, 1.0) is None
+
+
+@pytest.mark.parametrize(
+    "one", [{"inverts": True}, {"q_min_falls": True}, {"node": 0}, {"hex": 0}, {"backtracks": 0}], ids=str
+)
+def test_each_of_them_alone_is_something_to_pause_at(one):
+    assert Breakpoints(**one).any
+
+
+def test_how_many_elements_inverted_is_said(run):
+    def said(*hexes):
+        sigma = np.ones(MESH.n_hexes)
+        sigma[list(hexes)] = 0.0
+        quality = dataclasses.replace(run[0].quality, sigma=sigma)
+        return Breakpoints(inverts=True).hit(run[0], dataclasses.replace(run[1], quality=quality), 1.0).sentence
+
+    assert said(4) == "Hex 4 inverted"
+    assert said(4, 9) == "Hex 4 and 1 more inverted"
+    assert said(4, 9, 12) == "Hex 4 and 2 more inverted"
+
+
+def test_where_several_are_reached_the_first_is_told(run):
+    cut = iteration(2, run[-1].points, backtracks=5)
+    both = Breakpoints(inverts=True, backtracks=1)
+    assert both.hit(run[0], cut, 1.0).hexes
+    assert "5 times" in both.hit(cut, cut, 1.0).sentence
