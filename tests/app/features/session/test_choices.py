@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QScrollBar, QTabBar, QTableV
 
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
-from hexmend_app.picture import Camera
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Slab, Sphere
 from hexmend_app.widgets.section import Section

@@ -11,6 +11,7 @@ from hexmend.errors import FileError
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.formats.session.archive import read_archive, write_archive
+from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session import Session
