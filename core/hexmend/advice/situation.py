@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary import freed_by_sliding
 from hexmend.energy.norm import SQUARES
-from hexmend.iteration import Outcome, Result, StoppingCriteria
+from hexmend.iteration import Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set
 from hexmend.mesh.rules.resolution import with_rules
@@ -18,9 +18,6 @@ from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.quality import ElementQuality, measure, objective
 from hexmend.quality.measure import locked_hexes
 from hexmend.smoothers import METHODS, Smoother
-
-#: Outcomes of runs that a limit or the user ended.
-_CUT_SHORT = frozenset({Outcome.MAX_ITERATIONS, Outcome.MAX_SECONDS, Outcome.STOPPED})
 
 #: Over the last quarter of its iterations a run still gains if the objective's excess over that of cubes falls by more
 #: than this share ...
@@ -71,7 +68,7 @@ class Situation:
     @property
     def cut_short(self) -> bool:
         """True if a limit or the user ended the run."""
-        return self.result.outcome in _CUT_SHORT
+        return self.result.outcome.is_cut_short
 
     @property
     def p(self) -> float:

@@ -32,6 +32,11 @@ class Outcome(Enum):
         """The name in reports, such as `converged` or `max-iterations`."""
         return self.name.lower().replace("_", "-")
 
+    @property
+    def is_cut_short(self) -> bool:
+        """True where a limit or the user ended the run before the method did."""
+        return self in (Outcome.MAX_ITERATIONS, Outcome.MAX_SECONDS, Outcome.STOPPED)
+
 
 @dataclass(frozen=True, eq=False)
 class ActiveSet:

@@ -208,7 +208,8 @@ class Run(Iterator[Iteration]):
         at, inverted, invalid = self.last, self.best.quality.n_inverted, self.best.quality.n_invalid
         text = self.outcome.value if self.outcome is not None else "Running."
         left = invalid_phrase(inverted, invalid)
-        longest = at.largest_move if at.number else 0.0
+        cut_short = self.outcome is None or self.outcome.is_cut_short  # else the last step may be back to the result
+        longest = at.largest_move if at.number and cut_short else 0.0
         move = f"the last one moved nodes by up to {longest:.2g} mean edge lengths; " if longest else ""
         decided = self.decisions
         if not self._kept_last and decided and decided[-1] == self._stage_run.decision:

@@ -200,7 +200,16 @@ def test_the_message_counts_iterations_and_inverted_hexes(inverted, said):
     assert run.message.startswith(Outcome.MAX_ITERATIONS.value + " 2 iterations in ")
 
 
-def test_the_message_names_the_longest_move_of_the_last_iteration():
+def test_the_message_of_a_run_that_a_limit_ended_names_the_longest_move_of_the_last_iteration():
     run = iterate(make("cube", size=64, scramble=0.2), "laplacian", StoppingCriteria(max_iterations=2, tolerance=0))
     list(run)
     assert f"; the last one moved nodes by up to {run.last.largest_move:.2g} mean edge lengths; " in run.message
+
+
+def test_the_message_of_a_run_whose_last_step_goes_back_to_its_result_names_no_move():
+    mesh, random = grid(2, 2, 3), np.random.default_rng(1)
+    run = iterate(mesh.with_points(mesh.points + random.uniform(-0.6, 0.6, mesh.points.shape)), "mend", goal="shape")
+    list(run)
+    assert run.outcome is Outcome.CONVERGED
+    assert run.last.largest_move > 0.1
+    assert "moved nodes" not in run.message
