@@ -39,7 +39,6 @@ CORE = [
 APP = [
     {"aliases"},
     {"resources", "translation"},
-    {"catalogue"},
     {"formats"},
     {"codec"},
     {"picture"},
