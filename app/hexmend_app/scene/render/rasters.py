@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from PIL import Image
-from vtkmodules.vtkRenderingCore import vtkCamera, vtkProp
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend.node_step import NodeStep
 from hexmend_app.picture import Camera, PicturePanel, Scene
@@ -57,7 +56,6 @@ def rasters(
     *,
     filters: Filters | None = None,
     node_step: NodeStep | None = None,
-    props: Callable[[float], list[vtkProp]] | None = None,
     at_once: int = AT_ONCE,
 ) -> Rasters:
     """Render the panels of a page.
@@ -69,8 +67,6 @@ def rasters(
         Filters of a view of the first mesh, which store the result of a cut by whole hexes.
     node_step : NodeStep, optional
         Node step to draw in the first mesh.
-    props : callable, optional
-        Returns additional props for the views of the first mesh, from the width of a thin line in pixels.
     at_once : int
         Maximum number of pixels that are rendered at once; larger pictures are rendered in tiles.
     """
@@ -82,8 +78,6 @@ def rasters(
     with Stage(tiles.drawn) as stage:
         views = _Views(stage, layout, look, pixel_ratio, filters)
         views.all[1].overlay_layers.selection.show_node_step(node_step)
-        for prop in () if props is None else props(pixel_ratio):
-            views.all[1].layers[0].AddViewProp(prop)
         images, axes = [], []
         for panel in layout.panels:
             camera = views.camera(panel)
