@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -67,7 +66,6 @@ def pictures(
     before : bool
         Show the first frame on the left of all frames, and its distribution as a line in the histogram.
     """
-    look = replace(look, structure=look.structure.without_decoration())
     page = FilmPage.of(size, look, chart=chart, before=before)
     initial: InitialPicture | None = None
     with Stage(page.picture_size) as stage:

@@ -86,7 +86,7 @@ def test_the_look_of_a_session_of_version_5_is_read():
     assert look.cut.with_hexes(None) == Cut(planes, style=CutStyle.CRINKLE, notch=True)
     assert np.flatnonzero(~look.cut.listed(mesh.n_hexes))[:4].tolist() == [7, 9, 10, 359]
     assert look.colours == Colours("edge-ratio", "plasma", (1.25, 4.0), reverse=True, neutral=True)
-    assert look.structure == Structure(frozenset({"irregular", "sharp", "fixed", "locked", "shadow", "curved"}))
+    assert look.structure == Structure(frozenset({"irregular", "sharp", "fixed", "locked", "curved"}))
     assert look.movement == Traces(Since.ITERATION, Arrows.ALL, 1.1)
     assert (look.lines.shown, look.page.shading) == (False, False)
     assert data.features["cut"]["cuts"][0] == data.features["cut"]["cuts"][0] | {"style": "crinkle", "notch": True}
