@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from hexmend.errors import InstallationError
+from hexmend.errors import InstallationError, MeshError
 from hexmend.terminal_text import install_hint
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.theme.palette import THEME
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
@@ -40,7 +39,7 @@ class FeaturePyvistaWindow(Feature):
                 menu="View",
                 help=tr("Show the mesh as it is coloured and cut now in a window of PyVista, with its widgets."),
                 handle=lambda: self.host.try_and_report(tr("No PyVista window"), self.open),
-                enabled=lambda: self.canvas is not None and self.canvas.viewport.shown > 0,
+                enabled=lambda: self.canvas is not None,
             )
         ]
 
@@ -51,22 +50,19 @@ class FeaturePyvistaWindow(Feature):
         ------
         InstallationError
             If pyvistaqt is not installed.
+        MeshError
+            If the view shows no hexes.
         """
+        left = self.canvas.viewport.remaining_after_cut()
+        if left is not None and not left.any():
+            raise MeshError("the view shows no hexes: move the cut or show all hexes")
         try:
-            from pyvistaqt import BackgroundPlotter
+            from hexmend_app.features.pyvista_window.shown_mesh import open_plotter
         except ImportError as error:
             raise InstallationError(f"pyvistaqt cannot be imported ({error}): {install_hint('app')}") from None
-        import pyvista as pv
-
-        from hexmend_app.features.pyvista_window.shown_mesh import show_in
-
-        theme = pv.themes.DarkTheme() if THEME.dark else pv.themes.DocumentTheme()
-        plotter = BackgroundPlotter(
-            title=f"{self.host.stem} – PyVista", theme=theme, auto_update=False, update_app_icon=False
-        )
+        plotter = open_plotter(f"{self.host.stem} – PyVista", self.canvas.viewport, self.canvas.up)
         self.plotters.append(plotter)
         plotter.app_window.signal_close.connect(partial(self.plotters.remove, plotter))
-        show_in(plotter, self.canvas.viewport, self.canvas.up)
 
     def close(self) -> None:
         """Close the windows."""

@@ -8,6 +8,7 @@ import pyvista as pv
 
 from hexmend_app.features.pyvista_window.shown_mesh import show_in
 from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.scene.colour.colouring import OUTSIDE
 from tests.patience import PATIENCE
 
 
@@ -62,7 +63,24 @@ def test_whole_hexes_are_shown_with_their_values(window, metric, bar):
     plotter.close()
 
 
+def test_neutral_colours_are_those_of_the_view(window):
+    window.session.view.change(colours={"neutral": True})
+    window.refresh()
+    plotter = pv.Plotter(off_screen=True)
+    show_in(plotter, window.canvas.viewport, "z")
+    assert (plotter.actors["mesh"].mapper.lookup_table.values[:, :3] == OUTSIDE).all()
+    plotter.close()
+
+
 def test_a_message_says_that_pyvistaqt_is_missing(window, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyvistaqt", None)
+    monkeypatch.delitem(sys.modules, show_in.__module__)
     window.action("pyvista_window").trigger()
     assert "pip install" in window.messages.text.text()
+
+
+def test_a_message_says_that_nothing_is_shown(window):
+    window.session.view.change(cut=Cut.at((0, 0, 1), (0, 0, -1e6), CutStyle.SMOOTH))
+    window.refresh()
+    window.action("pyvista_window").trigger()
+    assert "shows no hexes" in window.messages.text.text()
