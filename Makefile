@@ -80,7 +80,6 @@ docs: $(VENV)/.app $(VENV)/.kernels
 	@$(BIN)/python scripts/draw_method_figures.py docs
 	@$(BIN)/python scripts/draw_floors.py
 	@QT_QPA_PLATFORM=offscreen $(BIN)/python scripts/write_keys.py
-	@$(BIN)/python scripts/list_texts.py --write
 
 pictures: $(VENV)/.app $(VENV)/.kernels
 	@scripts/debian-packages

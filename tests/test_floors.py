@@ -38,7 +38,6 @@ CORE = [
 ]
 APP = [
     {"resources", "translation"},
-    {"catalogue"},
     {"formats"},
     {"codec"},
     {"picture"},

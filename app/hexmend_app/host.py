@@ -10,7 +10,6 @@ from PySide6.QtWidgets import QWidget
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
-    from hexmend_app.canvas.plotter import CanvasPlotter
     from hexmend_app.state.session.session import Session
     from hexmend_app.widgets.busy import Busy
     from hexmend_app.widgets.message_bar import MessageBar
@@ -38,10 +37,6 @@ class Host(Protocol):
     canvas: Canvas | None
     messages: MessageBar
     busy: Busy
-
-    @property
-    def plotter(self) -> CanvasPlotter | None:
-        """PyVista plotter of the 3D view, created on first use; None before the view is built."""
 
     def action(self, id: str) -> QAction:
         """Return the action of any feature; available once all features are built."""

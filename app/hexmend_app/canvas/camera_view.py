@@ -25,10 +25,7 @@ from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
-    from pyvistaqt import BackgroundPlotter
-    from vtkmodules.vtkRenderingCore import vtkCamera, vtkProp
-
-    from hexmend_app.canvas.plotter import CanvasPlotter
+    from vtkmodules.vtkRenderingCore import vtkCamera
 
 #: Time without changes after which the fine frame is drawn, in milliseconds.
 _REST = 300
@@ -79,26 +76,6 @@ class CameraView(QWidget):
         observe("InteractionEvent", lambda *_: self.turning())
         observe("EndInteractionEvent", lambda *_: self._on_interaction_end())
         self._keys = _Keys(self)
-        self._plotter: CanvasPlotter | None = None
-
-    @property
-    def plotter(self) -> CanvasPlotter:
-        """PyVista plotter on the first view, created on first access because its import takes half a second."""
-        if self._plotter is None:
-            from hexmend_app.canvas.plotter import CanvasPlotter
-
-            self._plotter = CanvasPlotter(self)
-        return self._plotter
-
-    def plotter_props(self, line_width: float) -> list[vtkProp]:
-        """Return copies of the plotter's visible props for pictures and films; see `CanvasPlotter.copied_props`."""
-        return [] if self._plotter is None else self._plotter.copied_props(line_width)
-
-    def new_plotter_window(self, title: str = "PyVista") -> BackgroundPlotter:
-        """Open a separate pyvistaqt window, with the interactor and the widgets of PyVista."""
-        from hexmend_app.canvas.plotter import open_window
-
-        return open_window(title)
 
     def fit(self) -> None:
         """Fit the shown hexes into the view."""
@@ -241,8 +218,6 @@ class CameraView(QWidget):
         """Release graphics resources while the window still exists."""
         self._rest.stop()
         self.camera_animation.stop()
-        if self._plotter is not None:
-            self._plotter.close()
         self.interactor.release_graphics()
 
     def camera_move(self, event: QKeyEvent) -> Callable[[vtkCamera], None] | None:

@@ -295,7 +295,7 @@ class Canvas(CameraView):
         """Draw the page of a scene of the current views."""
         from hexmend_app.scene.page.views_page import draw_views
 
-        return draw_views(scene, self.panes, self.names, self.plotter_props)
+        return draw_views(scene, self.panes, self.names)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Release graphics resources while the window still exists."""

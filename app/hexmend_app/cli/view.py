@@ -14,12 +14,6 @@ class ViewCommand:
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         """Add the arguments to a parser."""
         parser.add_argument("mesh", metavar="MESH", nargs="?", help="the mesh file")
-        parser.add_argument(
-            "--language",
-            metavar="LANGUAGE",
-            help="language of the window, such as de, or a file of translations (.po); default: that of the system, if "
-            "Hexmend has it, else English",
-        )
 
     def run(self, args: argparse.Namespace) -> int:
         """Open the window, and return the exit status when it is closed."""
@@ -28,7 +22,7 @@ class ViewCommand:
         check_display()
         from hexmend_app.shell.start.program import open_window  # Qt, which cannot be imported without a display
 
-        return open_window(args.mesh, args.language)
+        return open_window(args.mesh)
 
 
 command = ViewCommand()

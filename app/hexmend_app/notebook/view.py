@@ -16,15 +16,11 @@ from hexmend.quality.mesh_quality import find_metric, measure_mesh
 from hexmend.quality.selection import region
 from hexmend.terminal_text import in_notebook, install_hint
 from hexmend_app.picture.colours import Colours
-from hexmend_app.scene.colour.colouring import INVALID_COLOURS, invalid_kinds, resolve
+from hexmend_app.scene.colour.colouring import invalid_kinds, resolve
 from hexmend_app.scene.render.graphics import GraphicsError, prepare_off_screen
 
 #: Options of `plot` for `pyvista.Plotter`; others are those of its method `show`.
 _OF_PLOTTER = ("border", "lighting", "line_smoothing", "notebook", "off_screen", "theme", "title", "window_size")
-
-#: Colour bar of a plot, and shading: faces in the shade keep a colour that can be compared with the bar.
-_BAR = {"vertical": True, "position_x": 0.86, "position_y": 0.2, "height": 0.6, "fmt": "%.4g", "title_font_size": 18}
-_SHADING = {"ambient": 0.5, "diffuse": 0.5, "specular": 0.0}
 
 
 def plotter(mesh: Mesh, metric: str = "q", *, hexes: Sequence[int] | np.ndarray | None = None, **options: Any) -> Any:
@@ -51,6 +47,7 @@ def plotter(mesh: Mesh, metric: str = "q", *, hexes: Sequence[int] | np.ndarray 
         prepare_off_screen()
     import pyvista as pv
 
+    from hexmend_app.scene.colour.pyvista_colours import add_coloured
     from hexmend_app.scene.geometry.skin import Skin
 
     quantity, quality = find_metric(metric), measure_mesh(mesh)
@@ -58,24 +55,9 @@ def plotter(mesh: Mesh, metric: str = "q", *, hexes: Sequence[int] | np.ndarray 
     colouring = resolve(Colours(metric=quantity.name), values, quality.invalid)
     faces = Skin(mesh).visible(None if hexes is None else _marks(mesh, hexes))
     skin = pv.PolyData.from_regular_faces(faces.places(mesh.points), faces.quads)
-    kinds, (inverted, inside) = invalid_kinds(quality), INVALID_COLOURS
-    inside_range = np.clip(values, colouring.low, colouring.high)
-    drawn = np.select([kinds == 1, kinds == 2], [np.nan, -np.inf], inside_range)  # these two have colours of their own
-    skin.cell_data[colouring.title] = drawn[faces.hexes]
-    colours = np.column_stack([colouring.table, np.full(len(colouring.table), 255, np.uint8)])
-    table = pv.LookupTable(values=colours, scalar_range=(colouring.low, colouring.high), nan_color=inverted.colour)
-    table.below_range_color = inside.colour
     result = pv.Plotter(**options)
-    looks = {"name": "mesh", "show_edges": True, "edge_opacity": 0.5, "scalar_bar_args": _BAR, **_SHADING}
-    result.add_mesh(skin, scalars=colouring.title, cmap=table, clim=table.scalar_range, **looks)
-    bar = result.scalar_bars[colouring.title]
-    if quality.n_inverted:
-        bar.SetNanAnnotation(inverted.name)
-        bar.DrawNanAnnotationOn()
-    if quality.n_invalid > quality.n_inverted:
-        bar.SetBelowRangeAnnotation(inside.name)
-        bar.DrawBelowRangeSwatchOn()
-    result.add_axes()
+    kinds = invalid_kinds(quality)
+    add_coloured(result, result.add_mesh, skin, values[faces.hexes], kinds[faces.hexes], colouring)
     return result
 
 

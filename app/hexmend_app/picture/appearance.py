@@ -101,10 +101,6 @@ class Structure:
         """Return a copy in which layers are off."""
         return Structure(self.on.difference(names))
 
-    def without_decoration(self) -> Structure:
-        """Return a copy in which decorative layers are off."""
-        return self.without(*(name for name in self.on if LAYERS[name].decorative))
-
     @classmethod
     def keys(cls) -> tuple[Option, ...]:
         """Return the keys in files."""

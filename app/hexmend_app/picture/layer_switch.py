@@ -30,9 +30,6 @@ class LayerSwitch:
         Allow switching the layer on before its content has been counted.
     hidden_when_empty : bool
         Hide the row in the panel if the mesh has nothing to draw.
-    decorative : bool
-        Omit the layer from films, whose static areas then take less space, and from pictures on white or without a
-        background.
     drawn_by : type, optional
         Subclass of `hexmend_app.scene.layers.optional_layer.OptionalLayer`; None if `StructureLayers` draws the layer.
     """
@@ -47,7 +44,6 @@ class LayerSwitch:
     order: int = 100
     offered_early: bool = False
     hidden_when_empty: bool = False
-    decorative: bool = False
     drawn_by: type | None = None
 
 
@@ -68,12 +64,11 @@ OWN_KEYS = (
     "kinds",
     "original",
     "others",
-    "shadow",
     "curved",
 )
 
 #: Layers that are on until the user switches them off.
-ON_BY_DEFAULT = frozenset({"others", "shadow", "curved"})
+ON_BY_DEFAULT = frozenset({"others", "curved"})
 
 #: Layers that draw edges found by the structure of the mesh.
 EDGE_LAYERS = ("irregular", "boundary", "sharp")

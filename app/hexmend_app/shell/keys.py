@@ -6,14 +6,14 @@ from collections.abc import Iterable
 
 from hexmend_app.feature import MENUS, Action
 from hexmend_app.shell.mnemonics import without_mnemonic
-from hexmend_app.translation import marked, tr
+from hexmend_app.translation import tr
 
 #: Mouse and key controls of the view.
 VIEW = (
     ("Rotate", "drag, arrow keys"),
     ("Zoom", "wheel, right drag, + and −"),
     ("Pan", "middle drag, Shift+drag, Shift+arrow keys"),
-    ("Select a hex and its nearest node", marked("click")),
+    ("Select a hex and its nearest node", "click"),
     ("Hide a hex", "Ctrl+click"),
     ("Set the centre of rotation", "double click"),
     ("Open the context menu", "right click"),

@@ -22,22 +22,22 @@ def without_mnemonic(text: str) -> str:
 def letters(texts: Sequence[str]) -> list[str]:
     """Return distinct mnemonics for the texts of a menu in lower case; "" if no letter is left.
 
-    A letter after an ampersand is assigned to the first text that has it there. The other texts are assigned the first
-    letters of their words, or any of their letters if those are taken.
+    The first text with an ampersand before a letter has that letter. Each other text has the first letter of a word, or
+    else any of its letters, that no text has yet.
 
     >>> letters(["Open &recent", "&Run", "Cut", "Compare", "Cu"])
-    ['r', 'u', 't', 'o', 'c']
+    ['r', 'u', 'c', 'o', '']
     """
-    owners: dict[str, int] = {}  # indices of texts by letter
-    for at, text in enumerate(texts):
-        owners.setdefault(letter_of(text), at)
-    owners.pop("", None)
-    marked = set(owners.values())
-    for at in range(len(texts)):
-        if at not in marked:
-            _assign(at, texts, owners, {letter_of(texts[index]) for index in marked})
-    assigned = {at: letter for letter, at in owners.items()}
-    return [assigned.get(at, "") for at in range(len(texts))]
+    written = [letter_of(text) for text in texts]
+    taken, found = set(written), []
+    for at, (text, letter) in enumerate(zip(map(without_mnemonic, texts), written, strict=True)):
+        if not letter or letter in written[:at]:
+            initials_first = sorted(range(len(text)), key=lambda at: not _begins_word(text, at))
+            candidates = [text[place].lower() for place in initials_first if text[place].isalnum()]
+            letter = next((one for one in candidates if one not in taken), "")
+            taken.add(letter)
+        found.append(letter)
+    return found
 
 
 def with_mnemonic(text: str, letter: str) -> str:
@@ -54,27 +54,6 @@ def with_mnemonic(text: str, letter: str) -> str:
     places = [at for at, character in enumerate(text) if character.lower() == letter]
     at = min(places, key=lambda at: (not _begins_word(text, at), at), default=None)
     return text if at is None else f"{text[:at]}&{text[at:]}"
-
-
-def _assign(at: int, texts: Sequence[str], owners: dict[str, int], closed: set[str]) -> bool:
-    """Assign a free letter, or one whose owner can take another; return True on success.
-
-    Letters in `closed` are not tried; those that are tried are added to it.
-    """
-    text = without_mnemonic(texts[at])
-    initials = [character for place, character in enumerate(text) if _begins_word(text, place)]
-    candidates = [character.lower() for character in (*initials, *text) if character.isalnum()]
-    free = next((letter for letter in candidates if letter not in owners), "")
-    if free:
-        owners[free] = at
-        return True
-    for letter in candidates:
-        if letter not in closed:
-            closed.add(letter)
-            if _assign(owners[letter], texts, owners, closed):
-                owners[letter] = at
-                return True
-    return False
 
 
 def _begins_word(text: str, at: int) -> bool:

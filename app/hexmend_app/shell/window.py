@@ -36,7 +36,6 @@ from hexmend_app.widgets.overlay import Overlay
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
-    from hexmend_app.canvas.plotter import CanvasPlotter
     from hexmend_app.feature import Feature
     from hexmend_app.shell.menus import Menus
     from hexmend_app.state.session.session import Session
@@ -160,11 +159,6 @@ class Window(QMainWindow):
         self.refresh()
 
     # Host of features
-
-    @property
-    def plotter(self) -> CanvasPlotter | None:
-        """PyVista plotter of the 3D view, created on first use; None before the view is built."""
-        return None if self.canvas is None else self.canvas.plotter
 
     @property
     def dialog_parent(self) -> QWidget:

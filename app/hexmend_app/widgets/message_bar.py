@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushBut
 from hexmend_app.theme.palette import AMBER, BLUE, WORSE
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import icon, on_theme_change, set_help, set_variant
-from hexmend_app.translation import marked, tr
+from hexmend_app.translation import tr
 
 #: Maximum number of letters of a text that are shown, and of messages that are stored.
 _MAX_SHOWN, _MAX_STORED = 700, 100
@@ -34,9 +34,9 @@ class _Message:
 
 # Icon and its colour; sorted by priority. The style sheet has the other colours.
 _KINDS = {
-    marked("error"): ("alert-circle", WORSE),
-    marked("warning"): ("alert", AMBER),
-    marked("info"): ("information", BLUE),
+    "error": ("alert-circle", WORSE),
+    "warning": ("alert", AMBER),
+    "info": ("information", BLUE),
 }
 _PRIORITIES = list(_KINDS)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from PySide6.QtCore import QLocale
 
 from hexmend.parameters import Parameter
-from hexmend_app.translation import tr, tr_count
+from hexmend_app.translation import tr
 
 _GREEK = {"alpha": "α", "beta": "β", "delta": "δ", "eta": "η", "lambda": "λ", "rho": "ρ", "sigma": "σ", "tau": "τ"}
 _SUBSCRIPT = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -147,4 +147,4 @@ def counted(number: int, noun: str) -> str:
     ('1 node', '1,234 nodes', '2 hexes')
     """
     plural = noun + ("es" if noun.endswith("x") else "s")
-    return tr_count(number, f"{{number:,}} {noun}", f"{{number:,}} {plural}")
+    return f"{number:,} {tr(noun if number == 1 else plural)}"

@@ -19,7 +19,6 @@ from hexmend.io import write
 from hexmend.quality import METRICS
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
-from hexmend_app.picture import Page
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.palette.palette_entries import command_entries
 from hexmend_app.shell.window import Window
@@ -82,23 +81,10 @@ def test_a_feature_draws_with_pyvista(with_plotter, fresh_window, tmp_path, monk
     low, high = np.reshape(fresh_window.canvas.viewport.bounds, (3, 2)).T
     pv.Sphere(radius=np.linalg.norm(high - low) / 2, center=(low + high) / 2).save(tmp_path / "part.stl")
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(tmp_path / "part.stl"), ""))
-    without = _picture(fresh_window, tmp_path / "without.png")
     fresh_window.action("cad").trigger()
-    assert {"cad", "arrows"} <= fresh_window.plotter.actors.keys()
-    with_both = _picture(fresh_window, tmp_path / "with.png")
-    assert _near(with_both, (90, 215, 0)) > _near(without, (90, 215, 0)) + 100
-    assert _near(with_both, (200, 160, 95)) > _near(without, (200, 160, 95)) + 1000  # orange over the paper
-
-
-def _picture(window, path):
-    """Save a picture and return its pixels."""
-    assert window.features["save"].write_picture(path, window.canvas.scene(Page()))
-    return np.asarray(Image.open(path).convert("RGB"), int)
-
-
-def _near(pixels, colour):
-    """Return the number of pixels with nearly a colour."""
-    return np.count_nonzero((np.abs(pixels - colour) < 50).all(axis=-1))
+    plotter = fresh_window.features["cad_surface"].plotter
+    assert {"cad", "arrows"} <= plotter.actors.keys()
+    plotter.close()
 
 
 @pytest.fixture

@@ -41,6 +41,7 @@ from hexmend_app.theme.theme_choice import ThemeChoice
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.message_bar import MessageBar
 from tests.app.driving import named, pixels, turn
+from tests.app.theme.contrasts import TEXT, contrast
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
@@ -60,18 +61,6 @@ def light_afterwards(qapp):
     apply_style(qapp, dark=False)
 
 
-def luminance(colour):
-    """Return the relative luminance of a colour (WCAG 2.2)."""
-    share = np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)]) / 255
-    linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
-    return float(linear @ (0.2126, 0.7152, 0.0722))
-
-
-def contrast(a, b):
-    dark, light = sorted((luminance(a), luminance(b)))
-    return (light + 0.05) / (dark + 0.05)
-
-
 def test_the_contrast_agrees_with_wcag():
     assert contrast("#000000", "#ffffff") == pytest.approx(21)
     assert contrast("#767676", "#ffffff") == pytest.approx(4.54, abs=0.01)
@@ -80,7 +69,7 @@ def test_the_contrast_agrees_with_wcag():
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 @pytest.mark.parametrize(("name", "ground"), PAIRS, ids=[f"{name} {ground.light}" for name, ground in PAIRS])
 def test_every_text_is_legible_on_its_backgrounds(name, ground, dark):
-    assert contrast(ROLES[name].of(dark), ground.of(dark)) >= 4.5
+    assert contrast(ROLES[name].of(dark), ground.of(dark)) >= TEXT
 
 
 def smoothing():

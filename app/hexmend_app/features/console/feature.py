@@ -130,7 +130,6 @@ class FeatureConsole(Feature):
             caller = self._caller = GuiCaller(self)
             names = {"__name__": "__console__", "hx": hexmend, "mesh": None, "result": None}
             names["session"] = GuiProxy(lambda: self.session, caller)
-            names["plotter"] = GuiProxy(lambda: self.host.plotter, caller)
             self._interpreter = Interpreter(names)
         return self._interpreter
 

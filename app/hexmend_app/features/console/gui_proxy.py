@@ -9,7 +9,7 @@ from typing import Any
 from PySide6.QtCore import QObject, Qt, Signal
 
 #: Modules whose objects are used in the GUI thread only.
-_GUI_MODULES = ("hexmend_app.canvas", "hexmend_app.scene", "pyvista.plotting", "pyvistaqt", "vtkmodules.vtkRendering")
+_GUI_MODULES = ("hexmend_app.canvas", "hexmend_app.scene", "vtkmodules.vtkRendering")
 
 
 class GuiCaller(QObject):

@@ -110,7 +110,6 @@ class FeatureFilm(Feature):
             movement=view.frame.movement,
             chart=choice.histogram,
             before=choice.before,
-            props=self.canvas.plotter_props,
         )
         self._drawing.begin(frames, lambda drawn: _progress_text(drawn, len(numbers), path))
 

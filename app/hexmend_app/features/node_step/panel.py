@@ -23,7 +23,7 @@ from hexmend_app.state.node_step import NodeStep, StepStatus
 from hexmend_app.theme.palette import DESCENT, OTHERWISE, SEARCH, TAKEN, TRIED
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
-from hexmend_app.translation import marked, tr
+from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.legend import legend_entry
 from hexmend_app.widgets.link_label import LinkLabel
@@ -32,18 +32,18 @@ from hexmend_app.widgets.link_label import LinkLabel
 SWEEP = ("next_node", "ten_nodes", "finish_sweep")
 _LEGEND = (
     (
-        marked("steepest descent"),
+        "steepest descent",
         DESCENT,
         "Downhill: the negative gradient of the energy with respect to the node. Its length has no meaning. There is "
         "no arrow if the gradient is within rounding.",
     ),
     (
-        marked("direction"),
+        "direction",
         SEARCH,
         "Search direction, or the direction to the target position. Its length has no meaning.",
     ),
-    (marked("step"), TAKEN, "Accepted step, drawn to scale, and its trial in the plot."),
-    (marked("rejected"), TRIED, "Rejected trial steps, at the positions that they would give the node."),
+    ("step", TAKEN, "Accepted step, drawn to scale, and its trial in the plot."),
+    ("rejected", TRIED, "Rejected trial steps, at the positions that they would give the node."),
 )
 _NO_PLOT = "No plot: along the direction, the energy changes by rounding only."
 

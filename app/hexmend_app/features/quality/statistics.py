@@ -31,13 +31,13 @@ from hexmend_app.theme.style import (
     smaller,
     tabular,
 )
-from hexmend_app.translation import marked, tr
+from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.link_table import LinkTable
 from hexmend_app.widgets.wording import figure
 
 #: Quantities with a row; the quality of the best hex tells nothing about a mesh.
 ROWS = tuple(quantity for quantity in SUMMARY_QUANTITIES.values() if quantity.key != "q_max")
-_COLUMNS = ("", marked("start"), marked("now"), marked("change"))
+_COLUMNS = ("", "start", "now", "change")
 _START, _NOW, _CHANGE = 1, 2, 3
 
 #: Horizontal padding of a cell, in pixels.
@@ -78,7 +78,7 @@ def change(row: Quantity, start: float | None, now: float | None) -> tuple[str, 
 
 
 #: Rows whose present number is a link to the hexes that it counts, and the names of these groups of hexes.
-LINKS = {"inverted": marked("inverted"), "locked_inverted": marked("locked"), "invalid": marked("invalid")}
+LINKS = {"inverted": "inverted", "locked_inverted": "locked", "invalid": "invalid"}
 
 
 class StatisticsTable(QWidget):

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, 
 from hexmend_app.picture import Page
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import set_help
-from hexmend_app.translation import marked, tr
+from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox
 
 #: Title, size in pixels, size in millimetres; one of the sizes is None.
@@ -20,7 +20,7 @@ _PRESETS = (
     ("Full HD, 1920 × 1080 pixels", (1920, 1080), None),
     ("4K, 3840 × 2160 pixels", (3840, 2160), None),
 )
-_MM, _PIXELS = marked("mm"), marked("pixels")
+_MM, _PIXELS = "mm", "pixels"
 
 #: Minimum, maximum and decimals for each unit.
 _RANGES = {_MM: (5.0, 3000.0, 1), _PIXELS: (16.0, 16384.0, 0)}

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from vtkmodules.vtkRenderingCore import vtkCamera, vtkProp
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
@@ -47,7 +46,6 @@ def pictures(
     movement: Displacement | None = None,
     chart: bool = False,
     before: bool = False,
-    props: Callable[[float], list[vtkProp]] | None = None,
 ) -> Iterator[Image.Image]:
     """Generate the pictures of film frames, drawn off screen with the same camera.
 
@@ -67,16 +65,11 @@ def pictures(
         Draw a histogram of the coloured values.
     before : bool
         Show the first frame on the left of all frames, and its distribution as a line in the histogram.
-    props : callable, optional
-        Returns additional props, from the width of a thin line in pixels.
     """
-    look = replace(look, structure=look.structure.without_decoration())
     page = FilmPage.of(size, look, chart=chart, before=before)
     initial: InitialPicture | None = None
     with Stage(page.picture_size) as stage:
         viewport = Viewport(Pane(stage.window), pixel_ratio=pixel_ratio_of(size))
-        for prop in () if props is None else props(pixel_ratio_of(size)):
-            viewport.layers[0].AddViewProp(prop)
         last: ReferenceState | None = None
         for film_frame in film_frames:
             mesh, figures = film_frame.state.mesh, film_frame.state.figures

@@ -55,9 +55,6 @@ class OptionalLayer(ABC):
     def set_dark(self, dark: bool) -> None:  # noqa: B027 -- most layers look the same in both themes
         """Use the colours of the dark or of the light theme."""
 
-    def set_fast(self, fast: bool) -> None:  # noqa: B027 -- most layers are as fast as they are fine
-        """Omit details in fast frames, or draw everything again."""
-
     @property
     def places(self) -> np.ndarray:
         """Points that a fitted camera includes, (k, 3)."""

@@ -90,8 +90,6 @@ class OverlayLayers:
         """Omit details in fast frames, or draw everything again."""
         self._attempt("structure", self.structure.set_fast, fast)
         self._attempt("arrows", self.arrows.set_fast, fast)
-        for name, layer in self.optional.items():
-            self._attempt(name, layer.set_fast, fast)
 
     def set_mesh(self, frame: Frame) -> None:
         """Replace the mesh; nothing of the previous mesh remains drawn."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,7 +25,6 @@ from hexmend_app.state.node_step import NodeStep
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-    from vtkmodules.vtkRenderingCore import vtkProp
 
 #: Formats of page files, by suffix.
 FORMATS = {".png": "PNG", ".tif": "TIFF", ".tiff": "TIFF", ".pdf": "pdf", ".svg": "svg"}
@@ -143,7 +142,6 @@ def draw_page(
     *,
     filters: Filters | None = None,
     node_step: NodeStep | None = None,
-    props: Callable[[float], list[vtkProp]] | None = None,
 ) -> PageRenderer:
     """Draw the page of a scene off screen.
 
@@ -156,8 +154,6 @@ def draw_page(
         Filters of a view of the first mesh, which store the result of a cut by whole hexes.
     node_step : NodeStep, optional
         Node step to draw in the first mesh.
-    props : callable, optional
-        Returns additional props for the views of the first mesh, from the width of a thin line in pixels.
 
     Raises
     ------
@@ -165,7 +161,7 @@ def draw_page(
         If the scene names hexes or meshes that do not exist, or its page is too small for its panels.
     """
     layout = Layout.of(scene, meshes)
-    drawn = rasters(layout, filters=filters, node_step=node_step, props=props)
+    drawn = rasters(layout, filters=filters, node_step=node_step)
     return PageRenderer(*_cropped(layout, drawn)) if scene.page.crop else PageRenderer(layout, drawn)
 
 

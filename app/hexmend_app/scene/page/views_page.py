@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-
-from vtkmodules.vtkRenderingCore import vtkProp
 
 from hexmend_app.picture import Camera, Page, PicturePanel, Scene, WipeLayout
 from hexmend_app.scene.camera.vtk_pose import pose_of
@@ -47,13 +45,11 @@ def page_meshes(panes: Panes, names: Sequence[str] = ()) -> list[PageMesh]:
     return [PageMesh.shown(view.frame, name) for view, name in zip(panes.all, named, strict=True)]
 
 
-def draw_views(
-    scene: Scene, panes: Panes, names: Sequence[str] = (), props: Callable[[float], list[vtkProp]] | None = None
-) -> PageRenderer:
+def draw_views(scene: Scene, panes: Panes, names: Sequence[str] = ()) -> PageRenderer:
     """Draw a scene of views, with the result of their cut by whole hexes and their node step; see `draw_page`."""
     step = panes.first.overlay_layers.selection.node_step
     filters = panes.first.filters.copied()
-    return draw_page(scene, page_meshes(panes, names), filters=filters, node_step=step, props=props)
+    return draw_page(scene, page_meshes(panes, names), filters=filters, node_step=step)
 
 
 def _panels(panes: Panes, names: Sequence[str]) -> tuple[PicturePanel, ...]:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from PIL import Image
-from vtkmodules.vtkRenderingCore import vtkCamera, vtkProp
+from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend_app.picture import Camera, PicturePanel, Scene
+from hexmend_app.picture import Camera, PicturePanel
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.camera.directions import look_from
@@ -57,7 +56,6 @@ def rasters(
     *,
     filters: Filters | None = None,
     node_step: NodeStep | None = None,
-    props: Callable[[float], list[vtkProp]] | None = None,
     at_once: int = AT_ONCE,
 ) -> Rasters:
     """Render the panels of a page.
@@ -69,21 +67,17 @@ def rasters(
         Filters of a view of the first mesh, which store the result of a cut by whole hexes.
     node_step : NodeStep, optional
         Node step to draw in the first mesh.
-    props : callable, optional
-        Returns additional props for the views of the first mesh, from the width of a thin line in pixels.
     at_once : int
         Maximum number of pixels that are rendered at once; larger pictures are rendered in tiles.
     """
     scene = layout.scene
-    look = _without_decoration(scene, scene.look(layout.meshes[0].mesh))
+    look = scene.look(layout.meshes[0].mesh)
     supersampling = scene.page.supersampling
     pixel_ratio = scene.page.line_width(scene.lines) * supersampling
     tiles = Tiles.of(layout.panel, supersampling, pixel_ratio, at_once)
     with Stage(tiles.drawn) as stage:
         views = _Views(stage, layout, look, pixel_ratio, filters)
         views.all[1].overlay_layers.selection.show_node_step(node_step)
-        for prop in () if props is None else props(pixel_ratio):
-            views.all[1].layers[0].AddViewProp(prop)
         images, axes = [], []
         for panel in layout.panels:
             camera = views.camera(panel)
@@ -128,7 +122,7 @@ class _Views:
         # Hex numbers apply to the first mesh only.
         show = scene.show.with_keys(marked=frozenset())
         scene = replace(scene, cut=replace(scene.cut, hexes=""), show=show)
-        return Frame(other.mesh, other.figures, look=_without_decoration(scene, scene.look(other.mesh)))
+        return Frame(other.mesh, other.figures, look=scene.look(other.mesh))
 
     def _share_colour_range(self, look: Look) -> None:
         """Extend a fitted colour range to the values of all views."""
@@ -140,8 +134,6 @@ class _Views:
     def camera(self, panel: PicturePanel) -> vtkCamera:
         """Return the camera of a panel; it includes all meshes with equal hexes in panels with the same camera."""
         comparable = self._comparable(panel.mesh)
-        for view in self.all.values():
-            view.set_up(self._layout.scene.camera_of(panel).up)
         key = panel.camera, min(comparable)
         if key not in self._cameras:
             sharing = [other for other in self._layout.panels if other.camera == panel.camera]
@@ -186,13 +178,6 @@ class _Views:
         pixels = self._stage.picture(transparent=self._background is None)
         image = Image.frombuffer(mode, pixels.shape[1::-1], pixels, "raw", mode, 0, 1)
         return image.reduce(fine) if fine > 1 else image
-
-
-def _without_decoration(scene: Scene, look: Look) -> Look:
-    """Return a look without decorative layers on a white or transparent page: a shadow would be taken for a smear."""
-    if scene.page.ground in (None, "#ffffff"):
-        return replace(look, structure=look.structure.without_decoration())
-    return look
 
 
 def aim(camera: vtkCamera, described: Camera, places: np.ndarray, aspect: float) -> None:

@@ -16,8 +16,6 @@ class Pane:
     Attributes
     ----------
     window : vtkRenderWindow
-    up : str
-        Vertical axis of the scene: x, y or z.
     renderer : vtkRenderer
         Covers the whole window unless its viewport is set.
 
@@ -30,7 +28,7 @@ class Pane:
     """
 
     def __init__(self, window: vtkRenderWindow, camera: vtkCamera | None = None):
-        self.window, self.up = window, "z"
+        self.window = window
         self.renderer = vtkRenderer()
         self._background, self._ends, self._fast = "#000000", None, False
         self.renderer.DitherGradientOff()  # its steps are of one level, and noise makes screenshots twice as large

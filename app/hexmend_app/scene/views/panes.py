@@ -197,7 +197,6 @@ class Panes:
                 self.camera_controller.fit()
         if self._others and view is self.visible[0]:
             self.camera_controller.reset_depth()
-        view.set_up(self.camera_controller.up)
         self._aim(view)
 
     def _aim(self, view: Viewport) -> None:

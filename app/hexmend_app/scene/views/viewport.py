@@ -241,10 +241,6 @@ class Viewport:
         """Show the mesh from a direction: a name of `DIRECTIONS`, or a vector, with z up if possible."""
         CameraController.of(self).look_along(direction)
 
-    def set_up(self, axis: str) -> None:
-        """Set the vertical axis of the scene: x, y or z."""
-        self._pane.up = axis
-
     # Fast and fine frames
 
     def moving(self) -> None:

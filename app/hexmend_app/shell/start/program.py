@@ -14,13 +14,12 @@ from typing import TYPE_CHECKING
 os.environ.setdefault("QT_API", "pyside6")
 os.environ.setdefault("PYQTGRAPH_QT_LIB", "PySide6")
 
-from PySide6.QtCore import QCoreApplication, QTimer
+from PySide6.QtCore import QCoreApplication, QLocale, QTimer, QTranslator
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
 from hexmend.cli.process.interrupts import ENDING
 from hexmend_app.resources import demo_mesh, resource
-from hexmend_app.shell.start.language import install_language
 from hexmend_app.state.settings import settings
 from hexmend_app.state.tasks.task import running
 from hexmend_app.state.tasks.ui_thread_gc import UiThreadGC
@@ -48,17 +47,12 @@ def application() -> QApplication:
     return app
 
 
-def open_window(mesh: str | None = None, language: str | None = None) -> int:
-    """Show the window, open `mesh` or the demo mesh, and run until it is closed; return the exit status.
-
-    Parameters
-    ----------
-    mesh : str, optional
-    language : str, optional
-        See `hexmend_app.shell.start.language.install_language`.
-    """
+def open_window(mesh: str | None = None) -> int:
+    """Show the window, open `mesh` or the demo mesh, and run until it is closed; return the exit status."""
     app = application()
-    install_language(app, language)
+    translator = QTranslator(app)
+    if translator.load(QLocale.system(), "hexmend", "_", str(resource("icon.svg").parent / "translations")):
+        app.installTranslator(translator)
     from hexmend_app.shell.start.window_start import WindowStart
     from hexmend_app.shell.window import Window
 

@@ -88,15 +88,7 @@ def test_an_endless_print_is_shown_and_interrupted(console, qtbot):
     assert "KeyboardInterrupt" in console.panel.output.toPlainText()
 
 
-def test_plotter_and_session_are_used_in_the_gui_thread(window, console):
-    text = console.enter_and_wait("import pyvista as pv; actor = plotter.add_mesh(pv.Sphere(), color='red')")
-    assert "Error" not in text
-    assert len(window.canvas.plotter.actors) == 1
-    console.enter_and_wait("actor.prop.color = 'blue'")
-    (actor,) = window.canvas.plotter.actors.values()
-    assert actor.prop.color == "blue"
-    console.enter_and_wait("plotter.remove_actor(actor)")
-    assert not window.canvas.plotter.actors
+def test_the_session_is_used_in_the_gui_thread(window, console):
     mesh = window.session.document.now.mesh
     assert f"\n{mesh.n_nodes}\n" in console.enter_and_wait("session.document.now.mesh.n_nodes")
     assert "AttributeError" in console.enter_and_wait("session.nothing")

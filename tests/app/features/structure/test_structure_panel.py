@@ -39,7 +39,7 @@ def test_only_layers_of_nodes_are_enabled_before_the_edges_are_found(panel):
     panel.set_nodes(8, 1, 3, 2)
     panel.set_legend("original", OriginalSurface.legend(grid(2)))
     offered = [name for name, on in panel.offered().items() if on]
-    assert offered == ["fixed", "free", "locked", "kinds", "original", "shadow"]
+    assert offered == ["fixed", "free", "locked", "kinds", "original"]
     assert texts(panel, "irregular") == ["counting…"]
     assert "Counting." in panel.layers["sharp"].box.toolTip()
     assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
@@ -101,7 +101,7 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     assert panel.offered() == {
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
         "kinds": False, "others": False, "original": True, "target": False, "interfaces": False,
-        "shadow": True, "curved": False,
+        "curved": False,
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]
     assert "shared by four hexes" in panel.layers["irregular"].box.toolTip()

@@ -20,8 +20,7 @@ from hexmend_app.scene.views.viewport import Viewport
 from tests.core.curved_shell import curved_shell
 
 SIZE, SCALE = 400, 1.2  # pixels of the picture, and half of its height in the unit of the mesh
-BARE = Structure().without("shadow")
-CURVED, FLAT = Look(structure=BARE), Look(structure=BARE.without("curved"))
+CURVED, FLAT = Look(), Look(structure=Structure().without("curved"))
 
 
 @pytest.fixture
@@ -156,7 +155,7 @@ def test_an_isolated_hex_is_finer_than_the_mesh_and_has_curved_ghosts(seen):
     mesh = curved_shell(20, through=6, around=6, along=6)
     draw(mesh)
     assert drawn(viewport).n_cells == 216 * divisions_of(216) ** 2
-    look = Look(structure=BARE, show=Show(isolate=Isolate((215,), 1)))
+    look = Look(show=Show(isolate=Isolate((215,), 1)))
     draw(mesh, look)
     assert drawn(viewport).n_cells == 6 * 64
     ghosts = viewport.overlay_layers.ghosts.places

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.page import LineStyle, Page
 from hexmend_app.picture.visibility import Show
@@ -21,7 +21,6 @@ def faces(direction, colour_map="viridis", edges=0.0, fine=True):
     look = Look(
         lines=LineStyle(edges=edges),
         show=Show(outline=False),
-        structure=Structure().without("shadow"),
         page=Page(shading=False),
         colours=Colours(map=colour_map),
     )

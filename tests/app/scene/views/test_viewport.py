@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Plane
@@ -126,7 +126,7 @@ def test_inverted_elements_that_are_seen_are_outlined(seen, edges, cut):
 
 def test_an_outline_moves_with_its_element(seen):
     viewport, pixels = seen
-    show(viewport, look=Look(structure=Structure().without("shadow")))
+    show(viewport)
     background = pixels()[0, 0]
     for size in (1, 0.5, 0.8):
         mirrored = MESH.with_points(MESH.points * [-size, size, size] + [4, 0, 0])
