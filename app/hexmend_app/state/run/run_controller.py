@@ -281,7 +281,7 @@ class RunController(QObject):
         worker.task.wait()
         self._worker = None
         error, last = worker.task.error, worker.last
-        self.outcome = worker.task.result.outcome if error is None else None
+        self.outcome = self.record.outcome = worker.task.result.outcome if error is None else None
         reached = None if last is None else RecordedIteration(self.record, last.iteration.number)
         message = worker.task.result.message if error is None else f"Failed: {error}."
         self.history.finish(self.record, reached, last and last.state, message)

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state.mesh.comparison_base import ComparisonBases
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.selection import Selection
 from hexmend_app.state.mesh.snapshots import Snapshots
@@ -45,8 +45,6 @@ class SessionParts(QObject):
 
     Signals
     -------
-    user_event(UserEvent)
-        The user has changed the mesh, or written a file.
     about_to_save
         The data for a session file are about to be collected: views store data that only they know.
     data_changed
@@ -78,7 +76,6 @@ class SessionParts(QObject):
     node_sweep : NodeSweep
     """
 
-    user_event = Signal(object)
     about_to_save = Signal()
     data_changed = Signal()
 
@@ -135,17 +132,6 @@ class SessionParts(QObject):
         path = self.document.path
         is_session = path is not None and path.suffix.lower() == SUFFIX
         return self.document.modified or (is_session and self.saved_cameras.modified)
-
-    def state_at(self, points: np.ndarray | None) -> State | None:
-        """Return the state with these points; None if no part has one."""
-        document, comparison = self.document, self.comparison
-        if not document.is_open:
-            return None
-        known = [document.now, *(change.state for change in document.to_data().changes)]
-        known += [state for record in self.history.records for state in (record.start, record.end)]
-        known += [comparison.initial, *(result.state for result in comparison.results)]
-        known += [side_view.state for side_view in self.side_views.all]
-        return next((state for state in known if state is not None and state.mesh.points is points), None)
 
     def end_previews(self) -> None:
         """End what is shown on the way to a result: a run that is shown eased, and a sweep node by node."""
