@@ -104,8 +104,6 @@ class RunController(QObject):
         """True while a run is active, paused or not."""
         return self._worker is not None
 
-    blocks_editing = busy
-
     @property
     def newest(self) -> IterationFrame | None:
         """Newest iteration of the active run; None without one."""

@@ -40,6 +40,7 @@ class Session(SessionParts):
         self.saver = MeshSaver(self)
         self.repairer = MeshRepairer(self)
         self.padder = MeshPadder(self)
+        self._changing += [self.repairer, self.padder]
         self.commands = Commands(self, self.saver, self.repairer, self.padder)
         self.opener.loaded.connect(self.restore)
         self.opener.restored.connect(self._show_as_picture)

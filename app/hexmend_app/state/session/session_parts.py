@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
@@ -82,6 +82,7 @@ class SessionParts(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self._parts: list[StatePart] = []  # in the order in which they are restored
+        self._changing: list[Any] = []  # parts that replace the mesh while they are `busy`
         document = self.document = self._add_part("document", Document(self), "changes_changed")
         self.history = History()
         self._parts.append(StatePart(name="history", to_data=self._history_data, restore=self.history.restore))
@@ -113,6 +114,7 @@ class SessionParts(QObject):
         self.node_step_task = NodeStepTask(self)
         self.mesh_checker = MeshChecker(self)
         self.node_sweep = NodeSweep(document, self)
+        self._changing += [self.run, self.opener]
 
     def _add_part(self, name: str, part: Part, change: str = "") -> Part:
         """Register a part by its name in session files, with the name of its change signal, and return it."""
@@ -124,7 +126,7 @@ class SessionParts(QObject):
     @property
     def editable(self) -> bool:
         """True if the mesh can be edited: no task that changes it is active, and no file is being read."""
-        return self.document.is_open and not any(getattr(part, "blocks_editing", False) for part in self.children())
+        return self.document.is_open and not any(part.busy for part in self._changing)
 
     @property
     def modified(self) -> bool:

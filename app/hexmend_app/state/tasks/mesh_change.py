@@ -73,8 +73,6 @@ class BackgroundChange(QObject):
         """True while the mesh is being changed."""
         return self._task is not None
 
-    blocks_editing = busy
-
     def _begin(self, name: str, change: Callable[[State, Task], MeshChange]) -> bool:
         """Start a change of the mesh by a function of its state and the task; return False if it is not editable."""
         session = self._session
