@@ -19,7 +19,6 @@ from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonS
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.comparison import MethodResult
-from hexmend_app.state.session.user_events import TableExported
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.export_dialog import TableDialog, answer
 from hexmend_app.widgets.wording import counted
@@ -215,14 +214,11 @@ class FeatureCompare(Feature):
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; return True on success."""
         names, title = (None, None) if style is None else (style.names, style.title)
-        saved = self.host.try_and_report(
+        return self.host.try_and_report(
             tr("Table not saved"),
             lambda: write_comparison(Path(path), self._comparison.to_data().record(), names, title),
             tr("Table of {count} saved to {path}", count=counted(len(self._comparison.results), "method"), path=path),
         )
-        if saved:
-            self.session.user_event.emit(TableExported(Path(path), names, title))
-        return saved
 
 
 def _mesh_values(state: State, norm: ObjectiveNorm) -> dict[str, Any]:

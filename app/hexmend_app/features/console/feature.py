@@ -10,8 +10,7 @@ from PySide6.QtCore import QTimer
 import hexmend
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelPlace
-from hexmend_app.features.console.gui_proxy import GuiCaller, GuiProxy
-from hexmend_app.features.console.interpreter import Interpreter, is_complete
+from hexmend_app.features.console.interpreter import Interpreter, error_text, is_complete
 from hexmend_app.features.console.panel import ConsolePanel
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.task import Task
@@ -28,14 +27,14 @@ class FeatureConsole(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._interpreter: Interpreter | None = None
-        self._caller: GuiCaller | None = None
+        self._interpreter = Interpreter()
+        self._interpreter.namespace.update(hx=hexmend, mesh=None, quality=None, result=None)
         self._task: Task | None = None
         self._result: Any = None
         self.panel = ConsolePanel()
         self.panel.entered.connect(self.enter)
         self.panel.interrupt_requested.connect(self.interrupt)
-        self.panel.completions = lambda text: self._get_interpreter().completions(text)
+        self.panel.completions = self._interpreter.completions
         self._timer = QTimer(self, interval=_PERIOD)
         self._timer.timeout.connect(self._show_output)
         self.session.run.ended.connect(self._on_ended)
@@ -95,13 +94,13 @@ class FeatureConsole(Feature):
         """Run source code in a thread, unless another command runs."""
         if self.running:
             return
-        interpreter, document = self._get_interpreter(), self.session.document
-        mesh = document.now.mesh if document.is_open else None
-        interpreter.namespace.update(mesh=mesh, result=self._result)
+        interpreter, now = self._interpreter, self.session.document.now
+        mesh, quality = (None, None) if now is None else (now.mesh, now.figures)
+        interpreter.namespace.update(mesh=mesh, quality=quality, result=self._result)
 
         def execute(_: Task) -> State | None:
             interpreter.execute(source)
-            return _new_state(interpreter, mesh)
+            return _new_state(interpreter.namespace.get("mesh"), mesh)
 
         self._task = Task("console", execute, yields=True)
         self._task.ended.connect(self._finish)
@@ -117,21 +116,11 @@ class FeatureConsole(Feature):
     def close(self) -> None:
         """End the running command."""
         self._timer.stop()
-        if self._caller is not None:
-            self._caller.close()
         if self._task is not None:
             self._interpreter.interrupt()
             self._task.drop()
-        self._task = self._interpreter = self._caller = None
+        self._task = None
         self.panel.set_running(False)
-
-    def _get_interpreter(self) -> Interpreter:
-        if self._interpreter is None:
-            caller = self._caller = GuiCaller(self)
-            names = {"__name__": "__console__", "hx": hexmend, "mesh": None, "result": None}
-            names["session"] = GuiProxy(lambda: self.session, caller)
-            self._interpreter = Interpreter(names)
-        return self._interpreter
 
     def _on_ended(self, result: Any) -> None:
         self._result = result
@@ -145,23 +134,18 @@ class FeatureConsole(Feature):
         self._timer.stop()
         self._show_output()
         if task.error is not None:
-            self.panel.print_error(f"{type(task.error).__name__}: {task.error}\n")
+            self.panel.print_error(error_text(task.error))
         elif task.result is not None and not self.session.commands.replace_mesh("console", task.result):
             self.panel.print_error(tr("Mesh not changed: a run, a repair or a file operation is in progress.\n"))
         self.panel.set_running(False)
 
 
-def _new_state(interpreter: Interpreter, mesh: Mesh | None) -> State | None:
+def _new_state(new: object, mesh: Mesh | None) -> State | None:
     """Return the state of a mesh assigned by a command, with data for drawing; None if there is no new mesh."""
-    new = interpreter.namespace.get("mesh")
     if new is mesh:
         return None
     if not isinstance(new, Mesh):
-        type_name = type(new).__name__
-        interpreter.write(
-            tr("Mesh not changed: expected mesh to be a hexmend Mesh, not {type_name}.\n", type_name=type_name), True
-        )
-        return None
+        raise TypeError(f"mesh not changed: expected mesh to be a hexmend Mesh, not {type(new).__name__}")
     if mesh is None or new.hexes is not mesh.hexes:
         new = new.keeping_surface()
     state = State.of(new)

@@ -1,8 +1,7 @@
 """Interpreter of the console, which runs each command in a thread so that it can be interrupted.
 
-qtconsole's in-process kernel runs code in the GUI thread: an endless loop freezes the window and cannot be stopped, and
-its import and start take 0.7 s of processor time. Here `interrupt` raises KeyboardInterrupt in the thread of the
-command at the next line of Python. Calls into the window use `gui_proxy`.
+qtconsole's in-process kernel runs code in the GUI thread: an endless loop freezes the window and cannot be stopped.
+Here `interrupt` raises KeyboardInterrupt in the thread of the command at the next line of Python.
 """
 
 from __future__ import annotations
@@ -11,12 +10,12 @@ import ast
 import ctypes
 import io
 import linecache
-import sys
 import threading
 import time
 import traceback
 from codeop import compile_command
 from collections import deque
+from contextlib import redirect_stderr, redirect_stdout
 from typing import Any
 
 #: Largest number of characters of output to be shown; beyond it, a command waits before it prints more.
@@ -26,82 +25,44 @@ _MAX_PENDING = 200_000
 class Interpreter:
     """Executes commands in one namespace, one at a time.
 
-    Parameters
+    Attributes
     ----------
     namespace : dict
         Global names of the commands.
     """
 
-    def __init__(self, namespace: dict[str, Any]):
-        self.namespace = namespace
+    def __init__(self) -> None:
+        self.namespace: dict[str, Any] = {"__name__": "__console__"}
         self._output: deque[tuple[str, bool]] = deque()
         self._pending = 0
-        self._lock = threading.Lock()
         self._thread: int | None = None
         self._count = 0
 
-    def execute(self, source: str) -> bool:
-        """Execute source code and print the value of its last expression; return True if it raised nothing.
+    def execute(self, source: str) -> None:
+        """Execute source code and print the values of its expressions, in the thread of the caller.
 
-        `output` returns printed text and exceptions.
+        `output` returns printed text; exceptions of any kind are raised.
         """
         self._count += 1
         name = f"<console {self._count}>"
         linecache.cache[name] = len(source), None, source.splitlines(keepends=True), name
-        streams = sys.stdout, sys.stderr
-        with self._lock:
-            self._thread = threading.get_ident()
+        self._thread = threading.get_ident()
         try:
-            try:
-                sys.stdout, sys.stderr = _Stream(self, False, streams[0]), _Stream(self, True, streams[1])
-                self._evaluate(source, name)
-            finally:
-                sys.stdout, sys.stderr = streams
-                with self._lock:
-                    self._thread = None
-        except BaseException as error:  # SystemExit too is shown in the console
-            self.print_error(error, name)
-            return False
-        return True
-
-    def _evaluate(self, source: str, name: str) -> None:
-        body = ast.parse(source, name).body
-        last = body.pop() if body and isinstance(body[-1], ast.Expr) else None
-        exec(compile(ast.Module(body, []), name, "exec"), self.namespace)
-        if last is not None:
-            value = eval(compile(ast.Expression(last.value), name, "eval"), self.namespace)
-            if value is not None:
-                self.namespace["_"] = value
-                self.write(f"{value!r}\n")
-
-    def print_error(self, error: BaseException, name: str = "") -> None:
-        """Print an exception with its traceback, without the frames of the console."""
-        frames = error.__traceback__
-        while frames is not None and frames.tb_frame.f_code.co_filename != name:
-            frames = frames.tb_next
-        if isinstance(error, KeyboardInterrupt):
-            text = "KeyboardInterrupt\n"
-        else:
-            text = "".join(traceback.format_exception(type(error), error, frames))
-        self.write(text, True)
+            with redirect_stdout(_Stream(self, False)), redirect_stderr(_Stream(self, True)):
+                for statement in ast.parse(source, name).body:
+                    exec(compile(ast.Interactive([statement]), name, "single"), self.namespace)
+        finally:
+            self._thread = None
 
     def interrupt(self) -> None:
         """Raise KeyboardInterrupt in the running command, if any."""
-        with self._lock:
-            if self._thread is not None:
-                thread = ctypes.c_ulong(self._thread)
-                ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(KeyboardInterrupt))
+        if self._thread is not None:
+            thread = ctypes.c_ulong(self._thread)
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(KeyboardInterrupt))
 
-    @property
-    def thread(self) -> int | None:
-        """Identifier of the thread of the running command; None if no command runs."""
-        return self._thread
-
-    # Output
-
-    def write(self, text: str, error: bool = False) -> None:
+    def write(self, text: str, error: bool) -> None:
         """Add to the output; waits if a command prints faster than the output is read."""
-        while self._pending > _MAX_PENDING and self._thread == threading.get_ident():
+        while self._pending > _MAX_PENDING:
             time.sleep(0.01)
         self._output.append((text, error))
         self._pending += len(text)
@@ -125,20 +86,24 @@ class Interpreter:
 
 
 class _Stream(io.TextIOBase):
-    """Stream that sends text of the interpreter's thread to the console, of other threads to `other`."""
+    """Stream that sends text to the output of an interpreter."""
 
-    def __init__(self, interpreter: Interpreter, error: bool, other: Any):
-        self._interpreter, self._error, self._other = interpreter, error, other
+    def __init__(self, interpreter: Interpreter, error: bool):
+        self._interpreter, self._error = interpreter, error
 
     def write(self, text: str) -> int:
-        if threading.get_ident() == self._interpreter.thread:
-            self._interpreter.write(text, self._error)
-            return len(text)
-        return 0 if self._other is None else self._other.write(text)
+        self._interpreter.write(text, self._error)
+        return len(text)
 
-    def flush(self) -> None:
-        if self._other is not None:
-            self._other.flush()
+
+def error_text(error: BaseException) -> str:
+    """Return the traceback of an exception, without the frames of the window."""
+    if isinstance(error, KeyboardInterrupt):
+        return "KeyboardInterrupt\n"
+    frames = error.__traceback__
+    while frames is not None and not frames.tb_frame.f_code.co_filename.startswith("<console"):
+        frames = frames.tb_next
+    return "".join(traceback.format_exception(type(error), error, frames))
 
 
 def is_complete(source: str) -> bool:

@@ -13,7 +13,7 @@ from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import BLUE, icon, set_help
 from hexmend_app.translation import tr
 
-_WELCOME = "Python with mesh, result, session and hx. Assign to mesh to change the open mesh; this can be undone.\n"
+_WELCOME = "Python with mesh, quality, result and hx. Assign to mesh to change the open mesh; this can be undone.\n"
 
 #: Largest number of lines of output, and of visible lines of the input.
 _MAX_LINES, _MAX_ROWS = 5000, 8

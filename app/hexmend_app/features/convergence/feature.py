@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from superqt.utils import QSignalThrottler
 
@@ -15,7 +16,6 @@ from hexmend_app.features.convergence.curves import Columns, Curve, run_start
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
 
@@ -126,25 +126,22 @@ class FeatureConvergence(Feature):
 
     def dialog(self) -> ChartDialog:
         """Return the dialog that saves the charts, with the style used last."""
-        event = self._report(Path())
-        chart, file_name = figure(*event.arguments[1:], **event.options), f"{self.host.stem}-convergence.svg"
+        arguments, options = self._exported()
+        chart, file_name = figure(*arguments, **options), f"{self.host.stem}-convergence.svg"
         return ChartDialog(chart, tr("the charts"), file_name, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts, or the values of all runs if the suffix is .csv; return True on success."""
+        arguments, options = self._exported()
         return self.host.try_and_report(
             tr("Charts not saved"),
-            lambda: self.session.commands.export(self._report(Path(path), style)),
+            lambda: write_convergence(path, *arguments, **options, style=style),
             tr("Convergence saved to {path}", path=path),
         )
 
-    def _report(self, path: Path, style: ChartStyle | None = None) -> FileExported:
-        """Return the export of the charts, or of the values."""
+    def _exported(self) -> tuple[tuple[Any, ...], dict[str, Any]]:
+        """Return the arguments of `figure`: title, runs and charts, and the options."""
         settings = self.panel.head.settings()
         options = {"by_time": settings.by_time, "log": settings.logarithmic, "from_zero": settings.from_zero}
-        if self._timeline.record is not None:
-            options["current"] = self._timeline.record
-        if style is not None:
-            options["style"] = style
-        arguments = path, self._document.name, self._history.records, settings.shown
-        return FileExported("convergence", write_convergence, arguments, options)
+        arguments = self._document.name, self._history.records, settings.shown
+        return arguments, options | {"current": self._timeline.record}

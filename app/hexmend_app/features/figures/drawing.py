@@ -1,4 +1,4 @@
-"""Drawing of a figure set, for the window and for scripts."""
+"""Drawing of a figure set."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ from hexmend_app.picture import Scene, write_scene
 from hexmend_app.report.case import Case, Version, command_line
 from hexmend_app.report.figure_captions import write_captions
 from hexmend_app.report.figure_set import Figure, Style, write_figures
-from hexmend_app.scene.render.graphics import prepare_off_screen
 from hexmend_app.state.mesh.run_record import RunRecord
 
 #: File formats of each figure.
@@ -27,48 +26,14 @@ _FORMATS = ("png", "pdf", "svg")
 NamedVersion = tuple[str, Mesh] | tuple[str, Row] | tuple[str, RunRecord, int, Mesh]
 
 
-def write_set(
-    folder: str | Path,
-    title: str,
-    mesh: str,
-    scene: Scene,
-    versions: Sequence[NamedVersion],
-    recipes: Mapping[str, Recipe],
-    file: str = "MESH",
-) -> None:
-    """Write a figure set, off screen.
-
-    Parameters
-    ----------
-    folder : path-like
-        Created if missing.
-    title : str
-        Title above the captions.
-    mesh : str
-        Name of the mesh in the captions.
-    scene : Scene
-        Camera, cut and colours.
-    versions : sequence
-        Meshes to compare, the mesh as opened first: (name, Mesh), (name, Row) of a comparison, or (name, RunRecord,
-        number, Mesh) of an iteration of a run.
-    recipes : mapping of str to Recipe
-        Recipes that make them from the first mesh, by file name.
-    file : str
-        Name of the mesh file in the commands that reproduce the figures.
+def prepare(folder: Path, scene: Scene, recipes: Mapping[str, Recipe]) -> None:
+    """Create the folder with the scene and the recipes.
 
     Raises
     ------
     HexmendError
-        If drawing off screen is impossible or a file cannot be written.
+        If Matplotlib is missing or a file cannot be written.
     """
-    prepare_off_screen()
-    prepare(Path(folder), scene, recipes)
-    for _ in draw(folder, title, mesh, scene, versions, recipes, file):
-        pass
-
-
-def prepare(folder: Path, scene: Scene, recipes: Mapping[str, Recipe]) -> None:
-    """Create the folder with the scene and the recipes; raise the same errors as `write_set`."""
     check_matplotlib()
     output_folder(folder)
     write_scene(folder / "scene.toml", scene)
@@ -85,7 +50,25 @@ def draw(
     recipes: Mapping[str, Recipe],
     file: str = "MESH",
 ) -> Iterator[Figure]:
-    """Write and yield figure by figure, then write captions and commands; see `write_set` for the parameters."""
+    """Write and yield figure by figure, then write captions and commands.
+
+    Parameters
+    ----------
+    folder : path-like
+        Has been prepared.
+    title : str
+        Title above the captions.
+    mesh : str
+        Name of the mesh in the captions.
+    scene : Scene
+        Camera, cut and colours.
+    versions : sequence of NamedVersion
+        Meshes to compare, the mesh as opened first.
+    recipes : mapping of str to Recipe
+        Recipes that make them from the first mesh, by file name.
+    file : str
+        Name of the mesh file in the commands that reproduce the figures.
+    """
     folder, figures = Path(folder), []
     case = Case(mesh, None, tuple(map(version_of, versions)))
     for figure in write_figures(case, folder, Style(scene, formats=_FORMATS)):

@@ -6,14 +6,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from hexmend_app.features.figures.drawing import NamedVersion, draw, prepare, write_set
-from hexmend_app.features.figures.report_file import draw_report, prepare_report, write_report
+from hexmend_app.features.figures.drawing import NamedVersion, draw, prepare
+from hexmend_app.features.figures.report_file import draw_report, prepare_report
 from hexmend_app.features.figures.versions import recipes_of, versions_of
 from hexmend_app.picture import Scene
 from hexmend_app.report.figure_set import PARTS, Figure, stationary
 from hexmend_app.report.page import FIGURES
 from hexmend_app.state.session.session import Session
-from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.translation import tr
 
 
@@ -23,8 +22,6 @@ class Export:
 
     Parameters
     ----------
-    event : FileExported
-        The call that writes the same files.
     steps : iterator of Figure
     figures : sequence of str
         Names of the figures, in order.
@@ -32,7 +29,6 @@ class Export:
         Name of the file or folder.
     """
 
-    event: FileExported
     steps: Iterator[Figure]
     figures: Sequence[str]
     file: str
@@ -46,26 +42,24 @@ class Export:
 
 
 def figure_set(session: Session, scene: Scene, folder: Path, stem: str) -> Export:
-    """Create the folder of a figure set, and return its steps; for errors see `write_set`."""
+    """Create the folder of a figure set, and return its steps; for errors see `prepare`."""
     document, scene = session.document, stationary(scene)
     recipes = recipes_of(session)
     prepare(folder, scene, recipes)
     versions = versions_of(session)
     arguments = folder, stem, document.now.mesh.name, scene, versions, recipes
     file = () if document.path is None else (str(document.path),)
-    event = FileExported("figure set", write_set, (*arguments, *file))
-    return Export(event, draw(*event.arguments), _drawn(list(PARTS), versions), folder.name)
+    return Export(draw(*arguments, *file), _drawn(list(PARTS), versions), folder.name)
 
 
 def report(session: Session, scene: Scene, path: Path, stem: str) -> Export:
-    """Check that a report can be written, and return its steps; for errors see `write_report`."""
+    """Check that a report can be written, and return its steps; for errors see `prepare_report`."""
     document = session.document
     prepare_report(path)
     name, versions = document.now.mesh.name, versions_of(session)
     arguments = path, tr("Report on {name}", name=name or stem), name, stationary(scene), versions
     file = () if document.path is None or not document.path.exists() else (str(document.path),)
-    event = FileExported("report", write_report, (*arguments, *file))
-    return Export(event, draw_report(*event.arguments), _drawn(FIGURES, versions), path.name)
+    return Export(draw_report(*arguments, *file), _drawn(FIGURES, versions), path.name)
 
 
 def _drawn(figures: Sequence[str], versions: Sequence[NamedVersion]) -> list[str]:

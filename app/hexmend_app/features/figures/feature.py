@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.picture import Page, Scene
-from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_figures, ask_report
 from hexmend_app.widgets.incremental_task import IncrementalTask
@@ -27,11 +26,10 @@ class FeatureFigures(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._saved = self._not_saved = ""
-        self._event: FileExported | None = None
         self._drawing = IncrementalTask(
             host.busy, "figures", tr("Cancel the export; files already written are kept."), self
         )
-        self._drawing.finished.connect(self._on_drawn)
+        self._drawing.finished.connect(lambda: host.messages.show_info(self._saved))
         self._drawing.failed.connect(self._on_failed)
         self.session.document.mesh_replaced.connect(self.cancel)
 
@@ -107,7 +105,6 @@ class FeatureFigures(Feature):
         except HexmendError as error:
             self.host.messages.show_error(self._not_saved, str(error))
             return
-        self._event = export.event
         self._drawing.begin(export.steps, export.progress_text)
 
     def cancel(self) -> None:
@@ -116,7 +113,3 @@ class FeatureFigures(Feature):
 
     def _on_failed(self, error: Exception) -> None:
         self.host.messages.show_error(self._not_saved, tr("Figure not drawn: {error}", error=error))
-
-    def _on_drawn(self) -> None:
-        self.host.messages.show_info(self._saved)
-        self.session.user_event.emit(self._event)

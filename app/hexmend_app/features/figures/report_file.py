@@ -1,4 +1,4 @@
-"""Reports on the meshes of the window, for the window and for scripts."""
+"""Reports on the meshes of the window."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from hexmend_app.report.case import Case, Source
 from hexmend_app.report.figure_set import Figure, Style
 from hexmend_app.report.page import draw_chapter, page, write_page
 from hexmend_app.report.pdf import check_pdf, write_pdf
-from hexmend_app.scene.render.graphics import prepare_off_screen
 
 #: Suffixes of reports.
 _SUFFIXES = (".html", ".pdf")
@@ -24,37 +23,14 @@ _SUFFIXES = (".html", ".pdf")
 _DPI = 220.0
 
 
-def write_report(
-    path: str | Path, title: str, mesh: str, scene: Scene, versions: Sequence[NamedVersion], file: str = ""
-) -> None:
-    """Write a report on one page, HTML or PDF by the suffix.
-
-    Parameters
-    ----------
-    path : path-like
-    title : str
-    mesh : str
-        Name of the mesh.
-    scene : Scene
-        Camera, cut and colours of the pictures.
-    versions : sequence
-        Meshes, that as opened first; see `hexmend_app.features.figures.drawing.write_set`.
-    file : str
-        File of the mesh; "" for none.
+def prepare_report(path: Path) -> None:
+    """Check that a report can be written.
 
     Raises
     ------
     HexmendError
-        If drawing off screen is impossible, a library is missing, or a file cannot be read or written.
+        If a library is missing, or the file cannot be written.
     """
-    prepare_off_screen()
-    prepare_report(Path(path))
-    for _ in draw_report(path, title, mesh, scene, versions, file):
-        pass
-
-
-def prepare_report(path: Path) -> None:
-    """Check that a report can be written; raise the same errors as `write_report`."""
     if suffix_for(path, "a report", _SUFFIXES) == ".pdf":
         check_pdf()
     check_writable(path)
@@ -64,7 +40,21 @@ def prepare_report(path: Path) -> None:
 def draw_report(
     path: str | Path, title: str, mesh: str, scene: Scene, versions: Sequence[NamedVersion], file: str = ""
 ) -> Iterator[Figure]:
-    """Yield figure by figure, then write the report; see `write_report` for the parameters."""
+    """Yield figure by figure, then write the report, HTML or PDF by the suffix.
+
+    Parameters
+    ----------
+    path : path-like
+    title : str
+    mesh : str
+        Name of the mesh.
+    scene : Scene
+        Camera, cut and colours of the pictures.
+    versions : sequence of NamedVersion
+        Meshes to compare, the mesh as opened first.
+    file : str
+        File of the mesh; "" for none.
+    """
     path = Path(path)
     interactive = suffix_for(path, "a report", _SUFFIXES) == ".html"
     source = Source.of(file) if file else None

@@ -17,9 +17,9 @@ _MAX_MESHES = 12
 
 
 def versions_of(session: Session) -> list[tuple]:
-    """Return the versions in the form of events, with states in place of meshes, without duplicates."""
+    """Return the meshes to draw, without duplicates."""
     document = session.document
-    candidates = [(document.start, (INITIAL, document.start)), (document.now, _current(session))]
+    candidates = [(document.start, (INITIAL, document.start.mesh)), (document.now, _current(session))]
     for result in session.comparison.results:
         if result.state is not None:
             title = METHODS[result.row.method].title if result.row.method in METHODS else result.row.method
@@ -83,5 +83,5 @@ def _current(session: Session) -> tuple:
     state = session.document.now
     moment = session.history.iteration_of(state)
     if moment is None or not moment.number:
-        return "now", state
-    return moment.record.name, moment.record, moment.number, state
+        return "now", state.mesh
+    return moment.record.name, moment.record, moment.number, state.mesh

@@ -13,7 +13,6 @@ from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
 from hexmend_app.picture import Page
 from hexmend_app.scene.film.film_frames import chosen_iterations, film_frames
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
-from hexmend_app.state.session.user_events import FileExported, IterationsExported, displacement_since
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_film
 from hexmend_app.widgets.incremental_task import IncrementalTask
@@ -33,7 +32,6 @@ class FeatureFilm(Feature):
         self._choice: FilmChoice | None = None  # options used last
         self._rate = 0
         self._record: RunRecord | None = None
-        self._event: FileExported | None = None
         self._drawing = IncrementalTask(host.busy, "film", tr("Cancel the film; no file is written."), self)
         self._drawing.finished.connect(self._write)
         self._drawing.failed.connect(self._on_failed)
@@ -81,7 +79,6 @@ class FeatureFilm(Feature):
     def film(self, path: Path, choice: FilmChoice) -> None:
         """Make a film of the current run; the file is written after the last frame is drawn."""
         from hexmend_app.scene.film.film import format_of, pictures
-        from hexmend_app.scene.film.run_film import write_run_film
 
         self.cancel()
         record, history = self.session.timeline.record, self.session.history
@@ -93,14 +90,9 @@ class FeatureFilm(Feature):
         numbers = chosen_iterations(history, record, choice.frames)
         view = self.canvas.viewport
         size = choice.size((self.canvas.width(), self.canvas.height()))
-        now, start = self.session.document.now, self.session.document.start
+        now = self.session.document.now
         states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), now.mesh))
-        options = {"size": size, "rate": choice.rate, "histogram": choice.histogram, "before": choice.before}
-        options |= displacement_since(view.frame.movement, start)
         scene = replace(self.canvas.scene(Page(pixels=size)), panels=())
-        self._event = FileExported(
-            "film", write_run_film, (path, scene, IterationsExported(record, numbers), now, numbers), options
-        )
         self._path, self._record, self._rate = path, record, choice.rate
         frames = pictures(
             states,
@@ -132,13 +124,11 @@ class FeatureFilm(Feature):
     def _write(self, frames: list[Image.Image]) -> None:
         from hexmend_app.scene.film.film import write_film
 
-        saved = self.host.try_and_report(
+        self.host.try_and_report(
             tr("Film not saved"),
             lambda: write_film(self._path, frames, self._rate),
             tr("Film of {count} frames saved to {path}", count=len(frames), path=self._path),
         )
-        if saved:
-            self.session.user_event.emit(self._event)
 
 
 def _progress_text(drawn: int, count: int, path: Path) -> str:

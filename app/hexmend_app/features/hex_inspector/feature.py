@@ -12,7 +12,6 @@ from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_file import write_worst
 from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
-from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_list
@@ -273,10 +272,8 @@ class FeatureHexInspector(Feature):
 
     def save(self, path: str | Path) -> bool:
         """Write the list of the worst hexes as CSV; return True if it was written."""
-        arguments = Path(path), self._document.now, self.worst_list.chosen_metric
-        event = FileExported("worst hexes", write_worst, arguments)
         return self.host.try_and_report(
             tr("List not saved"),
-            lambda: self.session.commands.export(event),
+            lambda: write_worst(path, self._document.now.mesh, self.worst_list.chosen_metric),
             tr("{count} saved to {path}", count=counted(len(self.worst_list.hexes), "hex"), path=path),
         )

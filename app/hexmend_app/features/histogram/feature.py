@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,6 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.mesh.snapshots import Snapshot
-from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.theme.palette import BLUE, GREY, KEPT
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
@@ -186,26 +186,25 @@ class FeatureHistogram(Feature):
 
     def dialog(self) -> ChartDialog:
         """Return the export dialog, with the sizes and names of the last export."""
-        event = self._export_event(Path())
-        chart, proposed = figure(*event.arguments[1:], **event.options), f"{self.host.stem}-histogram.svg"
+        arguments, options = self._exported()
+        chart, proposed = figure(*arguments, **options), f"{self.host.stem}-histogram.svg"
         return ChartDialog(chart, tr("the histogram"), proposed, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
+        arguments, options = self._exported()
         return self.host.try_and_report(
             tr("Histogram not saved"),
-            lambda: self.session.commands.export(self._export_event(Path(path), style)),
+            lambda: write_histogram(path, *arguments, **options, style=style),
             tr("Histogram saved to {path}", path=path),
         )
 
-    def _export_event(self, path: Path, style: ChartStyle | None = None) -> FileExported:
+    def _exported(self) -> tuple[tuple[Any, ...], dict[str, Any]]:
+        """Return the arguments of `figure`: title, metric and distributions, and the options."""
         panel, document = self.panel, self._document
-        drawn = [(tr("at the start"), GREY.light, True, document.start), (tr("now"), BLUE.light, True, document.now)]
+        start, now = document.start.mesh, document.now.mesh
+        drawn = [(tr("at the start"), GREY.light, True, start), (tr("now"), BLUE.light, True, now)]
         for snapshot in self._snapshots.all:
-            state = self.session.state_at(snapshot.points)
-            mesh = document.now.mesh.with_points(snapshot.points) if state is None else state
-            drawn.append((snapshot.name, KEPT[snapshot.slot].light, False, mesh))
+            drawn.append((snapshot.name, KEPT[snapshot.slot].light, False, now.with_points(snapshot.points)))
         options = {"bins": panel.head.bins.value(), "log": panel.log, "cumulative": panel.cumulative}
-        if style is not None:
-            options["style"] = style
-        return FileExported("histogram", write_histogram, (path, document.name, self.metric, drawn), options)
+        return (document.name, self.metric, drawn), options

@@ -12,7 +12,6 @@ from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, Pan
 from hexmend_app.features.recipe.recipe_panel import RecipePanel
 from hexmend_app.resources import recipes
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_recipe, ask_recipe_target
 from hexmend_app.widgets.wording import label_of, short_number
@@ -138,10 +137,9 @@ class FeatureRecipe(Feature):
 
     def save(self, path: str | Path) -> None:
         """Save the recipe, or show the error."""
-        event = FileExported("recipe", write_recipe, (Path(path), self._draft.recipe))
         self.host.try_and_report(
             tr("Recipe not saved"),
-            lambda: self.session.commands.export(event),
+            lambda: write_recipe(Path(path), self._draft.recipe),
             tr("Recipe saved to {path}", path=path),
         )
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from hexmend.errors import FileError, HexmendError
 from hexmend.io import unsupported_data
@@ -15,11 +14,9 @@ from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.features.save.visible_saver import VisibleSaver, warn_of_omitted
 from hexmend_app.formats.session import SUFFIX
-from hexmend_app.picture import Page, Scene, write_scene
+from hexmend_app.picture import Page, Scene
 from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
-from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.session.user_events import FileExported, displacement_since
 from hexmend_app.state.tasks.mesh_saver import SaveTask, original_for
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import Answer, ask_rewrite, ask_session, ask_target, ask_unsaved
@@ -186,11 +183,7 @@ class FeatureSave(Feature):
             lines = scene.lines if 0 in (scene.lines.edges, last.lines.edges) else last.lines
             scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes)
         names = canvas.names if len(scene.panels) > 1 else ()
-        dialog = PictureDialog(scene, canvas.draw_page, size, f"{self.host.stem}.png", names, self.host.dialog_parent)
-        dialog.scene_saved.connect(
-            lambda *saved: self.session.user_event.emit(FileExported("scene", write_scene, saved))
-        )
-        return dialog
+        return PictureDialog(scene, canvas.draw_page, size, f"{self.host.stem}.png", names, self.host.dialog_parent)
 
     def picture(self, path: str | Path, size: tuple[int, int], transparent: bool = False) -> bool:
         """Write the view as a picture of `size` pixels; return True if it was written."""
@@ -211,37 +204,16 @@ class FeatureSave(Feature):
     def write_picture(self, path: Path, scene: Scene) -> bool:
         """Write a picture of a scene; return True if it was written."""
         width, height = scene.page.size
-        written = self.host.try_and_report(
+        return self.host.try_and_report(
             tr("Picture not saved"),
             lambda: self.canvas.draw_page(scene).write(path, self._metadata(path, scene)),
             tr("Picture of {width} × {height} pixels saved to {path}", width=width, height=height, path=path),
         )
-        if written:
-            self.session.user_event.emit(self._export_event(path, scene))
-        return written
 
     def _metadata(self, path: Path, scene: Scene) -> dict[str, str]:
         """Return the metadata of a picture: the scene, its meshes, and the recipe of the first mesh."""
         document = self.session.document
         opened = document.start.mesh
-        meshes = [PicturedMesh.of(opened, state.mesh, document.path, path) for state in self._shown]
+        shown = [document.now, *(one.state for one in self.session.side_views.all)]
+        meshes = [PicturedMesh.of(opened, state.mesh, document.path, path) for state in shown]
         return with_metadata(scene, meshes, self._recipe())
-
-    @property
-    def _shown(self) -> list[State]:
-        """States shown in the views, the current mesh first."""
-        return [self.session.document.now, *(one.state for one in self.session.side_views.all)]
-
-    def _export_event(self, path: Path, scene: Scene) -> FileExported:
-        """Return the event with the call that draws the picture."""
-        from hexmend_app.scene.page.still_picture import write_picture
-
-        document, recipe = self.session.document, self._recipe()
-        options: dict[str, Any] = {"opened": document.start}
-        if document.path is not None:
-            options["files"] = [document.path] * len(self._shown)
-        if recipe is not None:
-            options["recipe"] = recipe
-        options |= displacement_since(self.canvas.viewport.frame.movement, document.start)
-        names = self.canvas.names if self.session.side_views.all else [""]
-        return FileExported("picture", write_picture, (path, scene, self._shown, names), options)

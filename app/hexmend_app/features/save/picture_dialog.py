@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSize, Signal
+from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
@@ -57,11 +56,6 @@ _SEVERAL_VIEWS = ("captions", "figures", "columns")
 class PictureDialog(SaveDialog):
     """Dialog to edit the scene of a picture, with a preview, and its path.
 
-    Signals
-    -------
-    scene_saved(Path, Scene)
-        The scene was saved to a separate file.
-
     Parameters
     ----------
     scene : Scene
@@ -75,8 +69,6 @@ class PictureDialog(SaveDialog):
     views : sequence of str
         Names of the views; empty for one view.
     """
-
-    scene_saved = Signal(object, object)
 
     def __init__(
         self,
@@ -198,12 +190,9 @@ class PictureDialog(SaveDialog):
     def save_scene(self, path: str) -> None:
         """Write the scene to a file, or show the problem."""
         try:
-            scene = self.scene()
-            write_scene(path, scene)
+            write_scene(path, self.scene())
         except (FileError, ParameterError) as error:
             self.refuse(str(error))
-        else:
-            self.scene_saved.emit(Path(path), scene)
 
     def _list_cameras(self) -> None:
         """List the cameras: the camera of the view, the named cameras of the scene, and the standard views."""

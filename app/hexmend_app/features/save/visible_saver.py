@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 from PySide6.QtCore import QObject
 
+from hexmend.doctor.removal import extract_hexes
 from hexmend.errors import HexmendError
-from hexmend_app.codec.number_ranges import ranges_text
+from hexmend.io import unsupported_data, write
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.feature import Host
-from hexmend_app.features.save.visible_hexes import write_hexes
 from hexmend_app.scene.views.viewport import Viewport
-from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.state.tasks.task import Task, drop
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_visible
@@ -52,30 +52,34 @@ class VisibleSaver(QObject):
 
     def save(self, path: Path, viewport: Viewport) -> None:
         """Save the hexes that a view shows; those that a smooth cut shows in part are included whole."""
-        state, shown = self._host.session.document.now, viewport.remaining_after_cut()
+        mesh, shown = self._host.session.document.now.mesh, viewport.remaining_after_cut()
         if shown is None:
-            shown = np.ones(state.mesh.n_hexes, bool)
+            shown = np.ones(mesh.n_hexes, bool)
         if not shown.any():
             self._host.messages.show_error(tr("No hex is visible"), tr("Show the hexes that are to be saved first."))
             return
-        event = FileExported("visible hexes", write_hexes, (path, state, ranges_text(shown)))
         self._host.busy.show_work("save_visible", tr("Saving {name}…", name=path.name))
-        self._task = Task(f"saving {path.name}", lambda _: event.perform())
-        self._task.ended.connect(lambda: self._on_ended(event, int(shown.sum())))
+        self._task = Task(f"saving {path.name}", lambda _: _write(path, mesh, shown))
+        self._task.ended.connect(lambda: self._on_ended(path, int(shown.sum())))
         self._task.start()
 
-    def _on_ended(self, event: FileExported, count: int) -> None:
+    def _on_ended(self, path: Path, count: int) -> None:
         task, self._task = self._task, None
         self._host.busy.done("save_visible")
-        path = event.values[0]
         if isinstance(task.error, HexmendError):
             self._host.messages.show_error(tr("Visible hexes not saved"), str(task.error))
             return
         if task.error is not None:
             raise task.error
-        self._host.session.user_event.emit(event)
         self._host.messages.show_info(tr("{count} saved to {path}", count=counted(count, "hex"), path=path))
         warn_of_omitted(self._host, path, task.result)
+
+
+def _write(path: Path, mesh: Mesh, shown: np.ndarray) -> list[str]:
+    """Write some hexes as a mesh, and return what the file does not store of them."""
+    part = extract_hexes(mesh, shown)
+    write(path, part)
+    return unsupported_data(path, part)
 
 
 def warn_of_omitted(host: Host, path: Path, omitted: Sequence[str]) -> None:

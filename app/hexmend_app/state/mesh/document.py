@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
@@ -38,6 +41,24 @@ class State:
         """Measure a mesh and return its state."""
         figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
         return cls(mesh, figures, summarise(mesh, figures))
+
+
+@dataclass(frozen=True, eq=False)
+class Edit:
+    """Call of a function of the library that changed a mesh.
+
+    Parameters
+    ----------
+    before : State
+        State whose mesh is the first argument.
+    function : callable
+    values : tuple
+        The other arguments: strings, numbers, booleans, None, or arrays of integers.
+    """
+
+    before: State
+    function: Callable[..., Any]
+    values: tuple[Any, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +135,8 @@ class Document(QObject):
         File of the mesh.
     now : State or None
         The state that is shown; None if no mesh is open.
+    edits : mapping of State to Edit
+        Edits that led to states; the script of the changes repeats them.
     """
 
     mesh_replaced = Signal()
@@ -128,6 +151,7 @@ class Document(QObject):
         self._at = 0
         self._saved: State | None = None
         self._files: dict[Path, Mesh] = {}
+        self.edits: WeakKeyDictionary[State, Edit] = WeakKeyDictionary()
 
     @property
     def is_open(self) -> bool:
@@ -190,7 +214,7 @@ class Document(QObject):
         points = states[-1].mesh.points
         return not any(earlier.mesh.points is points for earlier in states[: states.index(state)])
 
-    def commit(self, title: str, state: State, show: bool = True) -> None:
+    def commit(self, title: str, state: State, show: bool = True, edit: Edit | None = None) -> None:
         """Record a state as a change, unless its positions, hexes and `OWN_PARTS` are those of the current change.
 
         Parameters
@@ -200,7 +224,11 @@ class Document(QObject):
         state : State
         show : bool
             False to leave the state shown as it is.
+        edit : Edit, optional
+            Call that led to the state.
         """
+        if edit is not None:
+            self.edits[state] = edit
         before, after = self._changes[self._at].state.mesh, state.mesh
         if any(getattr(after, part) is not getattr(before, part) for part in ("points", "hexes", *OWN_PARTS)):
             del self._changes[self._at + 1 :]

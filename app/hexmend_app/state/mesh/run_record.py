@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from hexmend.advice import Advice
+from hexmend.iteration import Outcome
 from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
@@ -65,6 +65,8 @@ class RunRecord:
         Number of the iteration that is the run's result; None until it has ended.
     end : State or None
         State of the result.
+    outcome : Outcome or None
+        Why the run ended; None until it has ended, if it failed, and for a run from a session file.
     message : str
         Outcome in sentences; "" until the run has ended.
     pauses : dict
@@ -81,8 +83,6 @@ class RunRecord:
         Values of the run that differ from the defaults, and its rules of motion, as text.
     changes : list of (int, Stage)
         Iterations after which the method was switched, and the new stages.
-    case : Path or None
-        The case whose times these are; None for a run, and for times from a session file.
     slot : int
         Number of its colour, from 0, which does not change when other runs are removed.
     plotted : bool
@@ -95,6 +95,7 @@ class RunRecord:
         self.rows: list[dict[str, Any]] = []
         self.result: int | None = None
         self.end: State | None = None
+        self.outcome: Outcome | None = None
         self.message = ""
         self.pauses: dict[int, str] = {}
         self.advice: Advice | None = None
@@ -103,7 +104,6 @@ class RunRecord:
         self.rules = MotionRules()
         self.settings = ""
         self.changes: list[tuple[int, Stage]] = []
-        self.case: Path | None = None
         self._moved = start.mesh.free  # grows if boundary nodes slide
         self._nodes = np.flatnonzero(self._moved).astype(np.int32)
         self._offsets: dict[int, NodeOffsets] = {}  # by iteration

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,7 +9,6 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.iteration import Iteration
-from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History, RunRecord
@@ -50,34 +47,8 @@ def case_times(path: Path, state: State) -> Iterator[Iteration | FileError]:
         before = time.points
 
 
-def begin_times(history: History, state: State, path: Path) -> RunRecord:
+def begin_times(history: History, state: State) -> RunRecord:
     """Add the record of a case to the history, with the mesh in constant as number 0, and return it."""
     record = history.begin(TITLE, state)
-    record.case = path
     history.add(record, Iteration(0, state.mesh.points, state.figures, 0.0, 0.0, {TIME: CONSTANT}))
-    return record
-
-
-def recorded_times(path: str | os.PathLike[str], mesh: Mesh, *, slot: int = 0, plotted: bool = True) -> RunRecord:
-    """Record the times of a case as the window does, for recorded scripts.
-
-    Parameters
-    ----------
-    path : path-like
-        The case.
-    mesh : Mesh
-        The mesh in constant.
-    slot, plotted
-        As of `RunRecord`.
-
-    Returns
-    -------
-    RunRecord
-    """
-    state, history = State.of(mesh), History(math.inf)
-    record = begin_times(history, state, Path(path))
-    record.slot, record.plotted = slot, plotted
-    for read in case_times(Path(path), state):
-        if isinstance(read, Iteration):
-            history.add(record, read)
     return record

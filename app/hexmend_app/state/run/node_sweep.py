@@ -2,34 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.node_step import NodeStep, Sweep
-
-
-@dataclass(frozen=True, eq=False)
-class SweepResult:
-    """Result of a sweep.
-
-    Parameters
-    ----------
-    before, after : State
-    smoother : LocalDescent
-    steps : int
-        Number of nodes that were visited one by one.
-    finished : bool
-        True if all other nodes were then visited at once.
-    """
-
-    before: State
-    after: State
-    smoother: LocalDescent
-    steps: int
-    finished: bool
 
 
 class NodeSweep(QObject):
@@ -42,8 +19,6 @@ class NodeSweep(QObject):
     -------
     changed
         A node was visited, or the sweep has ended.
-    recorded(SweepResult)
-        The sweep has ended, and the document has its result as one change.
 
     Attributes
     ----------
@@ -54,7 +29,6 @@ class NodeSweep(QObject):
     """
 
     changed = Signal()
-    recorded = Signal(object)
 
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
@@ -63,8 +37,6 @@ class NodeSweep(QObject):
         self.last: NodeStep | None = None
         self._smoother: LocalDescent | None = None
         self._state: State | None = None  # after the last step
-        self._before: State | None = None  # before the sweep
-        self._steps = 0  # nodes visited one by one
         document.mesh_replaced.connect(self._clear)
         document.points_moved.connect(self._on_moved)
 
@@ -84,7 +56,6 @@ class NodeSweep(QObject):
         sweep = self._active_sweep(smoother)
         for _, step in zip(range(count), sweep, strict=False):
             self.last = step
-        self._steps = sweep.done
         self._show()
 
     def finish(self, smoother: LocalDescent) -> None:
@@ -102,7 +73,6 @@ class NodeSweep(QObject):
             self.leave()
         if self.sweep is None:
             self.sweep, self._smoother = Sweep(self._document.now.mesh, smoother), smoother
-            self._before, self._steps = self._document.now, 0
         return self.sweep
 
     def _show(self) -> None:
@@ -119,14 +89,10 @@ class NodeSweep(QObject):
             self._record(show=False)
 
     def _record(self, show: bool) -> None:
-        title, sweep, self.sweep = self.title, self.sweep, None
+        title, self.sweep = self.title, None
         if title is not None:
             self._document.commit(title, self._state, show=show)
-            self.recorded.emit(
-                SweepResult(self._before, self._state, self._smoother, self._steps, sweep.done > self._steps)
-            )
-            self._before = None
             self.changed.emit()
 
     def _clear(self) -> None:
-        self.sweep = self.last = self._state = self._before = None
+        self.sweep = self.last = self._state = None

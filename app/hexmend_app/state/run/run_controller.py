@@ -104,8 +104,6 @@ class RunController(QObject):
         """True while a run is active, paused or not."""
         return self._worker is not None
 
-    blocks_editing = busy
-
     @property
     def newest(self) -> IterationFrame | None:
         """Newest iteration of the active run; None without one."""
@@ -281,7 +279,7 @@ class RunController(QObject):
         worker.task.wait()
         self._worker = None
         error, last = worker.task.error, worker.last
-        self.outcome = worker.task.result.outcome if error is None else None
+        self.outcome = self.record.outcome = worker.task.result.outcome if error is None else None
         reached = None if last is None else RecordedIteration(self.record, last.iteration.number)
         message = worker.task.result.message if error is None else f"Failed: {error}."
         self.history.finish(self.record, reached, last and last.state, message)

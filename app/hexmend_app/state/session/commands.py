@@ -20,8 +20,7 @@ from hexmend.quality import summarise
 from hexmend.run.memory import available, shortage
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.state.mesh.document import State
-from hexmend_app.state.session.user_events import FileExported, MeshEdited, NodesMoved, UndoOrRedo
+from hexmend_app.state.mesh.document import Edit, State
 
 if TYPE_CHECKING:
     from hexmend_app.state.session.session_parts import SessionParts
@@ -64,11 +63,6 @@ class Commands(QObject):
         `Session.saver` reports the outcome; if saving fails, an existing file is left unchanged.
         """
         return self._saver.save(path, rewrite)
-
-    def export(self, event: FileExported) -> None:
-        """Write the file of an event, then emit the event; raises `HexmendError` if it cannot be written."""
-        event.perform()
-        self._session.user_event.emit(event)
 
     def run(self, stage: Stage) -> None:
         """Run a method on the current mesh, unless another mesh is being read."""
@@ -123,19 +117,14 @@ class Commands(QObject):
         if not self._session.editable:
             return
         self._session.end_previews()
-        before = self.document.now
         self.document.reset()
-        if self.document.now is not before:
-            self._session.user_event.emit(NodesMoved("reset", before, self.document.now, self.document.start))
 
     def adopt_positions(self, title: str, state: State) -> None:
         """Move the nodes to their positions in another state, if the mesh is editable; pins and tags stay."""
         if self._session.editable:
             self._session.end_previews()
-            before = self.document.now
-            mesh = before.mesh.with_points(state.mesh.points)
+            mesh = self.document.now.mesh.with_points(state.mesh.points)
             self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
-            self._session.user_event.emit(NodesMoved(title, before, self.document.now, state))
 
     def replace_mesh(self, title: str, state: State) -> bool:
         """Replace the open mesh as one change that can be undone; return False if the mesh is not editable."""
@@ -173,10 +162,8 @@ class Commands(QObject):
         if self._session.editable:
             self._session.end_previews()
             now = self.document.now
-            self.document.commit("set target surface", replace(now, mesh=now.mesh.sliding_on(surface, check=False)))
-            values = (str(path.absolute()),)
-            event = MeshEdited("set target surface", now, self.document.now, sliding_on_file, values)
-            self._session.user_event.emit(event)
+            state = replace(now, mesh=now.mesh.sliding_on(surface, check=False))
+            self.document.commit("set target surface", state, edit=Edit(now, sliding_on_file, (str(path.absolute()),)))
 
     def slide_on_boundary(self) -> None:
         """Let the boundary slide on itself, if the mesh is editable."""
@@ -191,14 +178,13 @@ class Commands(QObject):
         self._amend("unmark a curve", without_curves, *([] if nodes is None else [tuple(nodes)]))
 
     def _amend(self, title: str, change: Callable[..., Mesh], *values: object) -> None:
-        """Change pins or tags of the mesh by a function of the core, which recorded scripts call."""
+        """Change pins or tags of the mesh by a function of the core, which the script of the changes calls."""
         if self._session.editable:
             self._session.end_previews()
             now = self.document.now
             mesh = change(now.mesh, *values)
             summary = now.summary if mesh.pinned is now.mesh.pinned else summarise(mesh, now.figures)
-            self.document.commit(title, State(mesh, now.figures, summary))
-            self._session.user_event.emit(MeshEdited(title, now, self.document.now, change, values))
+            self.document.commit(title, State(mesh, now.figures, summary), edit=Edit(now, change, values))
 
     def repair(self, kinds: Sequence[str] = ()) -> bool:
         """Start repairing some kinds of problem, or all; return False if the mesh is not editable.
@@ -218,16 +204,10 @@ class Commands(QObject):
         """Undo the last change, if the mesh is editable."""
         if self._session.editable:
             self._session.end_previews()
-            title = self.document.undo_title
             self.document.undo()
-            if title is not None:
-                self._session.user_event.emit(UndoOrRedo(title, self.document.now, undone=True))
 
     def redo(self) -> None:
         """Redo the change that was undone last, if the mesh is editable."""
         if self._session.editable:
             self._session.end_previews()
-            title = self.document.redo_title
             self.document.redo()
-            if title is not None:
-                self._session.user_event.emit(UndoOrRedo(title, self.document.now, undone=False))

@@ -40,10 +40,10 @@ class Session(SessionParts):
         self.saver = MeshSaver(self)
         self.repairer = MeshRepairer(self)
         self.padder = MeshPadder(self)
+        self._changing += [self.repairer, self.padder]
         self.commands = Commands(self, self.saver, self.repairer, self.padder)
         self.opener.loaded.connect(self.restore)
         self.opener.restored.connect(self._show_as_picture)
-        self.user_event.connect(self._on_change)
         for part in self.children():
             for signal in _signals(part):
                 signal.connect(self._on_change)

@@ -127,17 +127,6 @@ def _encoded(data: SessionData) -> tuple[tuple[Mesh, ...], int, Any]:
     return tuple(numbers), now, window
 
 
-def numbered(data: SessionData) -> dict[State, int]:
-    """Return the numbers that the meshes of the states have in the session file."""
-    numbers: dict[Mesh, int] = {}
-    _writing_codec(numbers).encode(data, SessionData)
-    states = [data.document.now, *(change.state for change in data.document.changes)]
-    for record in data.history.records:
-        states += [record.start, record.end]
-    states += [data.comparison.initial, *(side_view.state for side_view in data.side_views.shown)]
-    return {state: numbers[state.mesh] for state in states if state is not None}
-
-
 def _writing_codec(numbers: dict[Mesh, int]) -> Codec:
     """Return the codec that writes a session: meshes become numbers, in the order in which they occur."""
     return Codec({

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.mesh.comparison_base import ComparisonBases
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.selection import Selection
 from hexmend_app.state.mesh.snapshots import Snapshots
@@ -45,8 +45,6 @@ class SessionParts(QObject):
 
     Signals
     -------
-    user_event(UserEvent)
-        The user has changed the mesh, or written a file.
     about_to_save
         The data for a session file are about to be collected: views store data that only they know.
     data_changed
@@ -78,13 +76,13 @@ class SessionParts(QObject):
     node_sweep : NodeSweep
     """
 
-    user_event = Signal(object)
     about_to_save = Signal()
     data_changed = Signal()
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self._parts: list[StatePart] = []  # in the order in which they are restored
+        self._changing: list[Any] = []  # parts that replace the mesh while they are `busy`
         document = self.document = self._add_part("document", Document(self), "changes_changed")
         self.history = History()
         self._parts.append(StatePart(name="history", to_data=self._history_data, restore=self.history.restore))
@@ -116,6 +114,7 @@ class SessionParts(QObject):
         self.node_step_task = NodeStepTask(self)
         self.mesh_checker = MeshChecker(self)
         self.node_sweep = NodeSweep(document, self)
+        self._changing += [self.run, self.opener]
 
     def _add_part(self, name: str, part: Part, change: str = "") -> Part:
         """Register a part by its name in session files, with the name of its change signal, and return it."""
@@ -127,7 +126,7 @@ class SessionParts(QObject):
     @property
     def editable(self) -> bool:
         """True if the mesh can be edited: no task that changes it is active, and no file is being read."""
-        return self.document.is_open and not any(getattr(part, "blocks_editing", False) for part in self.children())
+        return self.document.is_open and not any(part.busy for part in self._changing)
 
     @property
     def modified(self) -> bool:
@@ -135,17 +134,6 @@ class SessionParts(QObject):
         path = self.document.path
         is_session = path is not None and path.suffix.lower() == SUFFIX
         return self.document.modified or (is_session and self.saved_cameras.modified)
-
-    def state_at(self, points: np.ndarray | None) -> State | None:
-        """Return the state with these points; None if no part has one."""
-        document, comparison = self.document, self.comparison
-        if not document.is_open:
-            return None
-        known = [document.now, *(change.state for change in document.to_data().changes)]
-        known += [state for record in self.history.records for state in (record.start, record.end)]
-        known += [comparison.initial, *(result.state for result in comparison.results)]
-        known += [side_view.state for side_view in self.side_views.all]
-        return next((state for state in known if state is not None and state.mesh.points is points), None)
 
     def end_previews(self) -> None:
         """End what is shown on the way to a result: a run that is shown eased, and a sweep node by node."""

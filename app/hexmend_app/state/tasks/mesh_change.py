@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.state.mesh.document import State
-from hexmend_app.state.session.user_events import MeshEdited
+from hexmend_app.state.mesh.document import Edit, State
 from hexmend_app.state.tasks.task import Task, drop
 
 if TYPE_CHECKING:
@@ -29,17 +28,14 @@ class MeshChange:
         Title in the undo list.
     state : State or None
         The changed mesh; None if nothing was changed.
-    function : callable
-        Function of the core that makes the same change in a script.
-    values : tuple
-        Its arguments after the mesh.
+    edit : Edit
+        Call of the core that makes the same change.
     """
 
     outcome: Any
     title: str
     state: State | None
-    function: Callable[..., Any]
-    values: tuple[Any, ...] = ()
+    edit: Edit
 
 
 class BackgroundChange(QObject):
@@ -77,16 +73,14 @@ class BackgroundChange(QObject):
         """True while the mesh is being changed."""
         return self._task is not None
 
-    blocks_editing = busy
-
-    def _begin(self, name: str, change: Callable[[Mesh, Task], MeshChange]) -> bool:
-        """Start a change of the mesh by a function of the mesh and the task; return False if it is not editable."""
+    def _begin(self, name: str, change: Callable[[State, Task], MeshChange]) -> bool:
+        """Start a change of the mesh by a function of its state and the task; return False if it is not editable."""
         session = self._session
         if not session.editable:
             return False
         session.end_previews()
         self._before = before = session.document.now
-        self._task = Task(f"{name} {before.mesh.name}", lambda task: change(before.mesh, task), yields=True)
+        self._task = Task(f"{name} {before.mesh.name}", lambda task: change(before, task), yields=True)
         self._task.ended.connect(self._finish)
         self.began.emit()
         self._task.start()
@@ -116,9 +110,7 @@ class BackgroundChange(QObject):
             self.cancelled.emit()
             return
         if change.state is not None:
-            document.commit(change.title, change.state)
-            event = MeshEdited(change.title, before, document.now, change.function, change.values)
-            self._session.user_event.emit(event)
+            document.commit(change.title, change.state, edit=change.edit)
         self.ended.emit(change.outcome)
 
 

@@ -148,8 +148,6 @@ class MeshOpener(QObject):
         """True while a mesh is being read."""
         return self._task is not None
 
-    blocks_editing = busy
-
     def open(self, path: str | Path, *, recovers: bool = False, picture: MissingMesh | None = None) -> None:
         """Start reading a file; of the files requested while another is read, the last is opened next.
 

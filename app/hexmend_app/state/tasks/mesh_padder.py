@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from hexmend.mesh.mesh import Mesh
 from hexmend.padding import pad
+from hexmend_app.state.mesh.document import Edit, State
 from hexmend_app.state.tasks.mesh_change import BackgroundChange, MeshChange, prepared_state
 from hexmend_app.state.tasks.task import Task
 
@@ -35,10 +35,10 @@ class MeshPadder(BackgroundChange):
 
     def start(self, choice: PaddingChoice) -> bool:
         """Start padding the mesh; return False if it is not editable."""
-        return self._begin("padding", lambda mesh, task: _pad(mesh, choice, task))
+        return self._begin("padding", lambda before, task: _pad(before, choice, task))
 
 
-def _pad(mesh: Mesh, choice: PaddingChoice, task: Task) -> MeshChange:
+def _pad(before: State, choice: PaddingChoice, task: Task) -> MeshChange:
     """Pad, mend, measure and prepare a mesh; mending ends when the task is cancelled."""
-    padding = pad(mesh, *choice, progress=False, watch=lambda _: not task.cancelled.is_set())
-    return MeshChange(padding, "pad", prepared_state(padding.mesh), pad, tuple(choice))
+    padding = pad(before.mesh, *choice, progress=False, watch=lambda _: not task.cancelled.is_set())
+    return MeshChange(padding, "pad", prepared_state(padding.mesh), Edit(before, pad, tuple(choice)))

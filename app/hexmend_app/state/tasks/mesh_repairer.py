@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexmend.doctor import PROBLEMS, repair
-from hexmend.mesh.mesh import Mesh
+from hexmend_app.state.mesh.document import Edit, State
 from hexmend_app.state.tasks.mesh_change import BackgroundChange, MeshChange, prepared_state
 
 
@@ -15,11 +15,11 @@ class MeshRepairer(BackgroundChange):
     def start(self, kinds: Sequence[str] = ()) -> bool:
         """Start repairing some kinds of problem, or all; return False if the mesh is not editable."""
         kinds = tuple(kinds)
-        return self._begin("repairing", lambda mesh, _: _repair(mesh, kinds))
+        return self._begin("repairing", lambda before, _: _repair(before, kinds))
 
 
-def _repair(mesh: Mesh, kinds: tuple[str, ...]) -> MeshChange:
+def _repair(before: State, kinds: tuple[str, ...]) -> MeshChange:
     """Repair, measure and prepare a mesh."""
-    mesh, repaired = repair(mesh, kinds)
+    mesh, repaired = repair(before.mesh, kinds)
     title = "repair " + " and ".join(PROBLEMS[finding.kind].title.lower() for finding in repaired)
-    return MeshChange(repaired, title, prepared_state(mesh) if repaired else None, repair, (kinds,))
+    return MeshChange(repaired, title, prepared_state(mesh) if repaired else None, Edit(before, repair, (kinds,)))

@@ -16,7 +16,6 @@ from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session_data import SessionData
-from hexmend_app.state.session.user_events import MeshSaved
 from hexmend_app.state.tasks.file_watcher import FileWatcher
 from hexmend_app.state.tasks.task import Task, drop
 
@@ -175,14 +174,8 @@ class MeshSaver(QObject):
         self._begin()
 
     def _mark_saved(self, saving: SaveTask) -> None:
-        """Emit the user event, and mark the state as saved if its mesh is still open."""
+        """Mark the state as saved if its mesh is still open."""
         session = self._session
-        session.user_event.emit(MeshSaved(saving.path, saving.state, saving.data, _source(saving)))
         is_open = session.document.mark_saved(saving.path, saving.recorded)
         if is_open and saving.data is not None:
             session.saved_cameras.mark_saved(saving.data.cameras)
-
-
-def _source(saving: SaveTask) -> Path | None:
-    """File whose coordinates were replaced in a copy; None for a file written anew."""
-    return saving.original.path if saving.written is not None and saving.written.replaced else None

@@ -57,7 +57,6 @@ class TimeReader(QObject):
     def __init__(self, document: Document, timeline: Timeline, parent: QObject | None = None):
         super().__init__(parent)
         self._document, self._timeline, self._history = document, timeline, timeline.history
-        self._path = Path()
         self._state: State | None = None  # of the mesh in constant
         self._record: RunRecord | None = None
         self._found: list[FileError] = []
@@ -86,7 +85,7 @@ class TimeReader(QObject):
         self.close()
         if find_case(path) is None:
             return
-        self._path, self._state, self._found = path, self._document.now, []
+        self._state, self._found = self._document.now, []
         self._task = Task(f"reading the times of {path.name}", partial(_read, path, self._state), yields=True)
         self._task.reported.connect(self._add)
         self._task.ended.connect(self._finish)
@@ -110,7 +109,7 @@ class TimeReader(QObject):
             self._found.append(read)
             return
         if self._record is None:
-            self._record = begin_times(self._history, self._state, self._path)
+            self._record = begin_times(self._history, self._state)
         self._history.add(self._record, read)
         self._timeline.update_runs()
         self.progressed.emit()

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
-from hexmend_app.features.console.interpreter import Interpreter, is_complete
+from hexmend_app.features.console.interpreter import is_complete
 from hexmend_app.features.console.panel import ConsolePanel
 from tests.patience import PATIENCE
 
@@ -36,6 +34,8 @@ def test_it_opens_and_evaluates(window, console):
     assert f"\n{mesh.n_hexes}\n" in console.enter_and_wait("mesh.n_hexes")
     assert "\n'hexmend'\n" in console.enter_and_wait("hx.__name__")
     assert "None" not in console.enter_and_wait("result")
+    assert f"\n{mesh.n_hexes} lines" in console.enter_and_wait("print(quality.q.size, 'lines')")
+    assert "SystemExit" in console.enter_and_wait("raise SystemExit")
     text = console.enter_and_wait("1 / 0")
     assert "ZeroDivisionError" in text
     assert "1 / 0" in text.split("Traceback")[1]
@@ -88,12 +88,6 @@ def test_an_endless_print_is_shown_and_interrupted(console, qtbot):
     assert "KeyboardInterrupt" in console.panel.output.toPlainText()
 
 
-def test_the_session_is_used_in_the_gui_thread(window, console):
-    mesh = window.session.document.now.mesh
-    assert f"\n{mesh.n_nodes}\n" in console.enter_and_wait("session.document.now.mesh.n_nodes")
-    assert "AttributeError" in console.enter_and_wait("session.nothing")
-
-
 def test_lines_history_and_completion(window, console, qtbot):
     panel = console.panel
     qtbot.keyClicks(panel.input, "for i in range(2):")
@@ -107,9 +101,9 @@ def test_lines_history_and_completion(window, console, qtbot):
     qtbot.keyClick(panel.input, Qt.Key.Key_Down)
     qtbot.keyClick(panel.input, Qt.Key.Key_Down)
     assert panel.input.toPlainText() == ""
-    qtbot.keyClicks(panel.input, "session.docu")
+    qtbot.keyClicks(panel.input, "mesh.n_hex")
     qtbot.keyClick(panel.input, Qt.Key.Key_Tab)
-    assert panel.input.toPlainText() == "session.document"
+    assert panel.input.toPlainText() == "mesh.n_hexes"
     panel.input.clear()
 
 
@@ -128,15 +122,6 @@ def test_lines_history_and_completion(window, console, qtbot):
 )
 def test_is_complete(source, complete):
     assert is_complete(source) == complete
-
-
-def test_other_threads_print_elsewhere(capsys):
-    interpreter = Interpreter({})
-    assert interpreter.execute("print('here')\nx = 2\nx")
-    assert "".join(text for text, _ in interpreter.output()) == "here\n2\n"
-    assert not interpreter.execute("raise SystemExit")
-    sys.stdout.write("there\n")
-    assert capsys.readouterr().out == "there\n"
 
 
 def test_the_panel_keeps_a_colon_indented(shown, qtbot):

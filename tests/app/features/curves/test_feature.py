@@ -108,6 +108,6 @@ def test_iterations_and_results_of_runs_have_the_marks(window, qtbot, ends):
 
 def test_the_script_marks_the_same_edges(window, ends):
     mark(window, ends)
-    text = window.features["script"].script.text
+    text = window.features["script"].text
     assert "from hexmend.boundary.marking import with_curve" in text
     assert re.search(rf"with_curve\(\w+, \({ends[0]}, ", text)

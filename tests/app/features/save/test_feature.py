@@ -46,7 +46,7 @@ def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot,
     offered = []
     out = str(tmp_path / "out.vtk")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: offered.append(given[3]) or (out, ""))
-    with qtbot.waitSignal(window.session.user_event, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.saver.ended, timeout=PATIENCE):
         window.action("save").trigger()
     assert all(f"(*{suffix})" in offered[0] for suffix in io.writable_suffixes())
     np.testing.assert_array_equal(io.read(out).points, window.session.document.now.mesh.points)
@@ -170,8 +170,8 @@ def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypa
     window.refresh()
     out, said = tmp_path / "out.vtu", []
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: said.append(given[2]) or (str(out), ""))
-    with qtbot.waitSignal(window.session.user_event, timeout=PATIENCE):
-        window.action("save_visible").trigger()
+    window.action("save_visible").trigger()
+    qtbot.waitUntil(lambda: not window.features["save"].visible.going_on, timeout=PATIENCE)
     assert said[0].endswith("-visible.vtu")
     corners = mesh.points[mesh.hexes][:, :, 0]
     shown = centres[:, 0] <= middle[0] if style is CutStyle.CRINKLE else corners.min(axis=1) < middle[0]

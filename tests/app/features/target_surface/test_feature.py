@@ -84,5 +84,5 @@ def test_a_surface_that_does_not_fit_is_refused(window, stl, tmp_path):
 
 def test_the_script_reads_the_surface(window, stl):
     window.features["target_surface"].choose(stl)
-    text = window.features["script"].script.text
+    text = window.features["script"].text
     assert re.search(rf"sliding_on_file\(\w+, {re.escape(repr(str(stl)))}\)", text)

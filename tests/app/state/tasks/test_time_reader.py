@@ -1,4 +1,4 @@
-"""Times of a case in the window: recorded like iterations, with their own boundary, and re-read by scripts."""
+"""Times of a case in the window: recorded like iterations, with their own boundary."""
 
 import numpy as np
 import pytest

@@ -1,0 +1,156 @@
+"""The script of the changes of a mesh runs without the window and makes the same mesh."""
+
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.gallery import make
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
+from hexmend.run import StoppingCriteria
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.smoothers import METHODS
+from hexmend_app.features.script.trace import Trace
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.session.session import Session
+from hexmend_app.state.tasks.mesh_padder import PaddingChoice
+from tests.patience import PATIENCE
+
+SHORT = StoppingCriteria(max_iterations=6, tolerance=0)
+ENDLESS = StoppingCriteria(max_iterations=100_000, tolerance=0)
+
+
+def stage(method, stop=SHORT, **values):
+    return Stage(METHODS[method](**values), stop)
+
+
+@pytest.fixture
+def path(tmp_path):
+    """File of two bridges, the second inside out: the doctor can repair it."""
+    mesh = make("bridge-sharp", size=100, scramble=0.3, seed=1)
+    turned = mesh.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]] + mesh.n_nodes
+    points = np.vstack([mesh.points, mesh.points + [2 * np.ptp(mesh.points[:, 0]), 0, 0]])
+    path = tmp_path / "it's two bridges.vtu"
+    io.write(path, Mesh(points, np.vstack([mesh.hexes, turned])))
+    return path
+
+
+@pytest.fixture
+def session(qtbot, path):
+    session = Session()
+    open_file(qtbot, session, path)
+    yield session
+    session.close()
+
+
+def open_file(qtbot, session, path):
+    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
+        session.commands.open(path)
+
+
+def save(qtbot, session, path):
+    with qtbot.waitSignal(session.saver.ended, timeout=PATIENCE):
+        session.commands.save_in_background(path)
+
+
+def run(qtbot, session, work):
+    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+        (session.commands.run_recipe if isinstance(work, Recipe) else session.commands.run)(work)
+
+
+def pause(qtbot, session, work, iterations):
+    session.commands.step(work, iterations)
+    qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED, timeout=PATIENCE)
+
+
+def executed(qtbot, session, tmp_path):
+    """Save the mesh, run the script, compare the meshes, and return the script."""
+    out, script = tmp_path / "out.vtu", tmp_path / "script.py"
+    save(qtbot, session, out)
+    out.unlink()
+    text = Trace(session).text()
+    script.write_text(text)
+    done = subprocess.run([sys.executable, "-W", "error", script], capture_output=True, text=True, env=os.environ)
+    assert done.returncode == 0, f"{done.stderr}\n{text}"
+    made, mesh = io.read(out), session.document.now.mesh
+    np.testing.assert_allclose(made.points, mesh.points, atol=1e-6)
+    np.testing.assert_array_equal(made.hexes, mesh.hexes)
+    np.testing.assert_array_equal(made.pinned, mesh.pinned)
+    assert {name: set(hexes) for name, hexes in made.hex_sets.items()} == {
+        name: set(hexes) for name, hexes in mesh.hex_sets.items()
+    }
+    return text
+
+
+def test_edits_and_runs_are_repeated(session, qtbot, tmp_path):
+    commands = session.commands
+    with qtbot.waitSignal(session.repairer.ended, timeout=PATIENCE):
+        commands.repair()
+    commands.tag("ends", [0, 1, *range(20, 60)])
+    commands.free_only([3, 4], 2)
+    commands.pin(np.array([5, 6]), True)
+    run(qtbot, session, stage("laplacian", boundary="slide"))
+    commands.mark_curve([0, 1])
+    run(qtbot, session, Recipe.of(stage("local-sd"), stage("mend"), rules=MotionRules(interfaces="slide")))
+    commands.undo()
+    pause(qtbot, session, stage("local-sd", ENDLESS), 3)
+    session.run.change(stage("laplacian", ENDLESS))
+    session.run.step(2)
+    qtbot.waitUntil(lambda: session.run.record.newest == 5, timeout=PATIENCE)
+    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+        session.run.stop()
+    text = executed(qtbot, session, tmp_path)
+    assert [text.count(call) for call in ("hx.smooth(", "switch_method(", "Recipe", "hx.read(")] == [1, 1, 0, 1]
+
+
+def test_a_layer_is_laid_again(session, qtbot, tmp_path):
+    with qtbot.waitSignal(session.padder.ended, timeout=PATIENCE):
+        session.commands.pad(PaddingChoice())
+    assert "hx.pad(mesh_0, " in executed(qtbot, session, tmp_path)
+
+
+def test_a_branch_starts_from_an_iteration(session, qtbot, tmp_path):
+    run(qtbot, session, stage("local-sd"))
+    session.timeline.go(session.timeline.record, 2)
+    session.commands.pin(7, True)
+    run(qtbot, session, stage("laplacian", StoppingCriteria(max_iterations=1, keep_last=True)))
+    session.timeline.go(session.history.records[0], 4)
+    assert "if it.number == 2:" in executed(qtbot, session, tmp_path)
+
+
+def test_a_compared_result_and_a_reset(session, qtbot, tmp_path):
+    compared = session.comparison
+    compared.start([stage("laplacian").smoother], SHORT, MotionRules())
+    qtbot.waitUntil(lambda: not compared.busy, timeout=PATIENCE)
+    session.commands.pin(7, True)
+    session.commands.adopt_positions("take Laplacian", compared.results[0].state)
+    executed(qtbot, session, tmp_path)
+    session.commands.reset()
+    assert "# Reset\nmesh_3 = mesh_1\n" in executed(qtbot, session, tmp_path)
+
+
+def test_a_session_is_read(session, qtbot, tmp_path):
+    run(qtbot, session, stage("local-sd"))
+    save(qtbot, session, tmp_path / "work.hexmend")
+    open_file(qtbot, session, tmp_path / "work.hexmend")
+    run(qtbot, session, stage("laplacian", StoppingCriteria(max_iterations=1, keep_last=True)))
+    text = executed(qtbot, session, tmp_path)
+    assert "work.hexmend" in text
+    assert "two bridges" not in text
+
+
+def test_a_mesh_in_no_file_has_to_be_saved_first(session):
+    session.document.replace(State.of(make("cube", size=8)), None)
+    assert re.search(r"# Save the mesh.*\nmesh_0 = hx.read\(.*cube-8.vtu", Trace(session).text())
+
+
+def test_without_a_mesh_the_script_does_nothing(qtbot):
+    session = Session()
+    exec(Trace(session).text(), {})
+    session.close()
