@@ -14,7 +14,7 @@ from typing import Any
 from hexmend.errors import HexmendError
 from hexmend.study.peers.peer import run_program
 
-_OPTIONS = ("--size", "240x180", "--no-bar", "--no-axes-show", "--no-page-figures")
+_OPTIONS = ("--size", "240x180", "--no-bar", "--key", "axes.show=false", "--key", "page.figures=false")
 
 _MAX_SECONDS = 120.0
 
