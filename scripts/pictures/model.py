@@ -49,7 +49,8 @@ def materials(folder: Path, scratch: Path) -> None:
     render(
         folder / "interfaces-ball.png", [scrambled, kept, free],
         ["scrambled", "mended", "mended with --interfaces free"], "--clip", "y:0.5",
-        "--key", f'cut.hexes="{ranges(behind)}"', "--view", "[-0.05, -1, 0.08]", "--metric", "material", "--size", "900x325", *_PLAIN,
+        "--key", f'cut.hexes="{ranges(behind)}"', "--view", "[-0.05, -1, 0.08]",
+        "--metric", "material", "--size", "900x325", *_PLAIN,
     )  # fmt: skip
 
 

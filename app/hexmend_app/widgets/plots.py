@@ -24,7 +24,7 @@ class CalmAxis(pg.AxisItem):
         super().__init__(orientation)
         self.colours: dict[str, Role] = {}
         self.enableAutoSIPrefix(False)
-        self.setStyle(tickLength=4, tickTextOffset=3, hideOverlappingLabels=False)
+        self.setStyle(tickLength=4, tickTextOffset=3, hideOverlappingLabels=False, maxTickLevel=0)
 
     def paint_lines(self) -> None:
         """Apply the colours of the current theme."""
