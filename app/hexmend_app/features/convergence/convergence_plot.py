@@ -19,7 +19,7 @@ from hexmend_app.theme.palette import TEXT
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import note, on_theme_change, set_help, smaller
 from hexmend_app.translation import tr
-from hexmend_app.widgets.plots import calm_plot
+from hexmend_app.widgets.plots import calm_plot, log_ticks
 
 _STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine)
 _DASHES = ("—", "- -", "···")
@@ -230,7 +230,8 @@ class ConvergencePlot(QWidget):
             if least <= 0 and (values <= 0).any():
                 low = self.zero = (0 if whole else low) - 1
             high = max(math.log10(most or 1.0), low + 1.0)
-            ticks = [log_ticks(low, high, self.zero)]
+            powers = log_ticks(low, high)
+            ticks = [powers if self.zero is None else [(low, "0"), *powers[1:]]]
         self.plot.getAxis("left").setTicks(ticks)
         self.plot.setYRange(low, high, padding=0.08)
 
@@ -266,14 +267,3 @@ class ConvergencePlot(QWidget):
 
     def _on_moved(self, place: QPointF) -> None:
         self.hovered.emit(place if self.view.sceneBoundingRect().contains(place) else None)
-
-
-def log_ticks(low: int, high: float, zero: float | None) -> list[tuple[float, str]]:
-    """Return about three powers of ten between two decimal logarithms, and zero at its position, with their texts.
-
-    >>> log_ticks(-1, 3.0, -1), log_ticks(-7, -6.0, None)
-    ([(-1, '0'), (1, '10'), (3, '1,000')], [(-7, '1e-07'), (-6, '1e-06')])
-    """
-    step = max(1, -(-(math.floor(high) - low) // 2))
-    ticks = [(k, f"{10.0**k:,g}") for k in range(low, math.floor(high) + 1, step)]
-    return ticks if zero is None else [(zero, "0"), *ticks[1:]]
