@@ -9,7 +9,7 @@ from enum import StrEnum
 from typing import Any, get_args, get_origin
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QFormLayout, QLabel, QWidget
+from PySide6.QtWidgets import QFormLayout, QLabel, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
@@ -50,7 +50,7 @@ class KeyForm(QWidget):
         super().__init__(parent)
         self._kind = type(table)
         self._keys = {option.field: option for option in options_of(self._kind) if option.field in names}
-        self.editors: dict[str, Editor | SuggestionBox] = {}
+        self.editors: dict[str, Editor] = {}
         layout = on_grid(QFormLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         for name in names:
@@ -102,35 +102,12 @@ class KeyForm(QWidget):
         self._problem.setVisible(bool(problem))
 
 
-class SuggestionBox(QComboBox):
-    """Editor of a text, with a list of suggestions."""
-
-    changed = Signal()
-    problem = ""
-
-    def __init__(self, suggestions: Sequence[str], parent: QWidget | None = None):
-        super().__init__(parent)
-        self.setEditable(True)
-        self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
-        self.addItems(suggestions)
-        self.activated.connect(self.changed)
-        self.lineEdit().textEdited.connect(lambda _: self.changed.emit())
-
-    def value(self) -> str:
-        """Return the text, chosen or typed."""
-        return self.currentText().strip()
-
-    def set_value(self, value: str) -> None:
-        """Show a text, without a signal."""
-        self.setCurrentText(value)
-
-
-def _editor(option: Option) -> Editor | SuggestionBox:
+def _editor(option: Option) -> Editor:
     kind, name = option.kind, option.name
     if kind is bool or kind in (int, float):
         return editor_for(Parameter(name, kind, option.default, option.low, option.high, None, "", ""))
     if option.offered:
-        return SuggestionBox(option.offered)
+        return editor_for(Parameter(name, str, option.default, None, None, None, "", "", suggestions=option.offered))
     if isinstance(kind, type) and issubclass(kind, StrEnum):
         return editor_for(Parameter(name, str, option.default.value, None, None, tuple(kind), "", ""))
     editor = editor_for(Parameter(name, str, "", None, None, None, "", ""))
