@@ -193,7 +193,7 @@ def test_a_session_of_version_1_leaves_panels_unchanged(window, qtbot, tmp_path)
     at_rest(window, qtbot)
     assert panel_settings(window) == settings
     assert [(record.slot, record.plotted) for record in window.session.history.records] == [(0, True)]
-    assert not window.canvas.can_go_back
+    assert not window.canvas.camera_animation.can_go_back
     write_archive(path, "Hexmend session", VERSION, data)
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
