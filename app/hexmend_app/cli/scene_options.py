@@ -7,10 +7,9 @@ import re
 from math import isfinite
 from typing import Any
 
-from hexmend.errors import ParameterError
-from hexmend.toml_text import parse_toml
 from hexmend_app.cli.numbers import direction, invalid_value, numbers
 from hexmend_app.codec.config_table import decode, encode
+from hexmend_app.codec.value_text import parse_value
 from hexmend_app.picture import CutKind, Plane, Range, Scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.layer_switch import ordered_layers
@@ -101,28 +100,14 @@ def _given(args: argparse.Namespace) -> list[tuple[str, Any]]:
     options = vars(args)
     for name, path, _ in _VALUES:
         if text := options[name.replace("-", "_")]:
-            given.append((path, _value(text)))
+            given.append((path, parse_value(text)))
     given += [(path, value) for name, path, value, _ in _SWITCHES if options[name.replace("-", "_")]]
     for text in args.key:
         path, equals, value = text.partition("=")
         if not (equals and "." in path):
             raise invalid_value("--key", text, "TABLE.KEY=VALUE, as in page.margin=5")
-        given.append((path.strip(), _value(value)))
+        given.append((path.strip(), parse_value(value)))
     return given
-
-
-def _value(text: str) -> Any:
-    """Return a value of TOML, a list without its brackets, or a text without quotes.
-
-    >>> _value("0.5"), _value("0.2,0.8"), _value("true"), _value("-x"), _value("{ rings = 0 }")
-    (0.5, [0.2, 0.8], True, '-x', {'rings': 0})
-    """
-    for notation in (text, f"[{text}]"):
-        try:
-            return parse_toml(f"value = {notation}", "a value")["value"]
-        except ParameterError:
-            continue
-    return text
 
 
 def parse_plane(text: str) -> Plane:

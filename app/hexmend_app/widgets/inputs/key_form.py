@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 from enum import StrEnum
-from typing import Any, get_args, get_origin
+from typing import Any
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFormLayout, QLabel, QWidget
@@ -16,6 +15,7 @@ from hexmend.parameters import Parameter
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
+from hexmend_app.codec.value_text import parse_value
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import WORSE, note, set_help
 from hexmend_app.translation import tr
@@ -116,18 +116,9 @@ def _editor(option: Option) -> Editor:
 
 
 def _read(option: Option, text: str) -> Any:
-    """Return the value of a text: a number, a list of numbers, or the text itself; the default of an empty text."""
+    """Return the value of a text; the default of an empty text."""
     text = text.strip()
-    if not text or option.kind is str:
-        return text or option.default
-    try:
-        numbers = [float(word) for word in re.split(r"[,;\s×]+", text.strip(" ,;"))]
-    except ValueError:
-        raise ParameterError(f"{name_in_words(option.name)}: {text!r} is not a number") from None
-    values = [int(number) if number.is_integer() else number for number in numbers]
-    takes_number = {int, float} & set(get_args(option.kind) or (option.kind,))
-    takes_list = any(get_origin(kind) is tuple for kind in get_args(option.kind))
-    return values[0] if len(values) == 1 and takes_number else values if takes_list else text
+    return text or option.default if not text or option.kind is str else parse_value(text)
 
 
 def _text(value: Any) -> str:
