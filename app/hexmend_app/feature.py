@@ -64,8 +64,7 @@ class Action:
     id : str
         Identifies it for other features, settings and tests.
     text : str
-        Text in the menu, with an ampersand before its mnemonic; a letter is assigned if there is none, or if another
-        action of the menu has the same.
+        Text in the menu, with an ampersand before its mnemonic; a free letter is assigned if there is none.
     handle : callable
         Called to execute the action; for an action with `checked`, with the new state.
     menu : str

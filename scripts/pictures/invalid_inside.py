@@ -19,9 +19,9 @@ _HEX = 29
 def main(folder: Path) -> None:
     """Draw the hex alone."""
     mesh, picture = Path(os.environ["HEXMEND_MESHES"]) / "Dolphin_2.mesh", folder / "invalid-inside.png"
-    isolated = f"{{ hexes = [{_HEX}], rings = 0 }}"
     words = ["render", mesh, "-o", picture, "--view=1,-0.6,0.5", "--size", "880x480"]
-    words += ["--show-isolate", isolated, "--show-marked", _HEX, "--no-show-outline"]
+    isolate = f"show.isolate={{ hexes = [{_HEX}], rings = 0 }}"
+    words += ["--key", isolate, "--key", f"show.marked=[{_HEX}]", "--key", "show.outline=false"]
     subprocess.run([sys.executable, "-m", "hexmend", *map(str, words)], check=True)
     compress(picture)
 

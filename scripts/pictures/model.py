@@ -19,7 +19,8 @@ from hexmend.io import read, write
 from hexmend.layers import describe_layers, find_layers
 from hexmend.quality import ElementQuality, measure
 
-_PLAIN = "--no-bar", "--no-axes-show", "--no-show-outline", "--no-page-figures", "--page-font-size", "10"
+_KEYS = "axes.show=false", "show.outline=false", "page.figures=false", "page.font_size=10"
+_PLAIN = "--no-bar", *(word for key in _KEYS for word in ("--key", key))
 
 #: The mesh with layers: fewer and thicker ones than by default, since the picture has to show the first of them.
 _LAYERED = {"size": 8000, "layers": 12, "first_height": 0.005}
@@ -47,8 +48,9 @@ def materials(folder: Path, scratch: Path) -> None:
     behind = np.flatnonzero(mesh.points[mesh.hexes, 1].mean(axis=1) > 0.04)  # half of the mesh without the scrambling
     render(
         folder / "interfaces-ball.png", [scrambled, kept, free],
-        ["scrambled", "mended", "mended with --interfaces free"], "--clip", "y:0.5", "--cut-hexes", ranges(behind),
-        "--view", "[-0.05, -1, 0.08]", "--metric", "material", "--size", "900x325", *_PLAIN,
+        ["scrambled", "mended", "mended with --interfaces free"], "--clip", "y:0.5",
+        "--key", f'cut.hexes="{ranges(behind)}"', "--view", "[-0.05, -1, 0.08]",
+        "--metric", "material", "--size", "900x325", *_PLAIN,
     )  # fmt: skip
 
 
@@ -80,9 +82,8 @@ def layers(folder: Path, scratch: Path) -> None:
     ]
     render(
         folder / "targets-layers.png", [made, scrambled, kept, ideal], captions, "--clip", "z:0.53",
-        "--camera-position", "[0, 0.585, 6]", "--camera-focal", "[0, 0.585, 0.2]", "--camera-view-up", "[0, 1, 0]",
-        "--camera-parallel", "--camera-scale", "0.125", "--neutral", "--size", "880x580", "--page-columns", "2",
-        *_PLAIN,
+        "--camera", "{ position = [0, 0.585, 6], focal = [0, 0.585, 0.2], view_up = [0, 1, 0], parallel = true, "
+        "scale = 0.125 }", "--neutral", "--size", "880x580", "--key", "page.columns=2", *_PLAIN,
     )  # fmt: skip
 
 
@@ -95,7 +96,7 @@ def piston(folder: Path, scratch: Path) -> None:
     captions = [f"as given: least value {least[0]:.4f}", f"mended: least value {least[1]:.4f}"]
     render(
         folder / "openfoam-piston.png", [given, mended], captions, "--view", "iso", "--metric", "scaled-jacobian",
-        "--size", "880x460", "--no-axes-show", "--no-page-figures", "--page-font-size", "9",
+        "--size", "880x460", "--key", "axes.show=false", "--key", "page.figures=false", "--key", "page.font_size=9",
     )  # fmt: skip
 
 

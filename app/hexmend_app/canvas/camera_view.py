@@ -149,32 +149,6 @@ class CameraView(QWidget):
         """Fly to a pose in which a point, (3,) float64, is the centre of the view and of rotation."""
         self.camera_animation.fly(self.panes.camera_controller.flight_around(place))
 
-    @property
-    def can_go_back(self) -> bool:
-        """True if there is a previous camera pose."""
-        return self.camera_animation.can_go_back
-
-    @property
-    def can_go_forward(self) -> bool:
-        """True if there is a next camera pose."""
-        return self.camera_animation.can_go_forward
-
-    def back_view(self) -> None:
-        """Fly to the previous camera pose."""
-        self.camera_animation.go_back()
-
-    def forward_view(self) -> None:
-        """Fly to the next camera pose."""
-        self.camera_animation.go_forward()
-
-    def remember_pose(self) -> None:
-        """Bookmark the current pose, unless another pose is bookmarked."""
-        self.camera_animation.remember()
-
-    def return_to_pose(self) -> None:
-        """Fly to the bookmarked pose, if there is one, and clear the bookmark."""
-        self.camera_animation.fly_to_bookmark()
-
     def _on_flight_frame(self) -> None:
         self.panes.camera_controller.reset_depth()
         self.turning()

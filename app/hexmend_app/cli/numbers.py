@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isinf, isnan
+from math import isfinite
 
 from hexmend.errors import ParameterError
 
@@ -16,21 +16,13 @@ def direction(text: str, option: str) -> tuple[float, ...]:
     return tuple(number / largest for number in vector)
 
 
-def span(text: str, option: str, finite: bool = True) -> tuple[float, ...]:
-    """Parse two numbers in ascending order."""
-    low, high = numbers(text, 2, option, finite)
-    if not low < high:
-        raise invalid_value(option, text, "the lower number first, as in 0.2,0.8")
-    return low, high
-
-
-def numbers(text: str, count: int, option: str, finite: bool = True) -> tuple[float, ...]:
+def numbers(text: str, count: int, option: str) -> tuple[float, ...]:
     """Parse `count` numbers separated by commas, with or without brackets."""
     try:
         values = tuple(float(word) for word in text.strip("[] ").split(","))
     except ValueError:
         values = ()
-    if len(values) != count or any(isnan(number) or (finite and isinf(number)) for number in values):
+    if len(values) != count or not all(map(isfinite, values)):
         raise invalid_value(option, text, f"{count} number{'s' * (count > 1)} separated by commas")
     return values
 

@@ -20,9 +20,6 @@ from hexmend_app.picture import Scene, read_scene
 #: The value of `--methods` that runs no method.
 NONE = "none"
 
-#: Keys of the page that follow from the width of the figures and the number of meshes.
-_FIXED = ("page.width", "page.height", "page.pixels", "page.columns")
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options to a parser."""
@@ -34,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--names", metavar="A,B,...", help=text)
     text = "camera, cut and colours; other options override them"
     parser.add_argument("--scene", metavar="FILE.toml", help=text)
-    scene_options.add_arguments(parser, (*scene_options.MESH_TABLES, *scene_options.PAGE_TABLES), _FIXED)
+    scene_options.add_arguments(parser)
 
 
 def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], StoppingCriteria]:

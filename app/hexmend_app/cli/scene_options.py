@@ -1,85 +1,38 @@
-"""Options of commands that draw a mesh, one for each key of the tables of a scene.
-
-The key `margin` of the table `page` becomes the option `--page-margin`, unless `_SHORT` has a shorter name; help and
-bounds come from the table. Keys with another notation are excluded by `_OTHER_NOTATION` or by the command.
-"""
+"""Options of commands that draw a mesh: short ones for common keys of a scene, and `--key` for every key."""
 
 from __future__ import annotations
 
 import argparse
 import re
-from collections.abc import Callable, Collection
-from dataclasses import is_dataclass, replace
 from math import isfinite
-from types import NoneType, UnionType
-from typing import Any, NamedTuple, get_args, get_origin
+from typing import Any
 
-from hexmend.mesh.mesh import Mesh
-from hexmend.toml_text import parse_toml
-from hexmend_app.cli import cut_options
-from hexmend_app.cli.numbers import direction, invalid_value, numbers, span
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.docstring_help import helps
-from hexmend_app.codec.option import Option, options_of
-from hexmend_app.picture import Camera, Cut, Range, Scene, Show
-from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.camera import DIRECTIONS
-from hexmend_app.picture.colour_map import value_maps
+from hexmend_app.cli.numbers import direction, invalid_value, numbers
+from hexmend_app.codec.config_table import decode, encode
+from hexmend_app.codec.value_text import parse_value
+from hexmend_app.picture import CutKind, Plane, Range, Scene
+from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.layer_switch import ordered_layers
 from hexmend_app.picture.quantities import colour_quantity
 
-#: Tables of a scene for the mesh, and for the page.
-MESH_TABLES, PAGE_TABLES = ("cut", "colours", "show"), ("camera", "lines", "bar", "axes", "page")
+_AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
-_SHORT = {
-    "camera.from": "view",
-    "colours.map": "colour-map",
-    "colours.metric": "metric",
-    "colours.neutral": "neutral",
-    "colours.range": "colour-range",
-    "cut.notch": "notch",
-    "page.background": "background",
-    "page.dpi": "dpi",
-    "page.shading": "shading",
-    "show.quality": "quality-range",
-}
+#: Options with a value, and switches with the value that they set: name, key of the scene, help.
+_VALUES = (
+    ("view", "camera.from", "direction of view: iso (default), +x, -x, +y, -y, +z, -z, or x,y,z"),
+    ("metric", "colours.metric", "quality metric of `hexmend info --metrics`, movement or material (default q)"),
+    ("colour-map", "colours.map", "viridis (default), cividis, plasma, inferno or another colour map"),
+    ("colour-range", "colours.range", "values at both ends of the colours, as in 0.2,0.8, or full, fitted, acceptable"),
+)
+_SWITCHES = (
+    ("smooth", "cut.style", "smooth", "cut through the hexes, which are shown whole by default"),
+    ("neutral", "colours.neutral", True, "white boundary and one colour for exposed faces, instead of values"),
+    ("no-edges", "lines.edges", 0.0, "do not draw the edges of the hexes"),
+    ("no-shading", "page.shading", False, "do not darken cavities"),
+)
 
-#: Keys that are options of every command, whatever its tables.
-_ALWAYS = frozenset({"camera.from", "page.shading"})
-
-_OTHER_NOTATION = frozenset(f"cut.{key}" for key in cut_options.KEYS)
-
-
-class _KeyOption(NamedTuple):
-    """Option of a key; a flag inverts the default of a switch."""
-
-    table: str
-    key: Option
-    help: str
-
-    @property
-    def full_name(self) -> str:
-        return f"{self.table}.{self.key.name}"
-
-    @property
-    def name(self) -> str:
-        name = _SHORT.get(self.full_name, f"{self.table}-{self.key.name}".replace("_", "-"))
-        return f"--no-{name}" if self.key.default is True else f"--{name}"
-
-    @property
-    def dest(self) -> str:
-        return self.name[2:].replace("-", "_")
-
-
-def _key_options() -> tuple[_KeyOption, ...]:
-    """Return the options of all tables in the order of the scene."""
-    keys = options_of(Scene)
-    tables = [key for key in keys if isinstance(key.kind, type) and issubclass(key.kind, ConfigTable)]
-    return tuple(
-        _KeyOption(table.name, key, helps(table.kind).get(key.field, ""))
-        for table in tables
-        for key in options_of(table.kind)
-    )
+#: Keys of an exact pose, which a direction replaces.
+_POSE = ("position", "focal", "view_up", "scale")
 
 
 def accept_negative_values(parser: argparse.ArgumentParser) -> None:
@@ -87,69 +40,23 @@ def accept_negative_values(parser: argparse.ArgumentParser) -> None:
     parser._negative_number_matcher = re.compile(r"-(\d|\.\d|inf\b|[xyz]$)")
 
 
-def add_arguments(
-    parser: argparse.ArgumentParser, tables: Collection[str] = MESH_TABLES, without: Collection[str] = ()
-) -> None:
-    """Add the options to a parser.
-
-    Parameters
-    ----------
-    parser : ArgumentParser
-    tables : collection of str
-        Tables of the scene whose keys become options.
-    without : collection of str
-        Excluded keys, such as "page.pixels".
-    """
-    cut_options.add_arguments(parser)
-    for option in _key_options():
-        offered = option.table in tables or option.full_name in _ALWAYS
-        if not offered or option.full_name in {*_OTHER_NOTATION, *without}:
-            continue
-        text = option.help.replace("%", "%%")
-        if option.key.kind is bool:
-            text = f"Turn off: {text[:1].lower()}{text[1:]}" if option.key.default else text
-            parser.add_argument(option.name, action="store_true", help=text)
-        else:
-            parser.add_argument(option.name, metavar=_metavar(option.key), help=text + _limits(option.key))
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options to a parser."""
+    text = "x, y, z or nx,ny,nz, and :position from 0 to 1 through the mesh (x:0.5); repeat for more planes"
+    parser.add_argument("--clip", metavar="PLANE", action="append", default=[], help=text)
+    parser.add_argument("--flip", action="store_true", help="hide the other side of each plane")
+    for name, _, text in _VALUES:
+        parser.add_argument(f"--{name}", metavar=name.split("-")[-1].upper(), help=text)
+    for name, _, _, text in _SWITCHES:
+        parser.add_argument(f"--{name}", action="store_true", help=text)
     parser.add_argument(
         "--structure",
         metavar="NAMES",
         help="draw layers: irregular, boundary or sharp edges, fixed, free or locked nodes, kinds of boundary nodes, "
         "others (cells that are not hexes), or an additional layer; separate several by commas",
     )
-    parser.add_argument("--no-edges", action="store_true", help="do not draw the edges of the hexes")
-    parser.add_argument(
-        "--flat", action="store_true", help="draw hexes of 20 and 27 nodes by their corners, with flat faces"
-    )
-
-
-def _kinds(key: Option) -> tuple[Any, ...]:
-    """Return the types of a key's value except None."""
-    union = get_origin(key.kind) is UnionType
-    return tuple(kind for kind in (get_args(key.kind) if union else (key.kind,)) if kind is not NoneType)
-
-
-def _metavar(key: Option) -> str:
-    kind = _kinds(key)[-1]
-    pair = get_args(kind) == (float, float)
-    return {int: "N", float: "X"}.get(kind, "LOW,HIGH" if pair else key.name.upper())
-
-
-def _limits(key: Option) -> str:
-    """Return bounds and default as a sentence to append; "" without any."""
-    default = f"default {key.default}" if isinstance(key.default, int | float | str) and key.default != "" else ""
-    text = ", ".join(filter(None, (key.bounds.strip(), default)))
-    return f" {text[0].upper()}{text[1:]}." if text else ""
-
-
-def view_of(args: argparse.Namespace) -> str | tuple[float, ...]:
-    """Return the direction of view."""
-    return _parse_view(args.view or DIRECTIONS[0])
-
-
-def look_of(args: argparse.Namespace, mesh: Mesh) -> Look:
-    """Return the look that the options describe."""
-    return with_options(args, Scene()).look(mesh)
+    text = "another key of a scene file, as in page.margin=5 or cut.sphere='{ radius = 2 }'; repeat for more keys"
+    parser.add_argument("--key", metavar="TABLE.KEY=VALUE", action="append", default=[], help=text)
 
 
 def with_options(args: argparse.Namespace, scene: Scene, **keys: dict[str, Any]) -> Scene:
@@ -168,72 +75,53 @@ def with_options(args: argparse.Namespace, scene: Scene, **keys: dict[str, Any])
     ParameterError
         If a value is invalid.
     """
-    keys = {table: {**given, **keys.get(table, {})} for table, given in _given(args).items()}
-    keys["cut"] |= cut_options.cut_keys(args)
-    replaced: dict[str, Any] = {}  # whole tables
-    if cut_options.cuts(args):
-        replaced["cut"] = Cut()
+    given = {table: dict(values) for table, values in keys.items()}
+    for path, value in _given(args):
+        table, _, key = path.partition(".")
+        given.setdefault(table, {})[key] = value
     if args.metric:
-        keys["colours"] = {"range": _range_of(args.metric), **keys["colours"]}
-    if args.quality_range:
-        replaced["show"] = Show(inverted=keys["show"]["quality"][0] <= 0)
-    if args.view:
-        replaced["camera"] = Camera(parallel=scene.camera.parallel, up=scene.camera.up)
-    if args.no_edges:
-        keys["lines"]["edges"] = 0.0
+        given["colours"] = {"range": _range_of(args.metric), **given["colours"]}
+    tables = encode(scene)
+    if not given.get("cut", {}).keys().isdisjoint(CutKind):
+        tables["cut"] = {}
+    if "from" in given.get("camera", {}):
+        tables["camera"] = {key: value for key, value in tables["camera"].items() if key not in _POSE}
     if args.structure:
-        replaced["structure"] = _parse_structure(args.structure)
-    if args.flat:
-        replaced["structure"] = replaced.get("structure", scene.structure).without("curved")
-    scene = replace(scene, **replaced)
-    return replace(scene, **{name: replace(getattr(scene, name), **table) for name, table in keys.items() if table})
+        tables["structure"] = encode(_parse_structure(args.structure))
+    return decode(Scene, tables | {table: tables.get(table, {}) | values for table, values in given.items()})
 
 
-def _given(args: argparse.Namespace) -> dict[str, dict[str, Any]]:
-    """Return the values of the given options, by table and field."""
-    tables: dict[str, dict[str, Any]] = {}
-    for option in _key_options():
-        table, value = tables.setdefault(option.table, {}), getattr(args, option.dest, None)
-        if value is True:
-            table[option.key.field] = not option.key.default
-        elif value:
-            parse = _NOTATIONS.get(option.full_name)
-            table[option.key.field] = parse(value) if parse else _parse(value, option)
-    return tables
+def _given(args: argparse.Namespace) -> list[tuple[str, Any]]:
+    """Return the keys that options set, as (TABLE.KEY, value)."""
+    given: list[tuple[str, Any]] = []
+    if args.clip:
+        planes = [parse_plane(text) for text in args.clip]
+        given.append(("cut.planes", [_other_side(plane) for plane in planes] if args.flip else planes))
+    options = vars(args)
+    for name, path, _ in _VALUES:
+        if text := options[name.replace("-", "_")]:
+            given.append((path, parse_value(text)))
+    given += [(path, value) for name, path, value, _ in _SWITCHES if options[name.replace("-", "_")]]
+    for text in args.key:
+        path, equals, value = text.partition("=")
+        if not (equals and "." in path):
+            raise invalid_value("--key", text, "TABLE.KEY=VALUE, as in page.margin=5")
+        given.append((path.strip(), parse_value(value)))
+    return given
 
 
-def _parse(text: str, option: _KeyOption) -> Any:
-    """Parse a value: text, numbers separated by commas, or a table as in TOML."""
-    kinds = _kinds(option.key)
-    if is_dataclass(kinds[0]):
-        return parse_toml(f"value = {text}", option.name)["value"]
-    if kinds == (float,):
-        return numbers(text, 1, option.name)[0]
-    texts = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, str)]
-    if len(texts) == len(kinds):
-        return text
-    try:
-        words = text.strip("[] ").split(",")
-        values = tuple(int(word) if re.fullmatch(r"\s*-?\d+\s*", word) else float(word) for word in words)
-    except ValueError:
-        if texts:
-            return text
-        raise invalid_value(option.name, text, "numbers separated by commas") from None
-    return values[0] if len(values) == 1 and {int, float} & set(kinds) else values
+def parse_plane(text: str) -> Plane:
+    """Parse the value of `--clip`: an axis or a normal, and a position from 0 to 1 through the mesh."""
+    axis, _, position = text.partition(":")
+    normal = _AXES.get(axis.lower()) or direction(axis, "--clip")
+    (share,) = numbers(position, 1, "--clip") if position else (0.5,)
+    if not 0 <= share <= 1:
+        raise invalid_value("--clip", text, "a position from 0 to 1, as in x:0.5")
+    return Plane(normal, share)
 
 
-def _parse_view(text: str) -> str | tuple[float, ...]:
-    return text if text in DIRECTIONS else direction(text, "--view")
-
-
-def _parse_map(text: str) -> str:
-    if text not in value_maps():
-        raise invalid_value("--colour-map", text, f"one of {', '.join(value_maps())}")
-    return text
-
-
-def _parse_range(text: str) -> Range | tuple[float, ...]:
-    return Range(text) if text in list(Range) else span(text, "--colour-range")
+def _other_side(plane: Plane) -> Plane:
+    return Plane(tuple(-c for c in plane.normal), 1 - plane.position)
 
 
 def _parse_structure(text: str) -> Structure:
@@ -250,12 +138,3 @@ def _range_of(metric: str) -> Range | tuple[float, float]:
     """Return the default colour range of a metric; inverted hexes, which are negative, have a separate colour."""
     low, high = colour_quantity(metric).full_range
     return (max(low, 0.0), high) if isfinite(low) and isfinite(high) else Range.FITTED
-
-
-#: Parsers of keys whose options have another notation.
-_NOTATIONS: dict[str, Callable[[str], Any]] = {
-    "camera.from": _parse_view,
-    "colours.map": _parse_map,
-    "colours.range": _parse_range,
-    "show.quality": lambda text: span(text, "--quality-range", finite=False),
-}

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from hexmend_app.feature import MENUS, Action
-from hexmend_app.shell.mnemonics import without_mnemonic
 from hexmend_app.translation import tr
 
 #: Mouse and key controls of the view.
@@ -34,7 +33,7 @@ def tables(actions: Iterable[Action]) -> list[tuple[str, list[tuple[str, str, st
 
 def name_of(action: Action) -> str:
     """Return the text of an action without ampersand and ellipsis."""
-    return without_mnemonic(action.text).rstrip("…")
+    return action.text.replace("&", "").rstrip("…")
 
 
 def as_markdown(actions: Iterable[Action]) -> str:

@@ -9,7 +9,6 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 
 from hexmend_app.feature import MENUS, Action, ActionFace
-from hexmend_app.shell.mnemonics import letter_of, letters, with_mnemonic, without_mnemonic
 from hexmend_app.theme.style import icon
 from hexmend_app.translation import tr
 
@@ -79,7 +78,7 @@ class Menus:
             raise ValueError(f"two features declare an action {declared.id!r}")
         action = QAction(declared.text, self._window)
         action.setShortcut(QKeySequence(declared.keys))
-        action.setProperty("name", without_mnemonic(declared.text).rstrip("…"))
+        action.setProperty("name", declared.text.replace("&", "").rstrip("…"))
         _show_face(action, ActionFace(declared.tool, declared.icon, declared.help))
         action.setProperty("within", tr(declared.menu.rpartition("/")[2]) if "/" in declared.menu else "")
         action.setCheckable(declared.checked is not None)
@@ -112,8 +111,8 @@ class Menus:
                 action.setProperty("name", face.text)
                 _show_face(action, face)
             if declared.title is not None:
-                action.setText(with_mnemonic(declared.title(), letter_of(action.text())))
-                action.setIconText(declared.tool or without_mnemonic(declared.text))
+                action.setText(declared.title())
+                action.setIconText(declared.tool or declared.text.replace("&", ""))
 
     def declared(self) -> Iterable[Action]:
         """Return the declarations of all actions."""
@@ -150,9 +149,13 @@ def _show_face(action: QAction, face: ActionFace) -> None:
 
 
 def _assign_mnemonics(actions: Sequence[QAction]) -> None:
-    """Give the entries of a menu distinct mnemonics."""
-    for action, letter in zip(actions, letters([action.text() for action in actions]), strict=True):
-        action.setText(with_mnemonic(action.text(), letter))
+    """Give the entries of a menu without a mnemonic their first free letters; Qt cycles through equal ones."""
+    used = {action.text().partition("&")[2][:1].lower() for action in actions}
+    for action in (action for action in actions if "&" not in action.text()):
+        text = action.text()
+        at = next((at for at, letter in enumerate(text.lower()) if letter.isalnum() and letter not in used), 0)
+        used.add(text[at].lower())
+        action.setText(f"{text[:at]}&{text[at:]}")
 
 
 def _menus(window: QMainWindow) -> dict[str, QMenu]:

@@ -126,7 +126,7 @@ class Window(QMainWindow):
         if self.canvas is not None:
             for feature in added:
                 feature.canvas_ready(self.canvas)
-        self.docks.restore(settings.PANELS.get() | {"folded": True})  # the view has the room at the start
+        self.docks.restore(settings.PANELS.get())
         self.refresh()
         self.ready.emit()
 

@@ -24,7 +24,7 @@ class CalmAxis(pg.AxisItem):
         super().__init__(orientation)
         self.colours: dict[str, Role] = {}
         self.enableAutoSIPrefix(False)
-        self.setStyle(tickLength=4, tickTextOffset=3, hideOverlappingLabels=False)
+        self.setStyle(tickLength=4, tickTextOffset=3, hideOverlappingLabels=False, maxTickLevel=0)
 
     def paint_lines(self) -> None:
         """Apply the colours of the current theme."""
@@ -68,3 +68,13 @@ def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:
         on_theme_change(plot, axis.paint_lines)
     on_theme_change(plot, plot.resetCachedContent)  # Qt caches the background
     return plot
+
+
+def log_ticks(low: int, high: float) -> list[tuple[float, str]]:
+    """Return at most four powers of ten between two decimal logarithms, with their texts.
+
+    >>> log_ticks(-1, 3.4)
+    [(-1.0, '0.1'), (1.0, '10'), (3.0, '1,000')]
+    """
+    step = max(1, -(-(math.floor(high) - low) // 3))
+    return [(float(k), f"{10.0**k:,g}") for k in range(low, math.floor(high) + 1, step)]

@@ -70,9 +70,11 @@ def double_click(canvas, place):
 @pytest.mark.slow
 def test_views_can_be_stepped_back_and_forward(canvas, qtbot):
     home = pose(canvas)
-    assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
+    assert (canvas.camera_animation.can_go_back, canvas.camera_animation.can_go_forward) == (False, False)
     changes = []
-    canvas.views_changed.connect(lambda: changes.append((canvas.can_go_back, canvas.can_go_forward)))
+    canvas.views_changed.connect(
+        lambda: changes.append((canvas.camera_animation.can_go_back, canvas.camera_animation.can_go_forward))
+    )
     canvas.look_along("+x")
     rested(qtbot, canvas)
     side = pose(canvas)
@@ -82,18 +84,18 @@ def test_views_can_be_stepped_back_and_forward(canvas, qtbot):
     turned = pose(canvas)
     assert not turned.looks_like(side)
     for expected in (side, home):
-        canvas.back_view()
+        canvas.camera_animation.go_back()
         rested(qtbot, canvas)
         assert pose(canvas).looks_like(expected)
     assert changes[-1] == (False, True)
     for expected in (side, turned):
-        canvas.forward_view()
+        canvas.camera_animation.go_forward()
         rested(qtbot, canvas)
         assert pose(canvas).looks_like(expected)
-    canvas.forward_view()  # there is none
+    canvas.camera_animation.go_forward()  # there is none
     assert not canvas.camera_animation.active
     canvas.draw(Frame(grid(2), measure(grid(2).points, grid(2).hexes)))
-    assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
+    assert (canvas.camera_animation.can_go_back, canvas.camera_animation.can_go_forward) == (False, False)
 
 
 @pytest.mark.slow
@@ -101,10 +103,10 @@ def test_going_back_immediately_returns_to_the_previous_pose(canvas, qtbot):
     home = pose(canvas)
     canvas.look_along("+x")
     side = pose(canvas)
-    canvas.back_view()  # before it has come to rest
+    canvas.camera_animation.go_back()  # before it has come to rest
     rested(qtbot, canvas)
     assert pose(canvas).looks_like(home)
-    canvas.forward_view()
+    canvas.camera_animation.go_forward()
     rested(qtbot, canvas)
     assert pose(canvas).looks_like(side)
 
@@ -116,10 +118,10 @@ def test_successive_key_strokes_are_one_entry_of_the_history(canvas, qtbot):
         QTest.keyClick(canvas.interactor, Qt.Key.Key_Right)
     rested(qtbot, canvas)
     assert not pose(canvas).looks_like(home)
-    canvas.back_view()
+    canvas.camera_animation.go_back()
     rested(qtbot, canvas)
     assert pose(canvas).looks_like(home)
-    assert not canvas.can_go_back
+    assert not canvas.camera_animation.can_go_back
 
 
 def test_an_unbound_key_does_not_end_a_flight(canvas, qtbot):
@@ -134,25 +136,25 @@ def test_an_unbound_key_does_not_end_a_flight(canvas, qtbot):
 def test_the_camera_returns_to_the_bookmarked_pose(canvas, qtbot):
     home = pose(canvas)
     for h in (3, 60):  # from one to the next
-        canvas.remember_pose()
+        canvas.camera_animation.remember()
         canvas.fly_to(h)
         rested(qtbot, canvas)
-    canvas.return_to_pose()
+    canvas.camera_animation.fly_to_bookmark()
     assert canvas.camera_animation.active
     rested(qtbot, canvas)
     assert pose(canvas).looks_like(home)
     canvas.look_along("+z")
-    canvas.return_to_pose()  # there is nothing to return to
+    canvas.camera_animation.fly_to_bookmark()  # there is nothing to return to
     assert not canvas.camera_animation.active
 
 
 @pytest.mark.slow
 def test_a_pose_bookmarked_during_a_flight_is_the_goal_of_the_flight(canvas, qtbot):
     canvas.fly_to(3)
-    canvas.remember_pose()
+    canvas.camera_animation.remember()
     canvas.fly_to(60)
     rested(qtbot, canvas)
-    canvas.return_to_pose()
+    canvas.camera_animation.fly_to_bookmark()
     rested(qtbot, canvas)
     np.testing.assert_allclose(pose(canvas).focal, MESH.points[MESH.hexes[3]].mean(axis=0), atol=1e-6)
 

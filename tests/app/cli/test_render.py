@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import argparse
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 from PIL import Image
 
 from hexmend.cli.main import main
 from hexmend.io import write
-from hexmend_app.cli import scene_options
-from hexmend_app.codec.option import option
 from hexmend_app.picture import (
     Camera,
     ColourBarStyle,
     Colours,
-    ConfigTable,
     Cut,
     CutStyle,
     Isolate,
@@ -43,26 +37,6 @@ FILE = Scene(
     lines=LineStyle(0.4),
     page=Page(60, 40, dpi=150, shading=False),
 )
-
-
-@dataclass(frozen=True)
-class Frame(ConfigTable):
-    """Table with one frame.
-
-    Parameters
-    ----------
-    width : float
-        Of its lines.
-    """
-
-    width: float = option(1.0, low=0, unit="pt")
-
-
-@dataclass(frozen=True)
-class Framed(Scene):
-    """A scene with a frame."""
-
-    frame: Frame = option(Frame)
 
 
 @pytest.fixture
@@ -96,7 +70,6 @@ def test_a_scene_is_drawn_unchanged(render):
         (["--dpi", "300"], "page", Page(60, 40, dpi=300, shading=False)),
         (["--size", "200x100"], "page", Page(pixels=(200, 100), dpi=150, shading=False)),
         (["--background", "#204060"], "page", Page(60, 40, dpi=150, shading=False, background="#204060")),
-        (["--transparent"], "page", Page(60, 40, dpi=150, shading=False, background="transparent")),
         (["--camera", "side"], "camera", Camera("+y")),
         (["--camera", camera_text(Camera((1.0, 2.0, 3.0), up="x"))], "camera", Camera((1.0, 2.0, 3.0), up="x")),
         (["--view", "-x"], "camera", Camera("-x")),
@@ -105,7 +78,11 @@ def test_a_scene_is_drawn_unchanged(render):
         (["--colour-range", "0.2,0.4"], "colours", Colours("scaled-jacobian", "plasma", (0.2, 0.4))),
         (["--clip", "x:0.25", "--flip"], "cut", Cut((Plane((-1, 0, 0), 0.75),))),
         (["--no-edges"], "lines", LineStyle(0.0)),
-        (["--flat", "--structure", "sharp"], "structure", Structure.of("sharp").without("curved")),
+        (
+            ["--key", "structure.curved=false", "--structure", "sharp"],
+            "structure",
+            Structure.of("sharp").without("curved"),
+        ),
         (["--no-bar"], "bar", ColourBarStyle(TextPlace.NONE)),
         (["--captions", "mended"], "panels", (PicturePanel(caption="mended"),)),
     ],
@@ -120,29 +97,25 @@ def test_options_override_the_scene(render, words, field, value):
 @pytest.mark.parametrize(
     ("words", "field", "value"),
     [
-        (["--page-margin", "2", "--page-crop"], "page", Page(60, 40, dpi=150, shading=False, margin=2, crop=True)),
-        (["--no-page-figures"], "page", Page(60, 40, dpi=150, shading=False, figures=False)),
-        (["--bar-ticks", "0,0.5", "--bar-place", "right"], "bar", ColourBarStyle(TextPlace.RIGHT, (0.0, 0.5))),
-        (["--bar-ticks", "4", "--bar-title", "6"], "bar", ColourBarStyle(ticks=4, title="6")),
-        (["--show-hidden", "3,1", "--show-peel", "1"], "show", Show(hidden=(3, 1), peel=1)),
-        (["--show-isolate", "{ hexes = [4], rings = 0 }"], "show", Show(isolate=Isolate((4,), 0))),
-        (["--quality-range", "-inf,0.5"], "show", Show(quality=(-np.inf, 0.5), inverted=True)),
-        (["--camera-up", "y", "--camera-parallel"], "camera", Camera(up="y", parallel=True)),
+        (
+            ["--key", "page.margin=2", "--key", "page.crop=true"],
+            "page",
+            Page(60, 40, dpi=150, shading=False, margin=2, crop=True),
+        ),
+        (["--key", "page.figures=false"], "page", Page(60, 40, dpi=150, shading=False, figures=False)),
+        (["--key", "bar.ticks=0,0.5", "--key", "bar.place=right"], "bar", ColourBarStyle(TextPlace.RIGHT, (0.0, 0.5))),
+        (["--key", "bar.ticks=4", "--key", 'bar.title="6"'], "bar", ColourBarStyle(ticks=4, title="6")),
+        (["--key", "show.hidden=3,1", "--key", "show.peel=1"], "show", Show(hidden=(3, 1), peel=1)),
+        (["--key", "show.isolate={ hexes = [4], rings = 0 }"], "show", Show(isolate=Isolate((4,), 0))),
+        (["--key", "show.quality=-inf,0.5"], "show", Show(quality=(-np.inf, 0.5))),
+        (["--key", "camera.up=y", "--key", "camera.parallel=true"], "camera", Camera(up="y", parallel=True)),
         (["--colour-range", "full"], "colours", Colours("scaled-jacobian", "plasma", Range.FULL)),
         (["--smooth"], "cut", Cut((Plane((0, 1, 0), 0.5),), style=CutStyle.SMOOTH)),
     ],
 )
-def test_every_key_of_a_scene_is_an_option(render, words, field, value):
+def test_every_key_of_a_scene_can_be_set(render, words, field, value):
     scene, _, _ = render(*words)
     assert getattr(scene, field) == value
-
-
-def test_a_new_key_of_a_table_is_an_option_at_once(monkeypatch):
-    monkeypatch.setattr(scene_options, "Scene", Framed)
-    parser = argparse.ArgumentParser()
-    scene_options.add_arguments(parser, (*scene_options.MESH_TABLES, "frame"))
-    assert "--frame-width X Of its lines. From 0 up pt, default 1.0." in " ".join(parser.format_help().split())
-    assert scene_options.with_options(parser.parse_args(["--frame-width", "2"]), Framed()).frame == Frame(2.0)
 
 
 def test_options_alone_are_saved_as_a_scene_that_draws_the_same(render, tmp_path):

@@ -13,7 +13,8 @@ from hexmend.io import read
 from hexmend.io.storage.atomic import check_writable
 from hexmend.run import iterate
 from hexmend_app.cli.numbers import invalid_value, parse_integer, parse_size
-from hexmend_app.cli.scene_options import look_of, view_of
+from hexmend_app.cli.scene_options import with_options
+from hexmend_app.picture import Scene
 from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.film.film import format_of, pictures, write_film
@@ -25,14 +26,14 @@ from hexmend_app.state.mesh.run_record import RecordedIteration
 
 def run(args: argparse.Namespace) -> int:
     """Run the method, draw the frames and write the animation."""
-    size, view, path = parse_size(args.size), view_of(args), Path(args.output)
+    size, scene, path = parse_size(args.size), with_options(args, Scene()), Path(args.output)
     max_frames, rate = parse_integer(args.frames, "--frames", 2, 1000), parse_integer(args.rate, "--rate", 1, 50)
     method, stop = method_and_limits(args)
     format_of(path)  # raises for an unknown suffix before the run
     check_writable(path)
     mesh = with_surface(args, read(args.mesh), method)
     check_memory(args, [method], mesh)
-    look = replace(look_of(args, mesh), movement=_traces(args))
+    look = replace(scene.look(mesh), movement=_traces(args))
     run, history = iterate(mesh, method, stop), History()
     record = history.begin(method.title, State.of(mesh))
     history.add(record, run.start)
@@ -41,7 +42,9 @@ def run(args: argparse.Namespace) -> int:
     start = ReferenceState(mesh.points, run.start.quality, "before the run")
     movement = Displacement(mesh, start, mesh.points, run.start.quality) if args.arrows else None
     states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), mesh))
-    frames = pictures(states, look, size, view=view, movement=movement, chart=args.histogram, before=args.before)
+    frames = pictures(
+        states, look, size, view=scene.camera.direction, movement=movement, chart=args.histogram, before=args.before
+    )
     drawn = [*show_count(frames, len(numbers), "drawing frames")]
     write_film(path, drawn, rate, poster=args.poster)
     result = run.result()

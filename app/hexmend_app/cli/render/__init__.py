@@ -9,13 +9,10 @@ from hexmend_app.cli.picture_command import PictureCommand
 
 _HELP = "Write a picture of a mesh, or of several side by side; needs neither a window nor an X server."
 
-#: Keys with options declared below.
-_DECLARED_HERE = ("page.width", "page.height", "page.pixels", "page.background")
-
 
 @uninterrupted
 def _arguments(parser: argparse.ArgumentParser) -> None:
-    from hexmend_app.cli.scene_options import MESH_TABLES, PAGE_TABLES, accept_negative_values, add_arguments
+    from hexmend_app.cli.scene_options import accept_negative_values, add_arguments
 
     accept_negative_values(parser)
     parser.add_argument("mesh", metavar="MESH", nargs="+", help="the mesh file; several are drawn side by side")
@@ -29,12 +26,11 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     size = parser.add_mutually_exclusive_group()
     size.add_argument("--size", metavar="WxH", help="in pixels (default 1600x1000)")
     size.add_argument("--mm", metavar="WxH", help="in millimetres, as in 170x90")
-    paper = parser.add_mutually_exclusive_group()
-    paper.add_argument("--background", metavar="COLOUR", help="white, transparent or #rrggbb (default white)")
-    paper.add_argument("--transparent", action="store_true", help="transparent background")
+    parser.add_argument("--dpi", metavar="X", help="pixels per inch (default 300 for pages in mm)")
+    parser.add_argument("--background", metavar="COLOUR", help="white, transparent or #rrggbb (default white)")
     parser.add_argument("--captions", metavar="A,B,...", help="captions of the panels (default: their files)")
     parser.add_argument("--no-bar", action="store_true", help="do not draw the colour bar")
-    add_arguments(parser, (*MESH_TABLES, *PAGE_TABLES), _DECLARED_HERE)
+    add_arguments(parser)
 
 
 command = PictureCommand("render", _HELP, _arguments, f"{__name__}.picture")

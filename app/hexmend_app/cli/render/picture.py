@@ -57,8 +57,10 @@ def _page(args: argparse.Namespace) -> dict[str, Any]:
     if args.mm:
         width, height = numbers(args.mm.lower().replace("x", ","), 2, "--mm")
         page |= {"width": width, "height": height, "pixels": None}
-    if args.transparent or args.background:
-        page["background"] = args.background or "transparent"
+    if args.dpi:
+        (page["dpi"],) = numbers(args.dpi, 1, "--dpi")
+    if args.background:
+        page["background"] = args.background
     return page
 
 

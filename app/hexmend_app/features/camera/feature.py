@@ -71,9 +71,11 @@ class FeatureCamera(Feature):
             self._move("roll_right", tr("Roll ri&ght"), "Shift+]", tr("Rotate the view by {angle}° clockwise.",
                        angle=_ROLL), lambda: self.canvas.roll(-_ROLL)),
             self._move("view_back", tr("Previous &view"), "Alt+Left", tr("Return to the previous camera position."),
-                       lambda: self.canvas.back_view(), lambda: self.canvas.can_go_back, in_view=True),
+                       lambda: self.canvas.camera_animation.go_back(),
+                       lambda: self.canvas.camera_animation.can_go_back, in_view=True),
             self._move("view_forward", tr("Ne&xt view"), "Alt+Right", tr("Go forward to the next camera position."),
-                       lambda: self.canvas.forward_view(), lambda: self.canvas.can_go_forward),
+                       lambda: self.canvas.camera_animation.go_forward(),
+                       lambda: self.canvas.camera_animation.can_go_forward),
             *(
                 Action(
                     id=f"up_{axis}",
@@ -168,9 +170,9 @@ class FeatureCamera(Feature):
         isolated = self.session.view.look.show.isolate is not None
         if self.canvas is not None and self._seen.changed("isolated", isolated):
             if isolated:
-                self.canvas.remember_pose()
+                self.canvas.camera_animation.remember()
             else:
-                self.canvas.return_to_pose()
+                self.canvas.camera_animation.fly_to_bookmark()
 
     def _move(
         self,
@@ -281,5 +283,5 @@ class FeatureCamera(Feature):
     def _fly(self, hexes: tuple[int, ...]) -> None:
         if self.canvas is not None and self.session.document.is_open:
             if self.session.view.look.show.isolate is not None:
-                self.canvas.remember_pose()
+                self.canvas.camera_animation.remember()
             self.canvas.fly_to(*hexes)

@@ -8,19 +8,18 @@ from collections.abc import Sequence
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from hexmend_app.features.convergence.axis import Scale, linear_scale, log_scale, unit_scale
 from hexmend_app.features.convergence.charts import Chart, PlottedQuantity
-from hexmend_app.features.convergence.curves import Curve, colour_of, thinned
-from hexmend_app.features.convergence.line import MAX_POINTS, RunLine
+from hexmend_app.features.convergence.curves import Curve, colour_of
 from hexmend_app.features.convergence.point_texts import reason_if_blank, titled
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.palette import TEXT
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import note, on_theme_change, set_help, smaller
 from hexmend_app.translation import tr
-from hexmend_app.widgets.plots import calm_plot
+from hexmend_app.widgets.plots import calm_plot, log_ticks
 
 _STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine)
 _DASHES = ("—", "- -", "···")
@@ -29,6 +28,12 @@ _DASHES = ("—", "- -", "···")
 _PICK_DISTANCE = 12
 
 _MIN_HEIGHT = 46
+
+#: Largest number of points that get markers, without which a run of one step is invisible.
+_MAX_MARKERS = 40
+
+#: Smallest upper end of a linear axis of whole numbers, so that its ticks are whole.
+_LEAST_WHOLE = 5.0
 _HELP = "Click or drag in the chart to go to an iteration."
 
 
@@ -66,10 +71,10 @@ class ConvergencePlot(QWidget):
     ----------
     marker : pg.InfiniteLine
         At the iteration shown in the view.
-    lines : dict of (int, str) to RunLine
+    lines : dict of (int, str) to pg.PlotDataItem
         By slot of the run and key of the quantity.
-    scale : Scale
-        The vertical axis.
+    zero : float or None
+        Position of zero on a logarithmic axis; None if no value is zero.
 
     Parameters
     ----------
@@ -108,11 +113,11 @@ class ConvergencePlot(QWidget):
         self.plot.addItem(self.marker, ignoreBounds=True)
         self.plot.getAxis("bottom").setStyle(showValues=False)
         self.plot.getAxis("bottom").label.setFont(smaller(self.font()))
-        self.lines: dict[tuple[int, str], RunLine] = {}
+        self.lines: dict[tuple[int, str], pg.PlotDataItem] = {}
         self._curves: Sequence[Curve] = ()
         self._by_time = self._log = False
         self._dragged_record: RunRecord | None = None
-        self.scale = Scale(0.0, 0.0, ())
+        self.zero: float | None = None
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
@@ -134,8 +139,7 @@ class ConvergencePlot(QWidget):
         self._fit()
         wanted = {(curve.slot, quantity.key) for curve in self._curves for quantity in self.chart.quantities}
         for key in self.lines.keys() - wanted:
-            for item in self.lines.pop(key).items:
-                self.plot.removeItem(item)
+            self.plot.removeItem(self.lines.pop(key))
         for curve in self._curves:
             for pen_style, quantity in zip(_STYLES, self.chart.quantities, strict=False):
                 self._draw_curve(curve, quantity, pen_style)
@@ -145,16 +149,23 @@ class ConvergencePlot(QWidget):
     def _draw_curve(self, curve: Curve, quantity: PlottedQuantity, pen_style: Qt.PenStyle) -> None:
         line = self.lines.get((curve.slot, quantity.key))
         if line is None:
-            line = self.lines[curve.slot, quantity.key] = RunLine()
-            for item in line.items:
-                self.plot.addItem(item, ignoreBounds=True)
-        style = (str(colour_of(curve)), curve.current, pen_style)
-        version = (curve.record, len(curve.columns), curve.start, self._by_time, self.is_log, self.scale.floor)
-        line.draw(style, version, lambda: self._points(curve, quantity))
-
-    def _points(self, curve: Curve, quantity: PlottedQuantity) -> tuple[np.ndarray, np.ndarray]:
+            line = pg.PlotDataItem(connect="finite", autoDownsample=True, downsampleMethod="peak", symbolPen=None)
+            line.scatter.setEnabled(False)  # clicks on markers go to the chart
+            self.lines[curve.slot, quantity.key] = line
+            self.plot.addItem(line, ignoreBounds=True)
         x, y = curve.drawn(quantity.key, self._by_time)
-        return thinned(x, self.heights(y), MAX_POINTS)
+        colour = QColor(str(colour_of(curve)))
+        colour.setAlphaF(1.0 if curve.current else 0.65)
+        finite = slice(None) if np.isfinite(y).any() else slice(0)  # pyqtgraph cannot draw nan alone
+        line.setData(
+            x[finite],
+            self.heights(y)[finite],
+            pen=pg.mkPen(colour, width=2.0 if curve.current else 1.0, style=pen_style),
+            symbol="o" if len(x) <= _MAX_MARKERS else None,
+            symbolBrush=colour,
+            symbolSize=5 if curve.current else 4,
+        )
+        line.setZValue(10 if curve.current else 0)
 
     def heights(self, values: np.ndarray) -> np.ndarray:
         """Return the positions of values on the vertical axis, (k,) float64."""
@@ -162,8 +173,8 @@ class ConvergencePlot(QWidget):
             return values
         with np.errstate(divide="ignore", invalid="ignore"):
             heights = np.log10(values)
-        if self.scale.floor is not None:
-            heights[values <= 0] = self.scale.floor
+        if self.zero is not None:
+            heights[values <= 0] = self.zero
         return heights
 
     @property
@@ -181,19 +192,17 @@ class ConvergencePlot(QWidget):
         """Set the ends of the horizontal axis."""
         self.plot.setXRange(low, high, padding=0)
 
-    def set_bottom_axis(self, label: str | None, ticks: list[tuple[float, str]], left_width: int) -> None:
-        """Set the ticks and the label of the horizontal axis, and the width of the vertical axis.
+    def set_bottom_axis(self, label: str | None, left_width: int) -> None:
+        """Set the label of the horizontal axis, and the width of the vertical axis.
 
         Parameters
         ----------
         label : str, optional
             None for an axis without texts: those are below the lowest chart.
-        ticks : list of (position, text)
         left_width : int
             Pixels.
         """
         bottom = self.plot.getAxis("bottom")
-        bottom.setTicks([ticks])
         bottom.setStyle(showValues=label is not None)
         bottom.showLabel(label is not None)
         line = self.fontMetrics().height()
@@ -209,14 +218,22 @@ class ConvergencePlot(QWidget):
         columns = [curve.columns.of(one.key) for curve in self._curves for one in self.chart.quantities]
         values = np.concatenate([*columns, np.empty(0)])
         values, whole = values[np.isfinite(values)], self.chart.quantities[0].whole
+        least, most = float(values.min(initial=0.0)), float(values.max(initial=0.0))
+        ticks, self.zero = None, None
         if self.chart.key == "quality":
-            scale = unit_scale(values)
+            low, high = (-1.0 if least < 0 else 0.0), 1.0
+        elif not self.is_log:
+            low, high = 0.0, max(most, _LEAST_WHOLE) if whole else most or 1.0
         else:
-            scale = (log_scale if self.is_log else linear_scale)(values, whole)
-        if scale != self.scale:
-            self.scale = scale
-            self.plot.getAxis("left").setTicks([list(scale.ticks)])
-            self.plot.setYRange(scale.low, scale.high, padding=0.08)
+            positive = values[values > 0]
+            low = math.floor(math.log10(positive.min())) if positive.size else 0
+            if least <= 0 and (values <= 0).any():
+                low = self.zero = (0 if whole else low) - 1
+            high = max(math.log10(most or 1.0), low + 1.0)
+            powers = log_ticks(low, high)
+            ticks = [powers if self.zero is None else [(low, "0"), *powers[1:]]]
+        self.plot.getAxis("left").setTicks(ticks)
+        self.plot.setYRange(low, high, padding=0.08)
 
     # Mouse
 

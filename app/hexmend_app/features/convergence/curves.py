@@ -1,4 +1,4 @@
-"""Values of runs as curves: columns of values, positions on the axis, and thinning."""
+"""Values of runs as curves: columns of values and positions on the axis."""
 
 from __future__ import annotations
 
@@ -140,27 +140,6 @@ def run_start(record: RunRecord) -> tuple[float, float]:
         iteration += number
         seconds += record.rows[number]["seconds"]
     return iteration, seconds
-
-
-def thinned(x: np.ndarray, y: np.ndarray, most: int = 2000) -> tuple[np.ndarray, np.ndarray]:
-    """Reduce a curve of more than `most` points to the smallest and largest value of intervals.
-
-    Parameters
-    ----------
-    x, y : (k,) float64
-        nan in y is a gap.
-    most : int
-        Approximate number of points of the result.
-
-    Returns
-    -------
-    x, y : (j,) float64
-    """
-    if len(x) <= most:
-        return x, y
-    starts = np.arange(0, len(x), -(-2 * len(x) // most))
-    ends = np.stack([np.fmin.reduceat(y, starts), np.fmax.reduceat(y, starts)], axis=1)
-    return np.repeat(x[starts], 2), ends.ravel()
 
 
 def _balance_starts(rows: Sequence[Mapping[str, Any]]) -> list[int]:

@@ -15,7 +15,6 @@ from hexmend_app.features.convergence.curves import Curve, axis_title
 from hexmend_app.features.convergence.head import ConvergenceHead
 from hexmend_app.features.convergence.point_texts import describe
 from hexmend_app.features.convergence.run_legend import RunLegend
-from hexmend_app.scene.colour.ticks import nice_ticks
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import note
@@ -30,8 +29,8 @@ _SIDE, _WIDE = 158, 420
 #: Charts lower than this are in a row instead of stacked, if each is then as wide as this, in pixels.
 _LOW_CHART, _CHART_WIDTH = 96, 200
 
-#: Approximate number of ticks of the axes of stacked charts, and of charts in a row.
-_STACKED_TICKS, _ROW_TICKS = 8, 4
+#: Smallest number of iterations on the axis, so that its ticks are whole.
+_LEAST_ITERATIONS = 5.0
 
 # Qt's QWIDGETSIZE_MAX, which PySide6 does not export.
 _UNBOUNDED = (1 << 24) - 1
@@ -186,7 +185,7 @@ class ConvergencePanel(QWidget):
         positions = [curve.x(self.by_time) for curve in self.curves if curve.shown and len(curve.columns)]
         low = min((float(x[0]) for x in positions), default=0.0)
         high = max((float(x[-1]) for x in positions), default=1.0)
-        high = max(high, low + (1e-3 if self.by_time else 1.0))
+        high = max(high, low + (1e-3 if self.by_time else _LEAST_ITERATIONS))
         if any(curve.running for curve in self.curves):
             step = 10.0 ** len(f"{high - low:.0f}") / 20
             high = low + step * (1 + (high - low) // step)
@@ -196,13 +195,11 @@ class ConvergencePanel(QWidget):
             return
         self._axis = axis
         margin = 0.012 * (high - low)
-        places = nice_ticks(low, high, _ROW_TICKS if self.in_row else _STACKED_TICKS)
-        ticks = [(tick, f"{tick:,.6g}") for tick in places if self.by_time or tick == round(tick)]
         left_width = self.fontMetrics().horizontalAdvance("000,000")
         for plot in self.drawn:
             plot.set_x_range(low - margin, high + margin)
             has_axis = self.in_row or plot is self.drawn[-1]
-            plot.set_bottom_axis(label if has_axis else None, ticks, left_width)
+            plot.set_bottom_axis(label if has_axis else None, left_width)
 
     def _mark(self) -> None:
         x = None

@@ -10,12 +10,13 @@ import numpy as np
 from hexmend.quality import METRICS
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.colouring import range_label
+from hexmend_app.scene.colour.ticks import nice_ticks
 from hexmend_app.translation import tr
 
 #: Left and right ends of the separate bars on the plot, on which the bins span 0 to 1.
 _INVERTED = (-0.30, -0.18)
 _BELOW, _ABOVE = (-0.06, -0.02), (1.02, 1.07)
-_MAX_STEPS = 6
+_MAX_TICKS = 7
 
 
 @dataclass(frozen=True)
@@ -27,8 +28,6 @@ class Axis:
     metric : str
         A name of `hexmend.quality.METRICS`.
     low, high : float
-    step : float
-        Distance of two ticks.
     open_low, open_high : bool
         True if values beyond the end are counted in a separate bar.
     """
@@ -36,7 +35,6 @@ class Axis:
     metric: str
     low: float = 0.0
     high: float = 1.0
-    step: float = 0.2
     open_low: bool = False
     open_high: bool = False
 
@@ -58,17 +56,19 @@ class Axis:
         Examples
         --------
         >>> Axis.fitted("aspect-ratio", np.linspace(1, 2.7, 50), np.zeros(50, bool))
-        Axis(metric='aspect-ratio', low=1.0, high=2.8, step=0.3, open_low=False, open_high=True)
+        Axis(metric='aspect-ratio', low=1.0, high=2.75, open_low=False, open_high=True)
         """
         minimum, maximum = METRICS[metric].full_range
         minimum = max(minimum, 0.0)
         if math.isfinite(maximum):
-            return cls(metric, minimum, maximum, _step(minimum, maximum))
+            return cls(metric, minimum, maximum)
         valid = values[np.isfinite(values) & ~inverted]
         low, high = _bulk(valid, minimum, METRICS[metric].acceptable[1])
         open_low = low - minimum > (high - minimum) / 2
-        low, high, step = _round_outward(low if open_low else minimum, high, fixed=not open_low)
-        return cls(metric, low, high, step, open_low, open_high=True)
+        ticks = nice_ticks(low if open_low else minimum, high, _MAX_TICKS)
+        step = ticks[1] - ticks[0]
+        low = _multiple(step, math.floor(low / step + 1e-9)) if open_low else minimum
+        return cls(metric, low, _multiple(step, math.ceil(high / step - 1e-9)), open_low, open_high=True)
 
     # Positions on the plot
 
@@ -144,11 +144,9 @@ class Axis:
         for bar, sign, end in ((self.below, "<", self.low), (self.above, "≥", self.high)):
             if bar is not None:
                 ticks.append((sum(bar) / 2, f"{sign} {self._tick_text(end)}"))
-        for k in range(round((self.high - self.low) / self.step) + 1):
-            value = self.low + k * self.step
-            if not (k == 0 and self.open_low) and not (value > self.high - self.step / 2 and self.open_high):
-                ticks.append((self.position(min(value, self.high)), self._tick_text(value)))
-        return ticks
+        values = nice_ticks(self.low, self.high, _MAX_TICKS)
+        inside = [v for v in values if (v > self.low or not self.open_low) and (v < self.high or not self.open_high)]
+        return ticks + [(self.position(value), self._tick_text(value)) for value in inside]
 
     def _tick_text(self, value: float) -> str:
         scale = 10.0**self.exponent
@@ -193,32 +191,6 @@ def _bulk(valid: np.ndarray, minimum: float, acceptable: float) -> tuple[float, 
     return low, high
 
 
-def _round_steps(span: float) -> list[float]:
-    """Return round numbers from about a tenth of a span upwards."""
-    power = math.floor(math.log10(span) - 1)
-    return [float(f"{m}e{p}") for p in (power, power + 1) for m in (1, 1.5, 2, 2.5, 3, 4, 5)]
-
-
-def _step(low: float, high: float) -> float:
-    """Return the finest round step that divides a span into at most `_MAX_STEPS` equal parts, or a fifth of it."""
-    span = high - low
-    for step in _round_steps(span):
-        count = span / step
-        if count <= _MAX_STEPS + 1e-9 and abs(count - round(count)) < 1e-9:
-            return step
-    return span / 5
-
-
-def _round_outward(low: float, high: float, fixed: bool) -> tuple[float, float, float]:
-    """Return ends that enclose a span in at most `_MAX_STEPS` round steps, and the step; a `fixed` low end stays."""
-    for step in _round_steps(high - low):
-        first = low if fixed else math.floor(low / step + 1e-9) * step
-        count = math.ceil((high - first) / step - 1e-9)
-        if count <= _MAX_STEPS:
-            return _remove_rounding(first, step), _remove_rounding(first + count * step, step), step
-    raise ValueError(f"there is no axis from {low} to {high}")
-
-
-def _remove_rounding(value: float, step: float) -> float:
-    """Remove the rounding error of a multiple of a step."""
-    return round(value, 3 - math.floor(math.log10(step)))
+def _multiple(step: float, count: int) -> float:
+    """Return a multiple of a step without its rounding error."""
+    return round(count * step, 3 - math.floor(math.log10(step)))

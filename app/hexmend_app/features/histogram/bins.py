@@ -1,8 +1,7 @@
-"""Counts of hexes in the bins of the histogram, and round numbers for the axis of counts."""
+"""Counts of hexes in the bins of the histogram."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -108,23 +107,3 @@ def distribute(values: np.ndarray, inverted: np.ndarray, axis: Axis, bins: int =
     scale = bins / (axis.high - axis.low)
     binning.count(values, inverted, axis.low, scale, axis.open_low, axis.open_high, counts)
     return Distribution(values, inverted, axis, counts[:bins], *(int(counts[bins + k]) for k in (2, 1, 0)))
-
-
-def round_up(value: float) -> float:
-    """Return the next round number, at least 1, so that an axis does not change with every count.
-
-    >>> [round_up(v) for v in (0.5, 1.1, 640, 32735)]
-    [1.0, 1.5, 800.0, 40000.0]
-    """
-    value = max(value, 1.0)
-    power = 10.0 ** np.floor(np.log10(value))
-    return next(float(m * power) for m in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if m * power >= value * (1 - 1e-12))
-
-
-def decades(top: float) -> list[int]:
-    """List the powers of ten from 1 up to `top`.
-
-    >>> decades(40000)
-    [1, 10, 100, 1000, 10000]
-    """
-    return [10**k for k in range(math.floor(math.log10(top) + 1e-9) + 1)]

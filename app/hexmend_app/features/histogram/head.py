@@ -1,12 +1,12 @@
-"""Row of controls above the histogram; controls that do not fit are only in a menu."""
+"""Row of controls above the histogram: metric, scale, and a menu."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QSpinBox, QToolButton, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QSpinBox, QWidget, QWidgetAction
 
 from hexmend.quality import METRICS
 from hexmend_app.codec.checks import check_count
@@ -106,38 +106,24 @@ class HistogramHead(QWidget):
         self.bins.setKeyboardTracking(False)
         self.bins.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(self.bins, tr("Bins"), tr(_BINS))
-        self.bins.valueChanged.connect(self._on_bins)
-        self._bin_actions = QActionGroup(self)
-        for number in (MIN_BINS, 20, DEFAULT_BINS, 100, MAX_BINS):
-            action = QAction(str(number), self._bin_actions)
-            action.setCheckable(True)
-            action.setChecked(number == DEFAULT_BINS)
-            action.triggered.connect(lambda _=False, number=number: self.bins.setValue(number))
+        self.bins.valueChanged.connect(self.bins_changed)
 
     def _lay_out(self) -> None:
         self.more = MenuButton(tr("More"), tr("Cumulative shares, number of bins, keep, save."))
         self.more.setIcon(icon("dots-vertical"))
         menu = self.more.menu()
         menu.addAction(self.cumulative)
-        menu.addMenu(tr("Bins")).addActions(self._bin_actions.actions())
-        menu.addSeparator()
-        menu.addActions([self.keep, self.save])
-        buttons = {action: QToolButton() for action in (self.keep, self.cumulative)}
-        for action, button in buttons.items():
-            button.setDefaultAction(action)
-            button.setFont(smaller(self.font()))
-        for button in (*buttons.values(), self.more):
-            button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            button.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        #: Controls that are hidden if the row is too narrow, in this order.
-        self._optional = (self.bins, buttons[self.cumulative], buttons[self.keep])
+        bins = QWidgetAction(menu)
+        bins.setDefaultWidget(self.bins)
+        menu.addActions([bins, self.keep, self.save])
+        self.more.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(8)
         layout.addWidget(self.metric_box, 1)
         layout.addStretch()
-        for control in (self.scale, buttons[self.cumulative], self.bins, buttons[self.keep], self.more):
-            layout.addWidget(control)
+        layout.addWidget(self.scale)
+        layout.addWidget(self.more)
 
     @property
     def log(self) -> bool:
@@ -171,24 +157,3 @@ class HistogramHead(QWidget):
         self.save.setEnabled(has_distribution)
         self.keep.setEnabled(has_distribution and not full)
         self.keep.setToolTip(f"<qt>{tr(_FULL) if full else tr(_KEEP)}</qt>")
-
-    def minimumSizeHint(self) -> QSize:
-        """Return the size without the optional controls."""
-        sizes = [control.minimumSizeHint() for control in (self.metric_box, self.scale, self.more)]
-        width = sum(size.width() for size in sizes) + 3 * self.layout().spacing()
-        return QSize(width, max(size.height() for size in sizes))
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Show the optional controls that fit."""
-        super().resizeEvent(event)
-        gap = self.layout().spacing()
-        space = self.width() - self.minimumSizeHint().width() - 50  # for the whole title of the metric
-        for control in reversed(self._optional):
-            space -= control.sizeHint().width() + gap
-            control.setVisible(space >= 0)
-
-    def _on_bins(self) -> None:
-        with QSignalBlocker(self._bin_actions):
-            for action in self._bin_actions.actions():
-                action.setChecked(action.text() == str(self.bins.value()))
-        self.bins_changed.emit()

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
@@ -22,16 +21,6 @@ from hexmend_app.translation import tr
 
 #: Suffixes of the files that can be written.
 SUFFIXES = (*FIGURE_SUFFIXES, ".csv")
-
-
-@dataclass(frozen=True, eq=False)
-class _Line:
-    """A distribution with its name and style."""
-
-    name: str
-    colour: str
-    filled: bool
-    distribution: Distribution
 
 
 def write_histogram(
@@ -72,7 +61,8 @@ def write_histogram(
     """
     style = ChartStyle() if style is None else style
     if suffix_for(Path(path), "a histogram", SUFFIXES) == ".csv":
-        write_text(Path(path), _csv_text(_count(metric, drawn, bins, cumulative), cumulative, style.names))
+        names = [style.names.get(name) or name for name, *_ in drawn]
+        write_text(Path(path), _csv_text(_count(metric, drawn, bins, cumulative), names, cumulative))
     else:
         chart = figure(title, metric, drawn, bins=bins, log=log, cumulative=cumulative)
         write_chart(Path(path), chart.draw, style)
@@ -88,19 +78,18 @@ def figure(
     cumulative: bool = False,
 ) -> Histogram:
     """Return the histogram as a figure for print; see `write_histogram`."""
-    lines = _count(metric, drawn, bins, cumulative)
-    axis, outlines = lines[0].distribution.axis, []
-    for line in lines:
-        counted = line.distribution
+    columns = _count(metric, drawn, bins, cumulative)
+    axis, outlines = columns[0].axis, []
+    for (name, colour, filled, _), counted in zip(drawn, columns, strict=True):
         scale = 100 / max(counted.total, 1) if cumulative else 1
         bars = ((axis.inverted, counted.inverted), (axis.below, counted.below), (axis.above, counted.above))
         outlines.append(
             Outline(
-                line.name,
-                line.colour,
+                name,
+                colour,
                 [float(count * scale) for count in counted.counts],
                 [(*span, count * scale) for span, count in bars if span is not None and count],
-                line.filled and not cumulative,
+                filled and not cumulative,
                 tr("{count:,} inverted", count=counted.inverted),
             )
         )
@@ -108,23 +97,25 @@ def figure(
     return Histogram(outlines, title, axis.title, label, axis.ticks(), axis.extent, log)
 
 
-def _count(metric: str, drawn: Sequence[tuple[str, str, bool, Mesh]], bins: int, cumulative: bool) -> list[_Line]:
+def _count(
+    metric: str, drawn: Sequence[tuple[str, str, bool, Mesh]], bins: int, cumulative: bool
+) -> list[Distribution]:
     """Count the hexes of the meshes on the axis that fits the first."""
-    axis, lines = None, []
-    for name, colour, filled, mesh in drawn:
+    axis, columns = None, []
+    for *_, mesh in drawn:
         figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
         values = metric_values(metric, mesh, figures)
         axis = axis or Axis.fitted(metric, values, figures.inverted)
         distribution = distribute(values, figures.inverted, axis, bins)
-        lines.append(_Line(name, colour, filled, distribution.cumulated() if cumulative else distribution))
-    return lines
+        columns.append(distribution.cumulated() if cumulative else distribution)
+    return columns
 
 
-def _csv_text(lines: Sequence[_Line], cumulative: bool, names: Mapping[str, str]) -> str:
-    """Write counts, or shares in percent, as CSV with a row per bar or bin; `names` replaces names of lines."""
-    columns, axis = [line.distribution for line in lines], lines[0].distribution.axis
+def _csv_text(columns: Sequence[Distribution], names: Sequence[str], cumulative: bool) -> str:
+    """Write counts, or shares in percent, as CSV with a row per bar or bin, and a column per distribution."""
+    axis = columns[0].axis
     prefix = tr("% of hexes up to: ") if cumulative else ""
-    titles = [prefix + (names.get(line.name) or line.name) for line in lines]
+    titles = [prefix + name for name in names]
     rows: list[list] = [
         [f"{axis.metric} from", f"{axis.metric} to", *titles],
         ["inverted", "inverted", *(column.inverted for column in columns)],

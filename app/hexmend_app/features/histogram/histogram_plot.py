@@ -5,23 +5,26 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QObject, QPointF
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.features.histogram.bins import Distribution, decades, round_up
+from hexmend_app.features.histogram.bins import Distribution
 from hexmend_app.features.histogram.brush import BrushView, ColourRange
 from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import BROKEN_TOP, Heights, Outline, Series
+from hexmend_app.scene.colour.ticks import nice_ticks
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import BLUE, INVERTED_TEXT, MUTED, on_theme_change, smaller, tabular
 from hexmend_app.translation import tr
-from hexmend_app.widgets.plots import calm_plot
+from hexmend_app.widgets.plots import calm_plot, log_ticks
 
 #: Maximum fraction of the plot's height for the legend and the numbers on bars.
 _MAX_LEGEND = 0.45
+
+#: Room above the tallest bin when the axis of counts is fitted, its smallest upper end, and its number of ticks.
+_HEADROOM, _LEAST_TOP, _COUNT_TICKS = 1.25, 5.0, 6
 
 
 class HistogramPlot(QWidget):
@@ -163,9 +166,9 @@ class HistogramPlot(QWidget):
             if before / 2 <= max(largest, 1) <= before * (1 + 1e-9):
                 return
         self._smallest = smallest
-        top = largest if self.cumulative else round_up(largest)
-        if self.log:  # with at least one decade
-            self.heights = Heights(math.log10(0.5 * smallest), max(math.log10(top), 1.0), True, self.cumulative)
+        top = largest if self.cumulative else max(_HEADROOM * largest, _LEAST_TOP)
+        if self.log:
+            self.heights = Heights(math.log10(0.5 * smallest), math.log10(top), True, self.cumulative)
         else:
             self.heights = Heights(0.0, top, False, self.cumulative)
         self._show_counts(smallest)
@@ -173,12 +176,9 @@ class HistogramPlot(QWidget):
     def _show_counts(self, smallest: float) -> None:
         left, high = self.plot.getAxis("left"), self.heights.top
         if self.log:
-            first = 10.0 ** math.ceil(math.log10(smallest) - 1e-9)
-            ticks = [(math.log10(first * n), f"{first * n:,g}") for n in decades(10.0**high / first)]
-            if len(ticks) > 5:
-                ticks = ticks[:: -(-len(ticks) // 5)]
+            ticks = log_ticks(math.ceil(math.log10(smallest) - 1e-9), high)
         else:
-            ticks = [(n, f"{n:,.0f}") for n in np.linspace(0, high, 5) if n == round(n)]
+            ticks = [(tick, f"{tick:,.0f}") for tick in nice_ticks(0, high, _COUNT_TICKS)]
         left.setTicks([ticks])
         left.setLabel(tr("% of hexes") if self.cumulative else tr("hexes"))
         left.resizeEvent()  # centres the label, which pyqtgraph does only when the plot is resized

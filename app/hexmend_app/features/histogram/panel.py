@@ -11,7 +11,6 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QToolTip, QVBoxLayout, QWidget
 
 from hexmend.quality import METRICS
-from hexmend_app.features.histogram.announcer import Announcer
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bin_texts import describe_bin, range_summary
 from hexmend_app.features.histogram.cells import Cells
@@ -45,7 +44,7 @@ class QualityHistogram(QWidget):
     metric_chosen(str)
         The user selected a metric, or "" for that of the colours.
     range_changed(Show or None)
-        The user brushed or typed a range, or cleared it; at most thirty times a second.
+        The user brushed or typed a range, or cleared it.
     keep_requested
         The user asked to keep the present distribution.
     renamed(slot, name), removed(slot)
@@ -72,8 +71,6 @@ class QualityHistogram(QWidget):
         self._distributions = Distributions()
         self._range: Show | None = None
         self._colour_ends = (0.0, 1.0)
-        self._announcer = Announcer(self)
-        self._announcer.announced.connect(self.range_changed)
         self._make_widgets()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(4, 4, 4, 4)
@@ -214,12 +211,8 @@ class QualityHistogram(QWidget):
         return self._range
 
     def set_range(self, range: Show | None) -> None:
-        """Show a range of the histogram's metric, or None for all hexes, without emitting a signal.
-
-        A range that was announced before the user brushed another one is ignored.
-        """
-        if self._announcer.receive(range):
-            self._show_range(range if range is not None and range.metric == self.axis.metric else None)
+        """Show a range of the histogram's metric, or None for all hexes, without emitting a signal."""
+        self._show_range(range if range is not None and range.metric == self.axis.metric else None)
 
     def _on_brushed(self, span: tuple[float, float]) -> None:
         cells = Cells(self.axis, self.head.bins.value())
@@ -249,7 +242,7 @@ class QualityHistogram(QWidget):
     def _choose(self, range: Show | None) -> None:
         if range != self._range:
             self._show_range(range)
-            self._announcer.send(range)
+            self.range_changed.emit(range)
 
     def _show_range(self, range: Show | None) -> None:
         self._range = range
@@ -264,7 +257,6 @@ class QualityHistogram(QWidget):
         self.range_row.set_axis(self.axis)
         if self._range is not None and self._range.metric != self.axis.metric:
             self._range = None
-            self._announcer.replace_pending(None)
         self._show_range(self._range)
 
     def _on_bins(self) -> None:

@@ -7,7 +7,7 @@ from html import escape
 from itertools import pairwise
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QStandardItemModel, QWheelEvent
+from PySide6.QtGui import QFocusEvent, QStandardItemModel
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
 from hexmend.errors import MeshError
@@ -29,6 +29,7 @@ from hexmend_app.theme.style import WORSE, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
+from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import counted
 
@@ -188,7 +189,7 @@ class RuleForm(QWidget):
         self._problem.setVisible(bool(text))
 
 
-class _RuleBox(ComboBox):
+class _RuleBox(FocusedWheel, ComboBox):
     """Combo box that finds its choices when it is opened or focused, as finding them takes time.
 
     Parameters
@@ -240,10 +241,3 @@ class _RuleBox(ComboBox):
         if event.reason() is not Qt.FocusReason.PopupFocusReason:
             self._find_choices()
         super().focusInEvent(event)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
-        if self.hasFocus():
-            super().wheelEvent(event)
-        else:
-            event.ignore()

@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from hexmend_app.scene.colour.colouring import Colouring
-from hexmend_app.scene.film.frame_parts import INK, letters, paper
+from hexmend_app.scene.film.frame_parts import INK, letters
 
 #: Number of bins.
 BINS = 40
@@ -64,7 +64,6 @@ def draw_histogram(
     colouring: Colouring,
     size: tuple[int, int],
     unit: float,
-    mode: str = "RGB",
     earlier: BarCounts | None = None,
 ) -> Image.Image:
     """Draw a histogram of values in their colours; special colours have separate bars on the left.
@@ -80,12 +79,10 @@ def draw_histogram(
         Size in pixels.
     unit : float
         Unit of all sizes, in pixels: 1/30 of the height of the colour bar.
-    mode : str
-        Mode of the picture: RGB or RGBA.
     earlier : BarCounts, optional
         Distribution before the run, drawn as a line.
     """
-    image = paper(size, mode)
+    image = Image.new("RGB", size, "white")
     draw = ImageDraw.Draw(image)
     font = letters(10 * unit)
     left, right = round(44 * unit), size[0] - round(12 * unit)

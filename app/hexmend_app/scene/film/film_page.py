@@ -9,7 +9,7 @@ from PIL import Image, ImageDraw
 
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.film.film_histogram import BarCounts, count_bars, draw_histogram
-from hexmend_app.scene.film.frame_parts import INK, colour_bar, letters, paper, strip_height
+from hexmend_app.scene.film.frame_parts import INK, colour_bar, letters, strip_height
 from hexmend_app.scene.views.viewport import Viewport
 
 #: Width of the histogram, as a fraction of the film width.
@@ -81,7 +81,7 @@ class FilmPage:
 
         The captions are those of the picture, from the longest to the shortest: the first that fits is shown.
         """
-        whole = paper(self.size, picture.mode)
+        whole = Image.new("RGB", self.size, "white")
         shown = [(initial.picture, initial.captions), (picture, captions)] if initial else [(picture, captions)]
         for column, (image, texts) in enumerate(shown):
             left = column * picture.width
@@ -92,11 +92,11 @@ class FilmPage:
         if self.chart_width:
             chart_size = self.chart_width, picture.height
             bars, earlier = self.bars(viewport), initial.bars if initial else None
-            chart = draw_histogram(bars, viewport.colouring, chart_size, self.strip / 30, picture.mode, earlier)
+            chart = draw_histogram(bars, viewport.colouring, chart_size, self.strip / 30, earlier)
             whole.paste(chart, (self.size[0] - self.chart_width, self.strip))
         if self.bar:
             special = viewport.colours.special_counts
-            bar = colour_bar(viewport.colouring, special, (self.size[0], self.strip), picture.mode)
+            bar = colour_bar(viewport.colouring, special, (self.size[0], self.strip))
             whole.paste(bar, (0, self.size[1] - self.strip))
         return whole
 

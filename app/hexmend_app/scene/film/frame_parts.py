@@ -19,11 +19,6 @@ _ONE_PIXEL = 900
 _SMALLEST_WITH_BAR = (320, 160)
 
 
-def paper(size: tuple[int, int], mode: str) -> Image.Image:
-    """Return an empty picture with a size in pixels: white, or transparent in the mode RGBA."""
-    return Image.new(mode, size, (255, 255, 255, 0) if mode == "RGBA" else (255, 255, 255))
-
-
 def pixel_ratio_of(size: tuple[int, int]) -> float:
     """Return the width of a thin line in pixels for a picture size; printed pictures of all sizes look the same."""
     width, height = size
@@ -38,10 +33,7 @@ def strip_height(size: tuple[int, int]) -> int:
 
 
 def colour_bar(
-    colouring: Colouring,
-    special: Sequence[tuple[str, int | None, tuple]],
-    size: tuple[int, int],
-    mode: str = "RGB",
+    colouring: Colouring, special: Sequence[tuple[str, int | None, tuple]], size: tuple[int, int]
 ) -> Image.Image:
     """Draw a colour bar: gradient from the lowest to the highest value, ticks, and swatches of special colours.
 
@@ -52,11 +44,9 @@ def colour_bar(
         Special colours; None omits the number.
     size : (width, height)
         Size in pixels.
-    mode : str
-        Mode of the picture: RGB or RGBA.
     """
     width, height = size
-    image = paper(size, mode)
+    image = Image.new("RGB", size, "white")
     draw = ImageDraw.Draw(image)
     unit = height / 30
     font = letters(11 * unit)

@@ -15,7 +15,6 @@ from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Panel
 from hexmend_app.picture.quantities import colour_quantities
-from hexmend_app.shell.mnemonics import without_mnemonic
 from hexmend_app.shell.palette.ranking import PaletteEntry
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.translation import tr
@@ -39,7 +38,7 @@ def command_entries(actions: Mapping[str, QAction]) -> Iterator[PaletteEntry]:
     for id, action in actions.items():
         if id.startswith("panel_"):
             continue
-        name = without_mnemonic(action.text())
+        name = action.text().replace("&", "")
         if action.isCheckable():
             name = f"{name}: {tr('on') if action.isChecked() else tr('off')}"
         yield PaletteEntry(

@@ -19,9 +19,6 @@ PLACES = (PanelPlace.TOOLS, PanelPlace.FACTS, PanelPlace.DRAWER)
 #: Width of the right column as a share of that of the window, and its minimum in pixels.
 _COLUMN_SHARE, _MINIMUM_COLUMN = 0.145, 240
 
-#: Pixels by which Qt rounds the sizes of docks.
-_ROUNDING = 2
-
 #: Shares of tools and of figures in the height of the window.
 _SHARES = 0.55, 0.36
 
@@ -53,23 +50,8 @@ def size(main: QMainWindow, docks: Sequence[Dock]) -> None:
     """Give the right column its default size."""
     firsts = _column(docks)
     main.resizeDocks(firsts, [_column_width(main)] * len(firsts), Qt.Orientation.Horizontal)
-    share_column(main, docks, _SHARES)
-
-
-def share_column(main: QMainWindow, docks: Sequence[Dock], shares: Sequence[float]) -> None:
-    """Give the tools and the figures in the right column shares of the height of the window."""
-    firsts = _column(docks)
-    heights = [round(share * main.height()) for share in shares]
-    if any(abs(dock.height() - height) > _ROUNDING for dock, height in zip(firsts, heights, strict=False)):
-        main.resizeDocks(firsts, heights[: len(firsts)], Qt.Orientation.Vertical)
-
-
-def column_shares(main: QMainWindow, docks: Sequence[Dock]) -> tuple[float, float]:
-    """Return the shares of tools and figures in the height of the window; the default ones unless both are shown."""
-    shown = [dock for dock in _column(docks) if dock.isVisible() and not dock.isFloating()]
-    if len(shown) != 2:
-        return _SHARES
-    return shown[0].height() / main.height(), shown[1].height() / main.height()
+    heights = [round(share * main.height()) for share in _SHARES]
+    main.resizeDocks(firsts, heights[: len(firsts)], Qt.Orientation.Vertical)
 
 
 def _column(docks: Sequence[Dock]) -> list[Dock]:
@@ -82,11 +64,12 @@ def _column_width(main: QMainWindow) -> int:
     return max(round(main.width() * _COLUMN_SHARE), _MINIMUM_COLUMN)
 
 
-def reserve_column(main: QMainWindow, width: int = 0) -> Dock:
-    """Add an empty dock on the right, `width` pixels wide (0: default width), as a placeholder for later docks."""
+def reserve_column(main: QMainWindow, width: object) -> Dock:
+    """Add an empty dock on the right, some pixels wide or of the default width, as a placeholder for later docks."""
     dock = Dock("space", "", "")
     dock.setFeatures(Dock.DockWidgetFeature.NoDockWidgetFeatures)
     dock.setWidget(QWidget())
     main.addDockWidget(RIGHT, dock)
-    main.resizeDocks([dock], [width or _column_width(main)], Qt.Orientation.Horizontal)
+    width = width if isinstance(width, int) and width > 0 else _column_width(main)
+    main.resizeDocks([dock], [width], Qt.Orientation.Horizontal)
     return dock

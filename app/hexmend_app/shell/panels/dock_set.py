@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import groupby
 
 from PySide6.QtCore import QByteArray, QEvent, QObject, Qt, Signal
@@ -12,7 +12,6 @@ from hexmend_app.feature import Panel, PanelGroup, PanelPlace
 from hexmend_app.shell.panels import default_layout
 from hexmend_app.shell.panels.dock import Dock
 from hexmend_app.shell.panels.group_row import GroupRow
-from hexmend_app.shell.panels.saved_layout import SavedLayout
 from hexmend_app.shell.panels.tab_bars import TabBars
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.translation import tr
@@ -73,7 +72,7 @@ class DockSet(QObject):
         self._drawer_height = _DRAWER
         self._placed = self._restoring = False
         # The arrangement before all panels were hidden.
-        self._saved, self._shares, self._shown_bars = QByteArray(), (0.0, 0.0), []
+        self._saved, self._shown_bars = QByteArray(), []
         self._offered: list[Dock] = []  # raised once they are visible
         self.centre = QWidget()
         self.centre.setMinimumSize(*_MINIMUM_VIEW)
@@ -103,11 +102,10 @@ class DockSet(QObject):
 
     # Adding
 
-    def reserve(self, state: dict[str, object]) -> None:
+    def reserve(self, state: Mapping[str, object]) -> None:
         """Reserve the right column, as wide as in a saved state, for panels that are added later."""
-        saved = SavedLayout.read(state)
-        if saved is None or not saved.hidden:
-            self._placeholder = default_layout.reserve_column(self._main, saved.column if saved is not None else 0)
+        if not state.get("hidden"):
+            self._placeholder = default_layout.reserve_column(self._main, state.get("column"))
 
     def add(self, panels: Sequence[Panel]) -> None:
         """Add panels; those with the same tab share a dock."""

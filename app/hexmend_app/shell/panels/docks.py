@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Qt
+from collections.abc import Mapping
+
+from PySide6.QtCore import QByteArray, QEvent, Qt
 from PySide6.QtWidgets import QApplication, QMainWindow
 
 from hexmend_app.feature import PanelGroup, PanelPlace
 from hexmend_app.shell.panels import default_layout
 from hexmend_app.shell.panels.dock import Dock
 from hexmend_app.shell.panels.dock_set import DockSet
-from hexmend_app.shell.panels.saved_layout import LAYOUT, SavedLayout
 from hexmend_app.shell.panels.tab_bars import TabBars
+
+#: Version of the saved arrangement; another one is ignored.
+LAYOUT = 1
 
 
 class Docks(DockSet):
@@ -130,7 +134,6 @@ class Docks(DockSet):
         self._restoring = True
         if hidden:
             self._saved = self._main.saveState(LAYOUT)
-            self._shares = default_layout.column_shares(self._main, self._all())
             self._shown_bars = [id for id in self._bars if self.is_open(id)]
             self._offered += [dock for dock in self._all() if dock.in_front]
             for dock in self._all():
@@ -162,52 +165,48 @@ class Docks(DockSet):
             "layout": LAYOUT,
             "state": self._saved if self.hidden else self._main.saveState(LAYOUT),
             "hidden": self.hidden,
-            "folded": self.folded,
             "drawer": self._drawer_height,
             "group": self.group.value,
-            "shares": self._shares if self.hidden else default_layout.column_shares(self._main, self._all()),
             "column": tools.width() if tools is not None else 0,
             "fronts": [dock.windowTitle() for dock in dict.fromkeys([*self._offered, *fronts])],
             "closed": [id for id in self.ids() if not self.is_open(id) and id not in shown],
         }
 
-    def restore(self, state: dict[str, object]) -> None:
-        """Restore an arrangement; one of another version, or an unreadable one, is ignored.
+    def restore(self, state: Mapping[str, object]) -> None:
+        """Restore an arrangement with the drawer closed; one of another version or with invalid values is ignored.
 
         Parameters
         ----------
-        state : dict
+        state : mapping
             Return value of `state`.
         """
-        saved = SavedLayout.read(state)
-        if saved is None:
+        try:
+            docks, drawer, group = QByteArray(state["state"]), int(state["drawer"]), PanelGroup(state["group"])
+            closed, fronts = set(state["closed"]), set(state["fronts"])
+        except (KeyError, TypeError, ValueError):
+            return
+        if state["layout"] != LAYOUT:
             return
         self.reset()
         QApplication.sendPostedEvents(self._main, QEvent.Type.LayoutRequest)
         self._restoring = True
-        self._drawer_height = saved.drawer
-        self._placed = self._main.restoreState(saved.docks, LAYOUT) or self._placed
-        for id in saved.closed:
-            if id in self._bars or id in self._docks:
-                self.close_panel(id)
+        self._drawer_height, self.group = drawer, group
+        self._placed = self._main.restoreState(docks, LAYOUT) or self._placed
+        for id in closed.intersection(self.ids()):
+            self.close_panel(id)
         for dock in self._all():
             if not dock.isFloating() and self._main.dockWidgetArea(dock) == Qt.DockWidgetArea.NoDockWidgetArea:
                 self._main.addDockWidget(default_layout.area_of(dock.place), dock)
-        self.group = saved.group
-        shown = [] if saved.folded else self._of_group(saved.group)
-        self.folded = not shown
         for dock in self._all():
-            dock.setVisible(dock in shown if self._in_drawer(dock) else dock.is_open)
+            dock.setVisible(dock.is_open and not self._in_drawer(dock))
         for dock in self._all():
-            if dock.windowTitle() in saved.fronts and dock.is_open:
-                if dock.isVisible() or not self._main.isVisible():
-                    self._raise(dock)
-                elif self._in_drawer(dock):
+            if dock.windowTitle() in fronts and dock.is_open:
+                if self._in_drawer(dock):
                     self._offered.append(dock)
+                else:
+                    self._raise(dock)
         self._restoring = False
         QApplication.sendPostedEvents(self._main, QEvent.Type.LayoutRequest)
-        if saved.shares is not None:
-            default_layout.share_column(self._main, self._all(), saved.shares)
         self._tab_bars.hide_stale(self._all())
         self._refresh_row()
-        self.set_hidden(saved.hidden)
+        self.set_hidden(bool(state["hidden"]))

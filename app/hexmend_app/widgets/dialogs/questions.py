@@ -179,17 +179,9 @@ def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True, in_session: bo
         A session is open: it is saved with all that has changed.
     """
     buttons = QMessageBox.StandardButton
-    box = QMessageBox(parent)
-    box.setTextFormat(Qt.TextFormat.PlainText)
-    box.setIcon(QMessageBox.Icon.Question)
-    box.setText(
-        tr("{name} has unsaved changes.", name=name) if of_mesh else tr("{name} has unsaved cameras.", name=name)
-    )
-    box.setInformativeText(
-        tr("Save the mesh before closing it?")
-        if of_mesh and not in_session
-        else tr("Save the session before closing it?")
-    )
+    text = tr("{name} has unsaved changes.", name=name) if of_mesh else tr("{name} has unsaved cameras.", name=name)
+    mesh, session = tr("Save the mesh before closing it?"), tr("Save the session before closing it?")
+    box = _question(parent, text, mesh if of_mesh and not in_session else session)
     box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
     box.setDefaultButton(buttons.Save)
     return {buttons.Save: Answer.SAVE, buttons.Discard: Answer.DISCARD}.get(box.exec(), Answer.CANCEL)
@@ -205,18 +197,15 @@ def ask_rewrite(parent: QWidget, path: Path, original: Path, lost: Sequence[str]
     lost : sequence of str
         Data of the mesh that a new file cannot hold.
     """
-    box = QMessageBox(parent)
-    box.setTextFormat(Qt.TextFormat.PlainText)
-    box.setIcon(QMessageBox.Icon.Question)
-    box.setWindowTitle(tr("Save mesh as"))
-    box.setText(tr("Replace only the coordinates, or rewrite {name}?", name=path.name))
     parts = [
         tr("Replacing keeps everything else in {original}, byte for byte where possible.", original=original.name),
         tr("A rewritten file has the mesh with its sets and data; comments and solver properties are lost."),
     ]
     if lost:
         parts.append(tr("Also lost: {count}.", count=", ".join(lost)))
-    box.setInformativeText(" ".join(parts))
+    text = tr("Replace only the coordinates, or rewrite {name}?", name=path.name)
+    box = _question(parent, text, " ".join(parts))
+    box.setWindowTitle(tr("Save mesh as"))
     replace = box.addButton(tr("Replace coordinates"), QMessageBox.ButtonRole.AcceptRole)
     anew = box.addButton(tr("Rewrite file"), QMessageBox.ButtonRole.DestructiveRole)
     cancel = box.addButton(QMessageBox.StandardButton.Cancel)
@@ -227,19 +216,10 @@ def ask_rewrite(parent: QWidget, path: Path, original: Path, lost: Sequence[str]
 
 def ask_short_of_memory(parent: QWidget, problem: str, remedy: str) -> bool:
     """Ask before a run that may exceed the memory; return True to start it."""
-    buttons = QMessageBox.StandardButton
-    box = QMessageBox(parent)
-    box.setTextFormat(Qt.TextFormat.PlainText)
-    box.setIcon(QMessageBox.Icon.Warning)
     space = re.compile(r"(?<=\d) (?=[GM]B)")  # made unbreakable, to keep numbers and units together
-    box.setText(space.sub("\u00a0", problem))
     remedy = space.sub("\u00a0", remedy)
-    box.setInformativeText(
-        tr("{remedy} If memory runs out, the system may end the program. Run anyway?", remedy=remedy)
-    )
-    box.setStandardButtons(buttons.Yes | buttons.No)
-    box.setDefaultButton(buttons.No)
-    return box.exec() == buttons.Yes
+    question = tr("{remedy} If memory runs out, the system may end the program. Run anyway?", remedy=remedy)
+    return _ask_yes(parent, space.sub("\u00a0", problem), question, QMessageBox.Icon.Warning)
 
 
 def show_about(parent: QWidget, version: str) -> None:
@@ -261,14 +241,22 @@ def _mesh_kind(suffix: str) -> str:
     return tr("{format} mesh (*{suffix})", format=suffix[1:].upper(), suffix=suffix)
 
 
-def _ask_yes(parent: QWidget, text: str, question: str) -> bool:
-    """Ask before data is deleted; return True to continue."""
-    buttons = QMessageBox.StandardButton
+def _question(
+    parent: QWidget, text: str, details: str, icon: QMessageBox.Icon = QMessageBox.Icon.Question
+) -> QMessageBox:
+    """Return a message box with plain texts, to which buttons are to be added."""
     box = QMessageBox(parent)
     box.setTextFormat(Qt.TextFormat.PlainText)
-    box.setIcon(QMessageBox.Icon.Question)
+    box.setIcon(icon)
     box.setText(text)
-    box.setInformativeText(question)
+    box.setInformativeText(details)
+    return box
+
+
+def _ask_yes(parent: QWidget, text: str, question: str, icon: QMessageBox.Icon = QMessageBox.Icon.Question) -> bool:
+    """Ask before something is done that may lose data; return True to continue."""
+    buttons = QMessageBox.StandardButton
+    box = _question(parent, text, question, icon)
     box.setStandardButtons(buttons.Yes | buttons.No)
     box.setDefaultButton(buttons.No)
     return box.exec() == buttons.Yes

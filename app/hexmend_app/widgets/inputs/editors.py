@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QWidget
 
 from hexmend.parameters import Parameter
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
+from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.wording import name_in_words
 
@@ -33,7 +33,7 @@ class Switch(QCheckBox):
         self.setChecked(value)
 
 
-class ChoiceEditor(ComboBox):
+class ChoiceEditor(FocusedWheel, ComboBox):
     """Editor of a choice."""
 
     changed = Signal()
@@ -58,13 +58,6 @@ class ChoiceEditor(ComboBox):
         """Show a value, without a signal; raise `ParameterError` if it is not among the choices."""
         self.setCurrentIndex(self.findData(self._declaration.check(value)))
 
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
-        if self.hasFocus():
-            super().wheelEvent(event)
-        else:
-            event.ignore()
-
 
 class Text(QLineEdit):
     """Editor of free text."""
@@ -86,7 +79,7 @@ class Text(QLineEdit):
         self.setText(str(value))
 
 
-class SuggestedText(QComboBox):
+class SuggestedText(FocusedWheel, QComboBox):
     """Editor of free text that offers values."""
 
     changed = Signal()
@@ -110,13 +103,6 @@ class SuggestedText(QComboBox):
     def set_value(self, value: str) -> None:
         """Show a value, without a signal."""
         self.setEditText(str(value))
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
-        if self.hasFocus():
-            super().wheelEvent(event)
-        else:
-            event.ignore()
 
 
 Editor = Switch | ChoiceEditor | Text | SuggestedText | NumberBox

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 from enum import StrEnum
-from typing import Any, get_args, get_origin
+from typing import Any
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QFormLayout, QLabel, QWidget
+from PySide6.QtWidgets import QFormLayout, QLabel, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
+from hexmend_app.codec.value_text import parse_value
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import WORSE, note, set_help
 from hexmend_app.translation import tr
@@ -50,7 +50,7 @@ class KeyForm(QWidget):
         super().__init__(parent)
         self._kind = type(table)
         self._keys = {option.field: option for option in options_of(self._kind) if option.field in names}
-        self.editors: dict[str, Editor | SuggestionBox] = {}
+        self.editors: dict[str, Editor] = {}
         layout = on_grid(QFormLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         for name in names:
@@ -102,35 +102,12 @@ class KeyForm(QWidget):
         self._problem.setVisible(bool(problem))
 
 
-class SuggestionBox(QComboBox):
-    """Editor of a text, with a list of suggestions."""
-
-    changed = Signal()
-    problem = ""
-
-    def __init__(self, suggestions: Sequence[str], parent: QWidget | None = None):
-        super().__init__(parent)
-        self.setEditable(True)
-        self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
-        self.addItems(suggestions)
-        self.activated.connect(self.changed)
-        self.lineEdit().textEdited.connect(lambda _: self.changed.emit())
-
-    def value(self) -> str:
-        """Return the text, chosen or typed."""
-        return self.currentText().strip()
-
-    def set_value(self, value: str) -> None:
-        """Show a text, without a signal."""
-        self.setCurrentText(value)
-
-
-def _editor(option: Option) -> Editor | SuggestionBox:
+def _editor(option: Option) -> Editor:
     kind, name = option.kind, option.name
     if kind is bool or kind in (int, float):
         return editor_for(Parameter(name, kind, option.default, option.low, option.high, None, "", ""))
     if option.offered:
-        return SuggestionBox(option.offered)
+        return editor_for(Parameter(name, str, option.default, None, None, None, "", "", suggestions=option.offered))
     if isinstance(kind, type) and issubclass(kind, StrEnum):
         return editor_for(Parameter(name, str, option.default.value, None, None, tuple(kind), "", ""))
     editor = editor_for(Parameter(name, str, "", None, None, None, "", ""))
@@ -139,18 +116,9 @@ def _editor(option: Option) -> Editor | SuggestionBox:
 
 
 def _read(option: Option, text: str) -> Any:
-    """Return the value of a text: a number, a list of numbers, or the text itself; the default of an empty text."""
+    """Return the value of a text; the default of an empty text."""
     text = text.strip()
-    if not text or option.kind is str:
-        return text or option.default
-    try:
-        numbers = [float(word) for word in re.split(r"[,;\s×]+", text.strip(" ,;"))]
-    except ValueError:
-        raise ParameterError(f"{name_in_words(option.name)}: {text!r} is not a number") from None
-    values = [int(number) if number.is_integer() else number for number in numbers]
-    takes_number = {int, float} & set(get_args(option.kind) or (option.kind,))
-    takes_list = any(get_origin(kind) is tuple for kind in get_args(option.kind))
-    return values[0] if len(values) == 1 and takes_number else values if takes_list else text
+    return text or option.default if not text or option.kind is str else parse_value(text)
 
 
 def _text(value: Any) -> str:

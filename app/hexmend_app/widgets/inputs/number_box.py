@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor, QPalette, QWheelEvent
+from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QAbstractSpinBox, QHBoxLayout, QLabel, QWidget
 
 from hexmend.errors import ParameterError
@@ -14,13 +14,14 @@ from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import on_theme_change, set_variant, smaller, tabular
 from hexmend_app.translation import tr
+from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
 from hexmend_app.widgets.wording import short_number
 
 #: Maximum length of a unit that is shown after the number, in letters.
 LONGEST_UNIT = 6
 
 
-class NumberBox(QAbstractSpinBox):
+class NumberBox(FocusedWheel, QAbstractSpinBox):
     """Editor of a declared number.
 
     The text is parsed at each key press. An invalid text is kept and coloured, `problem` explains what is expected, and
@@ -169,13 +170,6 @@ class NumberBox(QAbstractSpinBox):
         if down:
             flags |= QAbstractSpinBox.StepEnabledFlag.StepDownEnabled
         return flags
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
-        if self.hasFocus():
-            super().wheelEvent(event)
-        else:
-            event.ignore()
 
     def _commit(self) -> None:
         """Write a valid value in its shortest form after editing."""

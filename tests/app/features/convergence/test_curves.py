@@ -6,7 +6,7 @@ import pytest
 from hexmend.run import StoppingCriteria, iterate
 from hexmend.smoothers import METHODS
 from hexmend_app.features.convergence.charts import CHARTS
-from hexmend_app.features.convergence.curves import Columns, Curve, run_start, thinned
+from hexmend_app.features.convergence.curves import Columns, Curve, run_start
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from tests.core.grids import grid, scrambled
@@ -72,17 +72,3 @@ def test_a_branch_begins_where_it_left_its_parent():
     assert curve.nearest(5.6, by_time=False) == 1
     assert curve.nearest(-3, by_time=False) == 0
     assert curve.nearest(curve.x(by_time=True)[2] + 1, by_time=True) == 2
-
-
-@pytest.mark.parametrize("count", [3, 2000, 2001, 12345])
-def test_a_long_curve_keeps_its_extremes_and_its_gaps(count):
-    x = np.arange(count, dtype=float)
-    y = np.sin(x)
-    y[count // 2] = 7.0
-    y[: count // 4] = np.nan
-    few_x, few_y = thinned(x, y)
-    assert len(few_x) == len(few_y) <= max(count if count <= 2000 else 0, 2004)
-    assert np.nanmax(few_y) == 7.0
-    assert np.nanmin(few_y) == np.nanmin(y)
-    assert (np.diff(few_x) >= 0).all()
-    assert np.isnan(few_y[: len(few_y) // 4 - 3]).all()

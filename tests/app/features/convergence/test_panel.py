@@ -69,11 +69,11 @@ def test_quality_has_a_third_curve_on_an_axis_that_extends_to_negative_scaled_ja
     plot = panel.plots["quality"]
     tangled = record("mend", 6, scaled_jacobian_min=-0.5)
     panel.set_curves([curve(tangled)])
-    assert plot.scale.low == -1
+    assert plot.view.viewRange()[1][0] < -1
     assert (0, "scaled_jacobian_min") in plot.lines
     assert "scaled Jacobian min -0.5" in describe(plot.chart, [curve(tangled)], 3, by_time=False).replace("−", "-")
     panel.set_curves([curve(record("mend", 6, scaled_jacobian_min=0.5))])
-    assert plot.scale.low == 0
+    assert -0.5 < plot.view.viewRange()[1][0] < 0
 
 
 def test_invalid_hexes_have_a_curve_in_the_chart_of_inverted_ones(panel):
@@ -91,16 +91,14 @@ def test_the_default_charts_are_drawn_below_one_another_with_one_axis(panel):
     low, high = panel.drawn[0].view.viewRange()[0]
     assert low < 0
     assert high > 20
-    assert [text for _, text in panel.plots["quality"].scale.ticks] == ["0", "0.5", "1"]
 
 
 def test_a_logarithmic_axis_has_a_position_for_zero_and_infinity_is_a_gap(panel):
     inverted, objective = panel.plots["inverted"], panel.plots["objective"]
     heights = inverted.heights(np.array([100.0, 10.0, 0.0]))
     assert heights.tolist() == [2, 1, -1]
-    ticks = dict(inverted.scale.ticks)
-    assert ticks[-1.0] == "0"
-    _, y = objective.lines[0, "objective"].curve.getData()
+    assert inverted.zero == -1
+    _, y = objective.lines[0, "objective"].getData()
     assert np.isnan(y[:3]).all()
     assert np.isfinite(y[3:]).all()
     panel.head.log.trigger()
@@ -178,7 +176,7 @@ def test_the_curve_of_the_objective_has_a_gap_where_a_stage_changes_it(panel):
     assert describe(CHARTS["objective"], [one], 5, by_time=False) == "recipe 5: objective Σ η⁴, offset 0 200.000"
     panel.set_curves([one])
     turn()
-    _, y = panel.plots["objective"].lines[0, "objective"].curve.getData()
+    _, y = panel.plots["objective"].lines[0, "objective"].getData()
     assert np.isnan(y[5])
 
 

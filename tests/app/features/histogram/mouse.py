@@ -1,6 +1,6 @@
 """Positions in a histogram, for the mouse, and the ranges brushed there."""
 
-from PySide6.QtCore import QPointF, QTimer
+from PySide6.QtCore import QPointF
 
 
 def ends(range):
@@ -13,8 +13,3 @@ def point_at(histogram, x):
     view, plot = histogram.plot.view, histogram.plot.plot
     middle = view.viewRect().center().y()
     return plot.mapFromScene(view.mapViewToScene(QPointF(x, middle)))
-
-
-def nothing_pending(histogram):
-    """Return True if no range is waiting to be announced."""
-    return not any(timer.isActive() for timer in histogram.findChildren(QTimer))

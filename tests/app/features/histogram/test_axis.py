@@ -77,7 +77,7 @@ def test_a_value_has_a_position_and_a_text_to_a_hundredth_of_the_axis(size, rati
 
 
 def test_values_beyond_the_ends_have_the_positions_of_their_bars():
-    axis = Axis("condition", 1, 21, 4, open_high=True)
+    axis = Axis("condition", 1, 21, open_high=True)
     assert axis.position(math.inf) == axis.above[1] == axis.brush_limits[1]
     assert axis.position(-math.inf) == 0 > axis.brush_limits[0]
     volume = Axis("volume", 1.0, 2.0, open_low=True)

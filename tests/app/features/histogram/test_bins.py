@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.features.histogram.bins import DEFAULT_BINS, distribute, round_up
+from hexmend_app.features.histogram.bins import DEFAULT_BINS, distribute
 from hexmend_app.picture.visibility import Show
 
 Q = Axis("q")
@@ -42,13 +42,8 @@ def test_lengths_must_agree():
         distribute(np.zeros(3), np.zeros(2, bool), Q)
 
 
-@given(st.floats(1, 1e9))
-def test_round_up_is_between_the_value_and_twice_the_value(value):
-    assert value * (1 - 1e-9) <= round_up(value) <= 2 * value
-
-
 def test_values_beyond_open_ends_are_counted_in_separate_bars():
-    axis = Axis("volume", 1.0, 2.0, 0.2, open_low=True, open_high=True)
+    axis = Axis("volume", 1.0, 2.0, open_low=True, open_high=True)
     values = np.array([-np.inf, 0.999999, 1.0, 1.999999, 2.0, np.inf, np.nan])
     counted = distribute(values, np.arange(7) == 6, axis, 10)
     assert (counted.below, counted.counts.tolist(), counted.above, counted.inverted) == (2, [1, *[0] * 8, 1], 2, 1)

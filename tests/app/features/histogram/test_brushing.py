@@ -8,7 +8,7 @@ from PySide6.QtTest import QTest
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
 from tests.app.driving import LEFT, move, turn
-from tests.app.features.histogram.mouse import ends, nothing_pending, point_at
+from tests.app.features.histogram.mouse import ends, point_at
 from tests.patience import PATIENCE
 
 
@@ -93,17 +93,6 @@ def test_a_drag_moves_an_end_or_the_whole_range(histogram, announced, drag):
     assert ends(announced[-1]) == (pytest.approx(0.6, abs=0.021), 1)  # keeps its width at the limit
 
 
-def test_a_drag_announces_ranges_but_not_at_every_move(histogram, announced, qtbot):
-    viewport, moves = histogram.plot.plot.viewport(), 60
-    QTest.mousePress(viewport, LEFT, pos=point_at(histogram, 0.2))
-    for x in np.linspace(0.3, 0.9, moves):
-        move(viewport, point_at(histogram, x), LEFT)
-    qtbot.waitUntil(lambda: nothing_pending(histogram), timeout=PATIENCE)
-    assert 1 < len(announced) < moves
-    assert announced[-1] == histogram.range()
-    QTest.mouseRelease(viewport, LEFT, pos=point_at(histogram, 0.9))
-
-
 def test_a_double_click_shows_all_hexes(histogram, announced, qtbot):
     histogram.set_range(Show((0.3, 0.5), "q"))
     # Through the window, which handles the second press like that of a mouse.
@@ -136,25 +125,8 @@ def test_setters_emit_no_signal(histogram, announced, data, qtbot):
     histogram.set_current(*data)
     histogram.set_range(None)
     histogram.set_metric("scaled-jacobian")
-    qtbot.waitUntil(lambda: nothing_pending(histogram), timeout=PATIENCE)
     assert announced == []
     assert histogram.summary.text() == "No mesh is open."
-
-
-def test_a_pending_range_is_cleared_with_its_metric(histogram, announced, qtbot):
-    histogram.plot.view.brushed.emit((0.1, 0.2))
-    histogram.plot.view.brushed.emit((0.1, 0.3))  # pending
-    histogram.set_metric("scaled-jacobian")
-    qtbot.waitUntil(lambda: len(announced) == 2, timeout=PATIENCE)
-    assert announced[-1] is None
-
-
-def test_setting_a_range_drops_the_pending_one(histogram, announced, qtbot):
-    histogram.plot.view.brushed.emit((0.1, 0.2))
-    histogram.plot.view.brushed.emit((0.1, 0.3))  # pending
-    histogram.set_range(None)
-    qtbot.waitUntil(lambda: nothing_pending(histogram), timeout=PATIENCE)
-    assert [ends(range) for range in announced] == [pytest.approx((0.1, 0.2))]
 
 
 def test_the_summary_includes_inverted_hexes(histogram, data):

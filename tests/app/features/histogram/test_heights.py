@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QToolButton
 
-from tests.app.driving import LEFT, turn
+from tests.app.driving import LEFT
 
 
 @pytest.mark.parametrize("scale", ["linear", "log"])
@@ -60,28 +59,21 @@ def test_the_scale_changes_with_the_same_counts(histogram):
     for scale in ("log", "linear", "log"):
         QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
         assert histogram.plot.heights.log == (scale == "log")
-    assert histogram.plot.heights.top == pytest.approx(np.log10(5000))
+    assert 5000 <= 10**histogram.plot.heights.top <= 7000
 
 
 def test_there_is_an_axis_if_all_hexes_are_inverted(histogram):
     histogram.set_initial(np.zeros(50), np.ones(50, bool))
     histogram.set_current(np.zeros(50), np.ones(50, bool))
-    assert histogram.plot.heights.top == 1
+    assert histogram.plot.heights.top > 0
     assert histogram.plot.numbers["now"][0].toPlainText() == "50"
-
-
-def cumulative_button(histogram):
-    histogram.resize(700, 360)
-    turn()
-    (button,) = (b for b in histogram.findChildren(QToolButton) if b.text() == "Cumulative")
-    return button
 
 
 @pytest.mark.parametrize("scale", ["linear", "log"])
 def test_cumulative_shares_begin_with_inverted_hexes_and_end_at_100_percent(histogram, data, scale):
     q, inverted = data
     QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
-    QTest.mouseClick(cumulative_button(histogram), LEFT)
+    histogram.head.cumulative.trigger()
     histogram.set_current(*data)
     share = 100 * (inverted.sum() + np.count_nonzero(~inverted & (q < 0.52))) / 2000
     text = histogram.describe_at(0.511)
@@ -94,5 +86,5 @@ def test_cumulative_shares_begin_with_inverted_hexes_and_end_at_100_percent(hist
     assert histogram.plot.numbers["now"][0].toPlainText() == f"{inverted.mean() * 100:.3g} %"
     low, high = histogram.plot.plot.viewRange()[1]
     assert low <= curve[0] < curve[-1] < high
-    QTest.mouseClick(cumulative_button(histogram), LEFT)
+    histogram.head.cumulative.trigger()
     assert histogram.plot.outlines["now"].curve.yData.max() < (3 if scale == "log" else 200)

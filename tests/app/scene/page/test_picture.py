@@ -16,9 +16,8 @@ from hexmend.errors import FileError, ParameterError
 from hexmend.io import write
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, measure
-from hexmend_app.cli.cut_options import parse_plane
 from hexmend_app.cli.render import command
-from hexmend_app.cli.scene_options import look_of
+from hexmend_app.cli.scene_options import parse_plane, with_options
 from hexmend_app.picture import ColourBarStyle, LineStyle, Page, Scene, Show, TextPlace
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut import Cut, CutStyle
@@ -86,8 +85,8 @@ def test_structure_is_drawn_by_name(pictures):
 
 def test_a_plane_hides_half(pictures):
     whole = ink(pictures("--view", "+z"))
-    for cut in ("--crinkle", "--smooth"):
-        half = ink(pictures("--view", "+z", "--clip", "x:0.4", cut))
+    for cut in ((), ("--smooth",)):
+        half = ink(pictures("--view", "+z", "--clip", "x:0.4", *cut))
         assert 0.25 * whole < half < 0.65 * whole
 
 
@@ -97,7 +96,7 @@ def test_a_smooth_cut_shows_inverted_elements_inside(pictures):
 
 
 def test_a_quality_range_hides_the_others(pictures):
-    assert ink(pictures("--quality-range", "0.99,1")) < 0.3 * ink(pictures("--view", "iso"))
+    assert ink(pictures("--key", "show.quality=0.99,1")) < 0.3 * ink(pictures("--view", "iso"))
 
 
 @pytest.mark.parametrize("name", METRICS)
@@ -107,7 +106,7 @@ def test_every_metric_has_a_range_of_colours(name):
     args = parser.parse_args(["a.vtk", "-o", "a.png", "--metric", name])
     for mesh in (grid(2), scrambled(grid(3), 0.6), scrambled(grid(1), 0), grid(2).with_points(grid(2).points * 0)):
         figures = measure(mesh.points, mesh.hexes)
-        colours = look_of(args, mesh).colours
+        colours = with_options(args, Scene()).colours
         assert colours.metric == name
         shown = resolve(colours, metric_values(name, mesh, figures), figures.inverted)
         low, high = shown.low, shown.high
@@ -127,24 +126,21 @@ def test_a_metric_other_than_q_is_drawn(pictures):
         (["--clip", "w"], "--clip 'w' cannot be used"),
         (["--clip", "0,0,0"], "a direction that is not zero"),
         (["--clip", "x:1.5"], "a position from 0 to 1"),
-        (["--clip-slab", "x:0.5"], "an axis, a position and a thickness"),
-        (["--clip-slab", "x:0.5:2"], "an axis, a position and a thickness"),
-        (["--clip-sphere", "0.5,0.5,2,0.1"], "three positions from 0 to 1 and a radius"),
-        (["--clip-sphere", "0.5,0.5,0.5"], "4 numbers separated by commas"),
-        (["--clip-depth", "3:2"], "the lower first"),
-        (["--clip-depth", "deep"], "two depths, the lower first"),
-        (["--clip-depth", "1:nan"], "two depths, the lower first"),
-        (["--clip-depth", "1:2:3"], "two depths, the lower first"),
-        (["--clip-depth", "1:2", "--smooth"], "has whole hexes"),
+        (["--key", "cut.depth={ low = 1 }", "--smooth"], "has whole hexes"),
+        (["--key", "cut.sphere={ size = 1 }"], "[cut] sphere has an unknown key 'size'"),
+        (["--key", "cut.depth=deep"], "[cut] depth"),
+        (["--key", "paper.margin=1"], "unknown key 'paper'"),
+        (["--key", "page.margin"], "TABLE.KEY=VALUE"),
+        (["--key", "page.margin=wide"], "[page] margin = 'wide' is not a number"),
         (["--size", "big"], "as in 1600x1000"),
         (["--size", "16x16"], "64 to 8192 pixels"),
-        (["--quality-range", "0.8,0.2"], "the lower number first"),
+        (["--key", "show.quality=0.8,0.2"], "the lower number first"),
         (["--colour-range", "0.5,0.5"], "the lower number first"),
         (["--metric", "beauty"], "there is no metric 'beauty'"),
-        (["--colour-map", "jet"], "one of viridis"),
+        (["--colour-map", "jet"], "expected one of viridis"),
         (["--structure", "sharp,round"], "names among irregular, boundary, sharp, fixed, free, locked"),
-        (["--view", "up"], "3 numbers separated by commas"),
-        (["--view", "0,0,0"], "a direction that is not zero"),
+        (["--view", "up"], "from = 'up' is unknown"),
+        (["--view", "0,0,0"], "expected a nonzero vector"),
     ],
 )
 def test_invalid_options_are_reported(words, message, tmp_path, capsys):
@@ -205,7 +201,7 @@ def test_a_picture_has_the_size_asked_for_with_room_for_the_bar_or_not(size):
 def asked(mesh, *words):
     parser = argparse.ArgumentParser(allow_abbrev=False)
     command.arguments(parser)
-    return look_of(parser.parse_args(["a.vtk", "-o", "a.png", *words]), mesh).cut
+    return with_options(parser.parse_args(["a.vtk", "-o", "a.png", *words]), Scene()).look(mesh).cut
 
 
 def test_planes_are_named_by_axis_or_normal_and_position():
@@ -220,22 +216,26 @@ def test_planes_are_named_by_axis_or_normal_and_position():
 
 def test_several_planes_and_boxes_are_asked_for():
     mesh = grid(4)
-    two = asked(mesh, "--clip", "x:0.25", "--clip", "y:0.5", "--notch")
+    two = asked(mesh, "--clip", "x:0.25", "--clip", "y:0.5", "--key", "cut.notch=true")
     assert two == Cut((Plane((1, 0, 0), point=(1, 0, 0)), Plane((0, 1, 0), point=(0, 2, 0))), notch=True)
-    assert asked(mesh, "--clip-box", "0,0.5,0.25,1,0,1") == Cut(box=Box((0, 1, 0), (2, 4, 4)))
-    with pytest.raises(ParameterError, match="the lower first"):
-        asked(mesh, "--clip-box", "0.5,0,0,1,0,1")
+    assert asked(mesh, "--key", "cut.box={ low = [0, 0.25, 0], high = [0.5, 1, 1], shares = true }") == Cut(
+        box=Box((0, 1, 0), (2, 4, 4))
+    )
 
 
 def test_other_shapes_are_asked_for():
     mesh = grid(4)
     slab = Slab((1, 0, 0), point=(1, 0, 0), thickness=2)
-    assert asked(mesh, "--clip-slab", "x:0.25:0.5", "--smooth") == Cut(slab=slab, style=CutStyle.SMOOTH)
-    inside_out = asked(mesh, "--clip-sphere", "0.5,0,1,0.25", "--notch")
+    assert asked(mesh, "--key", "cut.slab={ position = 0.25, thickness = 0.5 }", "--smooth") == Cut(
+        slab=slab, style=CutStyle.SMOOTH
+    )
+    sphere = "cut.sphere={ centre = [0.5, 0, 1], radius = 0.25, shares = true }"
+    inside_out = asked(mesh, "--key", sphere, "--key", "cut.notch=true")
     assert (inside_out.sphere.centre, inside_out.notch) == ((2, 0, 4), True)
     assert inside_out.sphere.radius == pytest.approx(0.25 * 4 * 3**0.5)
-    assert asked(mesh, "--clip-depth", "2") == Cut(depth=Depth(2, 2))
-    assert asked(mesh, "--clip-depth", "0.5:3e") == Cut(depth=Depth(0.5, 3, DepthUnit.EDGES))
+    assert asked(mesh, "--key", 'cut.depth={ low = 0.5, high = 3, unit = "edges" }') == Cut(
+        depth=Depth(0.5, 3, DepthUnit.EDGES)
+    )
 
 
 def test_nodes_that_no_hex_uses_do_not_count():

@@ -10,7 +10,6 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QT
 from hexmend_app.feature import Panel, PanelGroup, PanelPlace
 from hexmend_app.resources import demo_mesh
 from hexmend_app.shell.panels.docks import Docks
-from hexmend_app.shell.panels.saved_layout import LAYOUT
 from hexmend_app.state.settings import settings
 from tests.app.driving import LEFT, open_and_wait
 from tests.patience import PATIENCE
@@ -281,22 +280,21 @@ def test_reset_restores_the_default_layout(docks):
 # Saving
 
 
-@pytest.mark.parametrize("folded", [False, True], ids=["open", "folded"])
 @pytest.mark.parametrize("hidden", [False, True], ids=["shown", "hidden"])
-def test_a_layout_is_restored(docks, another, folded, hidden):
+def test_a_layout_is_restored(docks, another, hidden):
     docks.show_panel("tags")
     resize(docks, "Tags", 500, 200)
     resize(docks, "Run", 400, 300)
     docks.show_panel("look")
     docks.show_panel("quality")
     docks.close_panel("worst")
-    docks.set_folded(folded)
+    docks.set_folded(True)
     docks.set_hidden(hidden)
     another.restore(docks.state())
     assert another.hidden is hidden
     for one in (docks, another):
         one.set_hidden(False)
-    assert visible(another) == visible(docks) == {"look", "quality"} | (set() if folded else {"tags"})
+    assert visible(another) == visible(docks) == {"look", "quality"}
     assert not another.is_open("worst")
     for one in (docks, another):
         one.set_folded(False)
@@ -322,9 +320,9 @@ def test_no_tab_bar_of_the_former_layout_is_left(docks, another):
     another.restore(docks.state())
     QApplication.processEvents()
     bars = [bar for bar in another.parent().findChildren(QTabBar) if bar.isVisible() and bar.count()]
-    assert sorted(bar.tabText(0) for bar in bars) == ["Histogram", "Run", "Worst"]
+    assert sorted(bar.tabText(0) for bar in bars) == ["Histogram", "Run"]
     names = [bar.accessibleName() for bar in another.parent().findChildren(QTabBar) if bar.accessibleName()]
-    assert sorted(names) == ["Figures", "Panels below the view", "Tools"]
+    assert sorted(names) == ["Figures", "Tools"]
 
 
 def test_a_floating_dock_is_restored_through_the_settings(docks, another):
@@ -351,13 +349,6 @@ def test_an_invalid_layout_is_ignored(docks, another, broken):
     assert another.centre.size() == size
     another.restore({})
     assert visible(another) == before
-
-
-def test_a_layout_of_another_version_is_ignored(docks):
-    before = visible(docks)
-    docks.restore(docks.state() | {"layout": LAYOUT + 1, "fronts": ["Look"], "closed": ["worst"]})
-    assert visible(docks) == before
-    assert docks.is_open("worst")
 
 
 # The window
@@ -391,4 +382,3 @@ def test_the_layout_is_stored_for_the_next_window(fresh_window, qtbot):
     assert kept["closed"] == ["node"]
     assert "Tags" in kept["fronts"]
     assert "Quality" in kept["fronts"]
-    assert kept["folded"] is False
