@@ -3,8 +3,6 @@
 import os
 import subprocess
 import sys
-import tomllib
-from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import numpy as np
@@ -34,14 +32,6 @@ def drawn(tmp_path_factory):
     environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
     subprocess.run([sys.executable, "-c", DRAW, str(folder)], env=environment, check=True)
     return {figure.number: folder / f"{figure.number}.png" for figure in MESH_FIGURES}
-
-
-def test_the_entry_point_is_registered():
-    data = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    (value,) = data["project"]["entry-points"]["hexmend.figures"].values()
-    from hexmend_app.cli.figures import draw
-
-    assert EntryPoint("meshes", value, "hexmend.figures").load() is draw
 
 
 @pytest.mark.slow

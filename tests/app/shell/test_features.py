@@ -112,37 +112,11 @@ def test_every_action_has_a_known_menu_and_help(with_example):
         assert one.help.endswith("."), one.id
 
 
-def test_no_two_actions_have_the_same_keys(with_example):
-    keys = [one.keys for one in with_example.menus.declared() if one.keys]
-    assert len(keys) == len(set(keys))
-
-
-def test_every_folder_is_a_feature():
-    names = [
-        finding.feature_name(kind) for kind in finding.in_order(map(finding.feature_class, finding.feature_names()))
-    ]
-    assert {"open", "smooth", "histogram", "cut", "compare"} <= set(names)
-    assert len(names) == len(set(names))
-
-
 @pytest.mark.slow
 def test_docs_keys_match_the_declared_actions(window):
     """`make docs` writes it."""
     page = Path(__file__).resolve().parents[3] / "docs" / "keys.md"
     assert page.read_text(encoding="utf-8") == as_markdown(window.menus.declared())
-
-
-def test_menu_and_refresh_order_default_to_the_order_of_building():
-    class FeatureListed(Feature):
-        order = 7
-        menu_order = 80
-
-    class FeatureRefreshed(Feature):
-        order = 8
-        refresh_order = 1
-
-    assert (FeatureListed.menu_order, FeatureListed.refresh_order) == (80, 7)
-    assert (FeatureRefreshed.menu_order, FeatureRefreshed.refresh_order) == (8, 1)
 
 
 @pytest.mark.slow

@@ -6,7 +6,6 @@ from collections import Counter
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QAccessible
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QAbstractScrollArea,
@@ -20,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from hexmend_app.theme.palette import BLUE
 from hexmend_app.widgets.section import Section
-from tests.app.driving import LEFT, choose_by_keys, key, named
+from tests.app.driving import LEFT, choose_by_keys, named
 
 pytestmark = pytest.mark.slow
 
@@ -147,15 +146,6 @@ def test_tab_in_the_view_hides_and_shows_all_panels(window):
     assert not window.docks.hidden
 
 
-def test_the_panels_are_hidden_by_key_from_anywhere(window):
-    window.show_panel("histogram")
-    window.features["histogram"].panel.head.metric_box.setFocus()
-    for hidden in (True, False):
-        key(window, Qt.Key.Key_Tab, Qt.KeyboardModifier.ControlModifier)
-        assert window.docks.hidden is hidden
-        assert window.action("panels").isChecked() is hidden
-
-
 def test_tab_goes_in_reading_order(everything_on):
     window = everything_on
     bring(window, ("run", "histogram", "worst"))
@@ -206,25 +196,6 @@ def assert_read_from_the_top(window, reached):
         ):
             assert next_y > y - 8
             assert next_x > x or next_y > y + 8
-
-
-def test_the_focus_alone_changes_nothing(window):
-    bring(window, ("run", "histogram", "worst"))
-    look, chosen = window.session.view.look, window.session.selection.hex
-    walk(window)
-    assert (window.session.view.look, window.session.selection.hex) == (look, chosen)
-
-
-@pytest.mark.parametrize("panels", FRONTS, ids=" ".join)
-def test_every_control_has_a_name(everything_on, panels):
-    window = everything_on
-    bring(window, panels)
-    nameless = []
-    for one in controls(window):
-        accessible = QAccessible.queryAccessibleInterface(one)
-        if accessible is None or not accessible.text(QAccessible.Text.Name).strip():
-            nameless.append(one)
-    assert nameless == []
 
 
 @pytest.mark.parametrize("panels", FRONTS, ids=" ".join)

@@ -13,13 +13,12 @@ from PySide6.QtWidgets import (
     QListWidget,
     QMainWindow,
     QSpinBox,
-    QTableView,
     QVBoxLayout,
     QWidget,
 )
 
 from hexmend_app.shell.letter_keys import LetterKeys
-from tests.app.driving import LEFT, named
+from tests.app.driving import LEFT
 from tests.patience import PATIENCE
 
 WORDS = ["Laplacian", "Mend", "Steepest descent", "Truss"]
@@ -107,20 +106,3 @@ def test_letters_change_nothing_in_a_floating_panel(lists, qtbot):
     QTest.keyClicks(lists.docked, "stn")
     assert lists.docked.currentIndex() == 0
     lists.dock.setFloating(False)
-
-
-@pytest.mark.slow
-def test_letters_are_shortcuts_in_the_panels_of_the_window(window):
-    box = named(window.features["smooth"].panel, QComboBox, "Method")
-    box.setFocus(Qt.FocusReason.TabFocusReason)
-    method = window.session.run_setup.method
-    QTest.keyClicks(box, "c")
-    window.refresh()
-    assert window.session.view.look.cut.active
-    assert window.session.run_setup.method == method
-    window.show_panel("worst")
-    table = window.features["hex_inspector"].worst_list.findChild(QTableView)
-    table.setFocus()
-    table.setCurrentIndex(table.model().index(0, 0))
-    QTest.keyClick(table, Qt.Key.Key_N)
-    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.hexes[1]

@@ -85,16 +85,6 @@ def moved(card, by):
     QTest.mouseRelease(window, _LEFT, pos=start + by)
 
 
-def test_a_drag_does_not_reach_the_widget_below(over):
-    card, place = laid(over)
-    moved(card, QPoint(-200, 60))
-    assert (card.x(), card.y()) == (292, 160)
-    assert over.heard == []
-    moved(card, QPoint(5000, -5000))
-    assert (card.x(), card.y()) == (492, 8)
-    assert place.place == (1.0, 0.0)
-
-
 def test_its_position_is_stored_as_shares_and_reset_by_a_double_click(over):
     card, place = laid(over)
     moved(card, QPoint(-242, 0))
@@ -107,20 +97,6 @@ def test_its_position_is_stored_as_shares_and_reset_by_a_double_click(over):
     QTest.mouseDClick(card.window().windowHandle(), _LEFT, pos=card.geometry().center())
     assert place.place == (1.0, 0.5)
     assert laid(over)[1].place == (1.0, 0.5)
-
-
-@pytest.mark.parametrize("kept", ["", "nonsense", "2 0.5", "nan nan", "0.5"])
-def test_an_invalid_stored_position_is_ignored(over, kept):
-    QSettings().setValue("overlay/card", kept)
-    assert laid(over)[1].place == (1.0, 0.5)
-
-
-def test_without_a_key_it_cannot_be_dragged(over):
-    card, _ = laid(over, key=None)
-    before = card.geometry()
-    moved(card, QPoint(-100, 20))
-    assert card.geometry() == before
-    assert over.heard == []
 
 
 @pytest.fixture
@@ -177,16 +153,3 @@ def test_the_wheel_reaches_the_widget_below_and_so_do_clicks_outside(over):
     assert "wheel" in over.heard
     QTest.mouseClick(over, _LEFT, pos=QPoint(200, 250))
     assert "press" in over.heard
-
-
-def test_a_wrapped_text_has_the_height_for_its_width(over):
-    text = QLabel("word " * 60)
-    text.setWordWrap(True)
-    Overlay(text, over, (0.5, 0.0), width=400)
-    text.show()
-    assert text.width() == 400
-    assert text.height() == text.heightForWidth(400)
-    over.resize(300, 500)
-    turn()
-    assert text.width() == 284
-    assert text.height() == text.heightForWidth(284)

@@ -5,12 +5,8 @@ import pytest
 from PySide6.QtWidgets import QComboBox
 
 from hexmend.gallery import make
-from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session import session_file
 from hexmend_app.features.appearance.feature import FeatureAppearance
-from hexmend_app.picture import Range, from_toml
-from hexmend_app.picture.appearance import Structure
-from hexmend_app.state.session import session_data
+from hexmend_app.picture import Range
 from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
 from tests.app.hosting import PlainHost, action
@@ -70,22 +66,3 @@ def test_a_mesh_of_one_material_does_not_offer_the_switch(qapp):
     host = PlainHost(make("cube", size=8))
     assert not action(FeatureAppearance(host), "colour_by_material").enabled()
     host.session.close()
-
-
-def test_a_scene_with_the_former_layer_colours_by_material():
-    scene = from_toml('format = 1\n[structure]\nextra = ["interfaces", "materials"]\n')
-    assert scene.colours.metric == "material"
-    assert scene.structure == Structure.of("interfaces")
-
-
-def test_a_session_with_the_former_layer_colours_by_material(host, tmp_path):
-    path = tmp_path / "a.hexmend"
-    session_data.write(path, host.session.to_data())
-    _, content = read_archive(path, "Hexmend session", session_file.VERSION)
-    content["window"]["view"]["look"]["structure"]["extra"] = ["materials"]
-    del content["window"]["run_setup"]["rules"], content["window"]["comparison"]["rules"]
-    del content["window"]["view"]["measuring"]
-    write_archive(path, "Hexmend session", 6, content)
-    data = session_data.read(path)
-    assert data.view.look.colours.metric == "material"
-    assert not data.view.look.structure.is_on("interfaces")

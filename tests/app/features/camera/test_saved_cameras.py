@@ -9,7 +9,6 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMenu, QMessageBox, QPushButton
 
 from hexmend.cli.main import main
-from hexmend_app.features.camera.cameras_dialog import CamerasDialog
 from hexmend_app.picture import Camera, Scene, read_scene, write_scene
 from hexmend_app.picture.picture_metadata import read_metadata
 from tests.app.driving import open_and_wait
@@ -81,12 +80,6 @@ def test_the_menu_applies_a_camera(window, saved):
     assert window.canvas.pose == saved["top"]
     first.trigger()
     assert window.canvas.pose == saved["front & side"]
-
-
-def test_the_menu_is_disabled_without_cameras(window):
-    window.refresh()
-    assert not menu_of(window).menuAction().isEnabled()
-    assert not window.action("cameras").isEnabled()
 
 
 def test_the_dialog_applies_and_deletes_cameras(window, saved, dialog, qtbot):
@@ -173,10 +166,3 @@ def test_closing_asks_about_unsaved_cameras_of_a_session(window, saved, tmp_path
     assert window.isWindowModified()
     assert not window.may_leave()
     assert questions == ["work.hexmend has unsaved cameras."]
-
-
-def test_the_dialog_is_deleted_when_closed(window, saved, qtbot, monkeypatch):
-    monkeypatch.setattr(CamerasDialog, "exec", lambda self: True)
-    for _ in range(3):
-        window.action("cameras").trigger()
-    qtbot.waitUntil(lambda: not window.findChildren(CamerasDialog), timeout=PATIENCE)

@@ -8,18 +8,13 @@ from threading import Event
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QColor
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
-from hexmend import io
-from hexmend.gallery import make
-from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
 from hexmend_app.features.compare.comparison_table import VIEW, ComparisonModel, ComparisonRow
 from hexmend_app.state.mesh.document import State
-from hexmend_app.theme.style import WORSE
 from tests.app.driving import LEFT, choose, key, named, open_and_wait, press
 from tests.app.features.compare.table import (
     COLUMN,
@@ -29,7 +24,6 @@ from tests.app.features.compare.table import (
     captions,
     choose_methods,
     model,
-    prepared,
     row,
     table_of,
     tick,
@@ -54,34 +48,6 @@ def test_the_table_has_the_values_of_the_core_and_the_mesh_does_not_change(compa
     cell = model(compared).index(row(compared, best), COLUMN["inverted"])
     assert cell.data(Qt.ItemDataRole.FontRole).bold()
     assert cell.data(Qt.ItemDataRole.AccessibleTextRole).endswith("best")
-
-
-@pytest.mark.slow
-def test_regressions_are_highlighted(comparing, qtbot, tmp_path):
-    io.write(tmp_path / "sound.vtu", make("bridge-sharp", size=864))
-    open_and_wait(qtbot, comparing, tmp_path / "sound.vtu")
-    choose(comparing, "laplacian", StoppingCriteria(keep_last=True))
-    choose_methods(comparing, "laplacian", "smart-laplacian")
-    press(button(comparing, "Run comparison"))
-    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
-
-    def cell(name, figure):
-        return model(comparing).index(row(comparing, name), COLUMN[figure])
-
-    for figure in ("inverted", "q_min", "scaled_jacobian_min"):
-        assert cell("laplacian", figure).data(Qt.ItemDataRole.AccessibleTextRole).endswith("worse than initial")
-        assert cell("laplacian", figure).data(Qt.ItemDataRole.ForegroundRole).color() == QColor(str(WORSE))
-    assert "worse" not in (cell("laplacian", "q_mean").data(Qt.ItemDataRole.AccessibleTextRole) or "")
-    assert "worse" not in (cell("smart-laplacian", "inverted").data(Qt.ItemDataRole.AccessibleTextRole) or "")
-
-
-def test_the_key_brings_the_table_to_the_front(comparing, qtbot):
-    choose_methods(comparing, "laplacian")
-    comparing.show_panel("outcome")
-    key(comparing, Qt.Key.Key_F6)
-    assert comparing.in_front("compare")
-    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
-    assert model(comparing).entries[row(comparing, "laplacian")].record["iterations"] == 4
 
 
 def test_a_click_on_a_header_sorts_with_the_initial_mesh_first(compared):
@@ -164,17 +130,6 @@ def test_another_mesh_cancels_the_comparison_and_clears_the_results(compared, qt
     assert compared.session.side_views.all == ()
     assert captions(compared) == []
     assert len(compared.canvas.panes.all) == 1
-
-
-@pytest.mark.slow
-def test_the_window_closes_while_methods_run(fresh_window, qtbot):
-    comparing = prepared(fresh_window, qtbot)
-    choose(comparing, "mend", ENDLESS)
-    choose_methods(comparing, "local-sd")
-    press(button(comparing, "Run comparison"))
-    qtbot.waitUntil(lambda: comparing.session.comparison.progress.iteration > 0, timeout=PATIENCE)
-    comparing.close()
-    assert not comparing.session.comparison.busy
 
 
 def test_a_result_replaces_the_mesh_and_can_be_undone(compared):

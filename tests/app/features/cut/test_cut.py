@@ -106,20 +106,6 @@ def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 
-def test_two_planes_cut_a_corner_out(window, qtbot):
-    key(window, Qt.Key.Key_C)
-    one = window.canvas.viewport.shown
-    press(named(window.features["cut"].panel, QPushButton, "Add plane"))
-    assert len(window.session.view.look.cut.planes) == 2
-    both = window.canvas.viewport.shown
-    choose(window, "All planes")
-    corner = window.canvas.viewport.shown
-    assert 0 < both < one < corner < window.session.document.now.mesh.n_hexes
-    press(named(window.features["cut"].panel, QPushButton, "Remove plane"))
-    assert window.session.view.look.cut.planes
-    assert window.canvas.viewport.shown == one
-
-
 def test_a_cut_switched_off_and_on_between_two_refreshes_is_shown_as_on(window):
     window.window_actions["cut"].trigger()
     window.refresh()

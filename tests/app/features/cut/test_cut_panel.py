@@ -80,12 +80,6 @@ def handle(slider):
     )
 
 
-def test_the_panel_is_disabled_without_a_mesh(shown):
-    panel = shown(CutPanel())
-    assert not on(panel).isEnabled()
-    assert panel.cut() == Cut()
-
-
 def test_switching_on_cuts_across_the_middle_and_off_again(panel, emitted):
     switch_on(panel)
     assert emitted == [Cut.at((1, 0, 0), (1, 15, 3))]
@@ -143,22 +137,6 @@ def test_flipping_hides_the_other_side_in_the_same_place(panel, emitted):
     assert axis(panel).value() == "y"
     QTest.mouseClick(named(panel, QPushButton, "Flip"), _LEFT)
     assert emitted[-1] == plane
-
-
-def test_the_cut_is_whole_or_smooth(panel, emitted):
-    switch_on(panel)
-    QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
-    assert emitted[-1].smooth
-    QTest.keyClick(cut(panel).button("smooth"), Qt.Key.Key_Left)
-    assert cut(panel).value() == "crinkle"
-    assert emitted[-1].crinkled
-
-
-def test_the_handles_check_box_emits_a_signal(panel, qtbot):
-    switch_on(panel)
-    with qtbot.waitSignal(panel.handles_changed, timeout=PATIENCE) as caught:
-        QTest.mouseClick(named(panel, QCheckBox, "Handles"), _LEFT, pos=_BOX)
-    assert caught.args == [False]
 
 
 def test_a_rotated_plane_is_shown_as_free_without_a_signal(panel, emitted):
@@ -240,14 +218,6 @@ def test_a_box_is_moved_by_its_sliders_and_inverted(panel, emitted):
     assert emitted[-1] == Cut.at((1, 0, 0), (1, 15, 3))
     QTest.mouseClick(kind(panel).button("box"), _LEFT)
     assert emitted[-1] == box
-
-
-def test_a_box_dragged_in_the_view_is_not_rounded_to_the_sliders(panel, emitted):
-    box = Cut(box=Box((0.12345, 1, 2), (2, 20.54321, 3)))
-    panel.set_cut(box)
-    QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
-    assert emitted[-1].box == box.box
-    assert emitted[-1].smooth
 
 
 def choose_kind(panel, key):

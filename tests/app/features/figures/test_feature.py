@@ -124,10 +124,3 @@ def test_each_step_of_a_report_is_named_and_the_report_can_be_cancelled(window, 
     drawing = [f"Drawing figure {number} of 4: {part}…" for number, part in enumerate(parts, 1)]
     assert texts == [*drawing, f"Writing {page.name}…"]
     assert page.exists()
-
-
-def test_a_report_in_an_unknown_format_is_refused(window, page, monkeypatch):
-    window.features["figures"].write_report(page.with_suffix(".docx"))
-    assert not window.features["figures"].going_on
-    assert ".html" in " ".join(window.messages.messages()[-1])
-    assert not page.with_suffix(".docx").exists()

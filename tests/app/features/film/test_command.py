@@ -115,20 +115,6 @@ def test_the_mesh_before_the_run_stays_next_to_it(mesh_file, tmp_path):
     assert abs(left[-1] - right[-1]).max() > 100
 
 
-@pytest.mark.parametrize(("size", "options"), [("640x200", ["--histogram"]), ("400x200", [])])
-def test_captions_of_two_pictures_do_not_overlap(mesh_file, tmp_path, size, options):
-    path = tmp_path / "run.png"
-    run = ["--method", "laplacian", "--max-iterations", "12", "--frames", "2", "--before"]
-    assert main(["film", str(mesh_file), "-o", str(path), *run, "--size", size, *options]) == 0
-    width = int(size[:3])
-    column = width // 2 if not options else (width - round(0.32 * width)) // 2
-    captions = np.ptp(_frames(path)[0][-1][:30], axis=0).max(axis=1) > 60
-    for edge in (column, width):
-        assert not captions[edge - 2 : edge + 6].any()
-    for left in (0, column):
-        assert captions[left + 8 : left + 60].any()
-
-
 def test_a_film_can_begin_with_its_result(mesh_file, tmp_path, capsys):
     path = tmp_path / "run.gif"
     run = ["--method", "laplacian", "--max-iterations", "3", "--size", "640x300", "--rate", "10"]

@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit
+from PySide6.QtWidgets import QCheckBox, QLabel
 
 from hexmend import io
 from hexmend.boundary import NodeClass
 from hexmend.quality import METRICS
 from hexmend.run import StoppingCriteria
 from hexmend_app.bench.windows import save_and_wait
-from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.boundary_classifier import node_classes
 from hexmend_app.theme.palette import KEPT
@@ -78,14 +77,6 @@ def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot)
     assert window.session.selection.hex == worst
     key(window, Qt.Key.Key_Escape)
     assert window.session.selection.hex is None
-
-
-def test_the_worst_hex_is_isolated_and_its_neighbours_are_ghosts(window):
-    key(window, Qt.Key.Key_N)
-    drawn, worst = window.canvas.viewport, window.session.selection.hex
-    assert set(drawn.mesh_layer.faces.hexes) == {worst}
-    around = window.session.document.now.mesh.topology.hexes_around([worst], 1)
-    assert drawn.filters.ghosts(drawn.frame).sum() == around.sum() - 1
 
 
 @pytest.mark.slow
@@ -213,16 +204,6 @@ def test_the_distance_of_a_node_that_was_moved_off_its_corner_is_shown(window, q
     assert not any("off its corner" in label.text() for label in labels)
 
 
-def test_commands_are_found_by_name_in_the_palette(window, qtbot):
-    key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
-    palette = window.findChild(CommandPalette)
-    qtbot.waitUntil(palette.isVisible, timeout=PATIENCE)
-    assert any("Isometric" in text for text in palette.titles())
-    QTest.keyClicks(palette.findChild(QLineEdit), "next worst")
-    QTest.keyClick(palette.findChild(QLineEdit), Qt.Key.Key_Return)
-    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.hexes[0]
-
-
 @pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])
 def test_the_histogram_is_saved_as_picture_or_as_counts(window, tmp_path, suffix):
     path = tmp_path / f"histogram{suffix}"
@@ -270,14 +251,6 @@ def test_the_saved_histogram_equals_the_drawn_one(window, tmp_path):
     assert (tmp_path / "linear.svg").read_text() != drawing
 
 
-def test_an_error_is_shown_if_a_histogram_cannot_be_saved(window, tmp_path):
-    assert not window.features["histogram"].save(tmp_path / "histogram.txt")
-    kind, title, text = window.messages.messages()[-1]
-    assert (kind, title) == ("error", "Histogram not saved")
-    assert ".svg, .pdf, .png" in text
-    assert list(tmp_path.glob("histogram*")) == []
-
-
 def test_ctrl_click_hides_a_hex_and_backspace_shows_it(window, qtbot):
     click_view(window)
     first = window.session.selection.hex
@@ -294,14 +267,6 @@ def test_ctrl_click_hides_a_hex_and_backspace_shows_it(window, qtbot):
     assert window.session.view.look.show.hidden == {first}
     key(window, Qt.Key.Key_Backspace)
     assert not window.session.view.look.show.hidden
-
-
-def test_the_selected_hex_is_isolated_by_key(window):
-    click_view(window)
-    key(window, Qt.Key.Key_I)
-    assert window.session.view.look.show.isolate.hexes == (window.session.selection.hex,)
-    key(window, Qt.Key.Key_Escape)
-    assert window.session.view.look.show.isolate is None
 
 
 def test_next_worst_begins_with_the_worst_hex(window):

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QComboBox, QLabel, QPushButton, QTableView
+from PySide6.QtWidgets import QAbstractButton, QComboBox, QLabel, QTableView
 
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.hex_inspector.worst_file import write_worst
@@ -137,26 +137,6 @@ def test_the_saved_list_reads_back(worst_list, tmp_path):
     assert float(q) == FIGURES.q[int(number)]
     assert float(jacobian) == FIGURES.scaled_jacobian[int(number)]
     assert state == "inverted"
-
-
-def test_without_a_mesh_nothing_can_be_saved_or_gone_to(qtbot):
-    widget = WorstList()
-    qtbot.addWidget(widget)
-    assert not any(b.isEnabled() for b in widget.findChildren(QPushButton))
-    widget.next()  # must not fail
-    assert not len(widget.hexes)
-
-
-def test_enter_and_a_double_click_select_the_row_again(worst_list):
-    viewport, place = row_at(worst_list, 1)
-    QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
-    selected = []
-    worst_list.chosen.connect(selected.append)
-    hex = worst_list.hexes[1]
-    QTest.keyClick(worst_list.findChild(QTableView), Qt.Key.Key_Return)
-    assert selected == [hex]
-    QTest.mouseDClick(viewport, Qt.MouseButton.LeftButton, pos=place)
-    assert selected == [hex, hex]
 
 
 def test_keyboard_focus_alone_selects_nothing(worst_list, qtbot):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.features.histogram.bins import DEFAULT_BINS, distribute, round_up
+from hexmend_app.features.histogram.bins import DEFAULT_BINS, distribute
 from hexmend_app.picture.visibility import Show
 
 Q = Axis("q")
@@ -35,16 +35,6 @@ def test_a_quality_that_exceeds_one_by_rounding_is_counted_and_within_the_range(
     assert counted.within(Show((0.9, 1.0), "q")) == 1
     assert counted.within(Show((0.9, 1.0), "q", True)) == 2
     assert counted.within(Show((0.9, 0.99), "q")) == 0
-
-
-def test_lengths_must_agree():
-    with pytest.raises(ValueError, match="same length"):
-        distribute(np.zeros(3), np.zeros(2, bool), Q)
-
-
-@given(st.floats(1, 1e9))
-def test_round_up_is_between_the_value_and_twice_the_value(value):
-    assert value * (1 - 1e-9) <= round_up(value) <= 2 * value
 
 
 def test_values_beyond_open_ends_are_counted_in_separate_bars():

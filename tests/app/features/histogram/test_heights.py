@@ -54,15 +54,6 @@ def test_the_axis_fits_the_bins_and_a_taller_bar_is_broken(histogram, scale):
     assert len(plot.outlines["now"].bar.path().toSubpathPolygons()) == 1
 
 
-def test_the_scale_changes_with_the_same_counts(histogram):
-    q = np.full(5000, 0.5)
-    histogram.set_initial(q, np.zeros(5000, bool))
-    for scale in ("log", "linear", "log"):
-        QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
-        assert histogram.plot.heights.log == (scale == "log")
-    assert histogram.plot.heights.top == pytest.approx(np.log10(5000))
-
-
 def test_there_is_an_axis_if_all_hexes_are_inverted(histogram):
     histogram.set_initial(np.zeros(50), np.ones(50, bool))
     histogram.set_current(np.zeros(50), np.ones(50, bool))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel
@@ -13,7 +12,7 @@ from hexmend import gallery, io
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
-from hexmend_app.picture.appearance import Arrows, Since
+from hexmend_app.picture.appearance import Since
 from hexmend_app.picture.colours import Range
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.film.film import pictures
@@ -74,15 +73,6 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
     press(panel.colours, "")
     assert window.session.view.look.colours.metric == "q"
     assert window.session.view.look.colours.range is Range.FULL
-
-
-def test_the_histogram_continues_to_show_quality(window, record, panel):
-    press(panel.colours, "moved-most")
-    assert window.features["histogram"].metric == "q"
-    assert window.features["histogram"].panel.head.metric_box.currentText() == "q(H)"
-    go(window, record, 2)
-    press(panel.colours, "")
-    assert window.features["histogram"].panel.head.metric_box.currentText() == "q(H) (as colours)"
 
 
 def test_displacements_are_among_the_metrics_of_the_colours(window, record, qtbot):
@@ -170,17 +160,6 @@ def test_newly_invalid_hexes_are_isolated(window, mesh_to_invert, record, panel,
     isolated = window.session.view.look.show.isolate.hexes
     assert window.session.document.now.figures.invalid[list(isolated)].all()
     assert len(isolated) == movement.counts.newly_invalid
-
-
-@pytest.mark.slow
-def test_a_picture_shows_the_displacement(window, record, panel, tmp_path):
-    window.features["save"].picture(tmp_path / "plain.png", (500, 320))
-    press(panel.colours, "q-change")
-    window.session.view.change(movement=window.session.view.look.movement.__class__(arrows=Arrows.ALL))
-    window.refresh()
-    window.features["save"].picture(tmp_path / "changed.png", (500, 320))
-    plain, changed = (np.asarray(Image.open(tmp_path / f"{name}.png")) for name in ("plain", "changed"))
-    assert (plain != changed).any(axis=2).mean() > 0.2
 
 
 def test_another_mesh_is_opened_while_a_displacement_is_shown(window, record, panel, qtbot, tmp_path):

@@ -57,18 +57,6 @@ def test_a_finished_sweep_equals_one_iteration_of_the_method(node_window, qtbot)
     assert "Moved." in texts(window)
 
 
-def test_during_a_sweep_the_step_shown_is_the_preview_of_the_sweep(node_window, qtbot):
-    window = node_window
-    key(window, Qt.Key.Key_F11)
-    sweep = window.session.node_sweep.sweep
-    node = int(sweep.nodes[5])
-    window.session.selection.choose(int(window.session.document.now.mesh.topology.node_corners[node][0] // 8), node)
-    step = wait_for_step(window, qtbot, "local-sd", node)
-    assert "Will be moved" in texts(window)
-    assert window.session.node_sweep.sweep is sweep
-    np.testing.assert_array_equal(step.after, sweep.preview(node).after)
-
-
 @pytest.mark.parametrize("change", ["run", "method", "tag", "save", "reset"])
 def test_any_other_change_of_the_mesh_ends_the_sweep_first(node_window, qtbot, tmp_path, change):
     window = node_window
@@ -139,12 +127,3 @@ def test_only_local_methods_run_node_by_node(node_window, qtbot):
     now = window.session.document.now
     key(window, Qt.Key.Key_F11)
     assert window.session.document.now is now
-
-
-def test_a_sweep_can_begin_before_a_node_is_explained(window, qtbot):
-    choose_by_keys(window, "local-nr")
-    key(window, Qt.Key.Key_F11)
-    qtbot.waitUntil(lambda: window.session.node_sweep.sweep is not None, timeout=PATIENCE)
-    step = wait_for_step(window, qtbot, "local-nr")
-    assert step.node == window.session.node_sweep.sweep.nodes[0]
-    np.testing.assert_array_equal(window.session.document.now.mesh.points[step.node], step.after)

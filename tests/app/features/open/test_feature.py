@@ -12,7 +12,6 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 
 from hexmend import gallery, io
-from hexmend.io.storage import file_progress
 from hexmend.io.storage.file_progress import FileAction, file_operation, report
 from hexmend.run import StoppingCriteria
 from hexmend_app.features.open.recent_menu import RecentMenu
@@ -72,19 +71,6 @@ def test_a_missing_file_is_disabled_and_the_list_can_be_cleared(recent, menu, tm
     QTest.keyClick(menu, Qt.Key.Key_C)
     assert recent.files() == []
     assert not menu.menuAction().isEnabled()
-
-
-def test_a_long_name_is_elided_and_its_tooltip_is_the_whole_path(recent, menu, tmp_path):
-    path = tmp_path / f"{'long' * 40}.vtu"
-    path.touch()
-    recent.add(path)
-    menu.popup(QPoint(50, 50))
-    entry = menu.actions()[0]
-    assert "…" in entry.text()
-    assert entry.text().startswith("&1  long")
-    assert entry.toolTip() == str(path)
-    assert menu.width() < 600
-    menu.close()
 
 
 def test_the_welcome_page_opens_recent_files(window, qtbot, mesh_file):
@@ -214,20 +200,6 @@ def test_another_mesh_is_opened_while_a_cancelled_file_is_still_read(window, qtb
     assert ended.args == [mesh_file]
     finish_reading(qtbot, slow_read)
     assert window.session.document.name == mesh_file.name
-
-
-def test_opening_shows_the_share_of_the_file_and_what_is_left(window, qtbot, monkeypatch, tmp_path):
-    monkeypatch.setattr(file_watcher, "INTERVAL", 0.0)
-    monkeypatch.setattr(file_progress, "_INTERVAL", 0.0)
-    io.write(tmp_path / "part.vtu", gallery.make("cube", size=3000))
-    shown = []
-    window.session.opener.progressed.connect(lambda _: shown.append((window.busy.text(), window.busy.share)))
-    open_and_wait(qtbot, window, tmp_path / "part.vtu")
-    shares = [share for text, share in shown if text.startswith("Reading part.vtu: ")]
-    assert len(shares) > 3
-    assert shares == sorted(shares)
-    assert any("%" in text and "s left" in text for text, _ in shown)
-    assert shown[-1][1] is None  # the later stages have no share
 
 
 def test_a_cancelled_file_is_read_no_further(window, qtbot, monkeypatch, mesh_file, tmp_path):

@@ -128,15 +128,6 @@ def test_a_missing_mesh_is_located_by_the_user(window, qtbot, mesh, tmp_path, mo
     assert window.session.view.look == look
 
 
-def test_a_picture_without_a_scene_is_rejected(window, qtbot, tmp_path):
-    Image.new("RGB", (4, 4)).save(tmp_path / "p.png")
-    before = window.session.document.now
-    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
-        window.features["open"].open(tmp_path / "p.png")
-    assert "p.png cannot be opened this picture contains no scene" in messages(window)[-1]
-    assert window.session.document.now is before
-
-
 def test_a_picture_with_hexes_that_the_mesh_does_not_have_is_rejected(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     window.session.view.change(show={"hidden": frozenset({60})})

@@ -54,12 +54,6 @@ def locked(window, qtbot, tmp_path):
     return int(mesh.topology.node_corners.items[0] // 8)
 
 
-def test_a_hint_is_shown_before_the_first_run(window, qtbot):
-    window.show_panel("outcome")
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
-    assert "No run has finished yet" in texts(window)
-
-
 def test_the_key_shows_why_the_run_stopped(window, qtbot):
     assert not window.features["outcome"].panel.isVisible()
     choose(window, "laplacian", StoppingCriteria(keep_last=True))
@@ -91,17 +85,6 @@ def test_a_suggestion_is_selected_without_a_run_and_improves_the_mesh(window, qt
     assert "Why Mend stopped" in texts(window)
 
 
-def test_a_message_is_shown_during_a_run(window, qtbot):
-    window.show_panel("outcome")
-    choose(window, "laplacian", StoppingCriteria(tolerance=0, max_iterations=1_000_000))
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    assert "A run is in progress" in texts(window)
-    click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert "Stopped by you after 1 iteration" in texts(window)
-
-
 @pytest.mark.slow
 def test_the_run_of_the_timeline_is_explained(window, qtbot):
     run(window, qtbot, "laplacian", max_iterations=3)
@@ -112,17 +95,6 @@ def test_the_run_of_the_timeline_is_explained(window, qtbot):
     assert "Why Laplacian stopped" in texts(window)
     press(window, "Select: Mend")  # starts at the end of that run
     assert window.session.timeline.shown_iteration.record is first
-
-
-@pytest.mark.parametrize("back", ["undo", "reset"])
-def test_after_undo_a_note_says_that_the_mesh_is_not_the_result(window, qtbot, back):
-    run(window, qtbot, "laplacian", max_iterations=3)
-    assert "The view shows" not in texts(window)
-    window.action(back).trigger()
-    assert "Why Laplacian stopped" in texts(window)
-    assert "The view shows the mesh before the run." in texts(window)
-    window.action("redo" if back == "undo" else "undo").trigger()
-    assert "The view shows" not in texts(window)
 
 
 @pytest.mark.slow
@@ -233,12 +205,3 @@ def test_a_run_without_iterations_is_explained(window, qtbot, tmp_path):
     assert "Why Mend stopped Nothing to do: every node is fixed." in texts(window)
     run(window, qtbot, "laplacian")
     assert "Why Laplacian stopped" in texts(window)
-
-
-def test_the_explanation_is_cleared_for_another_mesh(window, qtbot, mesh_file):
-    run(window, qtbot, "laplacian", max_iterations=1)
-    window.session.document.mark_saved(mesh_file)
-    open_and_wait(qtbot, window, mesh_file)
-    window.show_panel("outcome")
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
-    assert "No run has finished yet" in texts(window)

@@ -91,11 +91,3 @@ def test_several_views_have_their_figures_in_the_captions_instead(window):
     window.action("close_views").trigger()
     window.refresh()
     assert bar.isVisible()
-
-
-def test_no_digit_is_cut_at_the_size_that_the_bar_asks_for(bar):
-    for now in (START, NOW):
-        bar.set_summaries(START, now)
-        bar.resize(bar.sizeHint())
-        label = bar.findChild(QLabel)
-        assert label.contentsRect().width() >= label.sizeHint().width()

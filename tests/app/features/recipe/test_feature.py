@@ -16,7 +16,7 @@ from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.widgets.section import Section
-from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
+from tests.app.driving import LEFT, choose, click, key, named, phase, press
 from tests.patience import PATIENCE
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
@@ -84,12 +84,6 @@ def test_a_draft_is_a_sequence_of_stages():
     assert chain.recipe.title == "Twice"
     chain.load(Recipe.of(b, c))
     assert (chain.title, chain.stages) == ("", (b, c))
-
-
-def test_an_empty_recipe_cannot_run(window, panel):
-    assert not any(button(panel, name).isEnabled() for name in ("Run recipe", "Save", "Move up", "Remove the stage"))
-    assert not window.window_actions["recipe_run"].isEnabled()
-    assert window.window_actions["recipe_load"].isEnabled()
 
 
 def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
@@ -243,17 +237,3 @@ def test_an_invalid_file_is_reported_and_the_recipe_stays(window, panel, tmp_pat
     assert window.session.recipe_draft.recipe == before
     window.features["recipe"].save(tmp_path / "no" / "such.toml")
     assert window.messages.messages()[-1][1] == "Recipe not saved"
-
-
-def test_built_in_recipes_are_listed_by_title(window, panel):
-    offered = {action.text(): action for action in button(panel, "Load").menu().actions() if action.text()}
-    assert "GETMe, then mend" in offered
-    offered["GETMe, then mend"].trigger()
-    assert [stage.smoother.name for stage in window.session.recipe_draft.stages] == ["getme", "mend"]
-
-
-def test_the_recipe_stays_when_another_mesh_is_opened(window, panel, qtbot, mesh_file):
-    add(window, panel, "getme")
-    open_and_wait(qtbot, window, mesh_file)
-    assert len(stages(panel)) == 1
-    assert button(panel, "Run recipe").isEnabled()

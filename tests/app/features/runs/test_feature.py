@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
 
 from hexmend.iteration import StoppingCriteria
 from hexmend.mesh.rules import MotionRules
@@ -168,13 +167,6 @@ def test_a_session_keeps_the_table(window, qtbot, three, tmp_path):
     assert [texts(window, column) for column in range(FIRST + len(QUANTITIES))] == before
     click(window, 1)
     assert window.session.timeline.shown_iteration.record.name == three[0].name
-
-
-def test_a_hint_is_shown_without_runs(window):
-    window.show_panel("runs")
-    window.refresh()
-    QApplication.processEvents()
-    assert panel(window).table.isHidden()
 
 
 def test_the_dots_are_between_the_smallest_and_the_largest_value():

@@ -16,7 +16,7 @@ from hexmend import io
 from hexmend.gallery import make
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.save.feature import FeatureSave
-from hexmend_app.picture import LineStyle, Page, write_scene
+from hexmend_app.picture import Page, write_scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.state.run.run_controller import Phase
@@ -153,12 +153,6 @@ def test_the_dialog_remembers_the_last_picture(window, qtbot, tmp_path, monkeypa
     assert again.scene().camera.pose == window.canvas.pose
 
 
-def test_hidden_edges_are_not_in_the_picture(window):
-    window.session.view.change(lines={"edges": 0.0})
-    window.refresh()
-    assert window.canvas.scene(Page()).lines == LineStyle(0.0)
-
-
 @pytest.mark.parametrize("style", [CutStyle.CRINKLE, CutStyle.SMOOTH])
 def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypatch, style):
     mesh = window.session.document.now.mesh
@@ -192,15 +186,6 @@ def test_only_data_of_the_visible_hexes_is_missed(window, qtbot, tmp_path, tagge
     qtbot.waitUntil(lambda: not saver.going_on, timeout=PATIENCE)
     missed = " ".join(text for _, title, text in window.messages.messages() if title == "Some data was not saved")
     assert ("element sets (far)" in missed) is warned
-
-
-def test_nothing_is_saved_if_no_hex_is_visible(window, tmp_path):
-    window.session.view.set_cut(Cut.at((1, 0, 0), (-1e6, 0, 0)))
-    window.refresh()
-    window.features["save"].visible.save(tmp_path / "out.vtu", window.canvas.viewport)
-    assert not window.features["save"].visible.going_on
-    assert window.messages.messages()[-1][:2] == ("error", "No hex is visible")
-    assert not (tmp_path / "out.vtu").exists()
 
 
 def test_visible_hexes_that_cannot_be_written_are_reported(window, qtbot, tmp_path):

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QCheckBox, QComboBox, QScrollBar, QTabBar, QTableView, QWidget
+from PySide6.QtWidgets import QCheckBox, QScrollBar, QTabBar, QTableView, QWidget
 
 from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session.session_file import VERSION
-from hexmend_app.picture import Camera
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Slab, Sphere
 from hexmend_app.widgets.section import Section
 from tests.app.conftest import close, window_with_mesh
-from tests.app.driving import key, named, open_and_wait, tick, walk_to
-from tests.app.features.session.test_feature import run
+from tests.app.driving import key, named, open_and_wait, tick
 from tests.app.resetting import setting_of
-from tests.app.state.session.former_look import former_look, without_later_fields
 from tests.app.test_resetting import known, live
 from tests.patience import PATIENCE
 
@@ -58,11 +55,6 @@ def seen(window, qtbot):
         if setting is not None:
             lines.append(f"{type(widget).__name__} {widget.accessibleName()}: {setting}")
     return sorted(lines)
-
-
-def panel_settings(window):
-    """What the panels are set to."""
-    return {name: one for name, one in window.session.feature_states.to_data().items() if name != "camera"}
 
 
 def saved(window, tmp_path):
@@ -117,20 +109,6 @@ def test_the_pose_history_is_restored(window, qtbot, tmp_path):
     assert window.action("view_forward").isEnabled()
 
 
-def test_escape_restores_the_camera_before_an_isolation(window, qtbot, tmp_path):
-    at_rest(window, qtbot)
-    before = window.canvas.pose
-    key(window, Qt.Key.Key_N)  # isolates the worst, and flies there
-    at_rest(window, qtbot)
-    path = saved(window, tmp_path)
-    open_and_wait(qtbot, window, path)
-    at_rest(window, qtbot)
-    assert window.canvas.pose.position != pytest.approx(before.position)
-    key(window, Qt.Key.Key_Escape)
-    at_rest(window, qtbot)
-    assert window.canvas.pose.position == pytest.approx(before.position)
-
-
 def test_an_isolated_patch_follows_the_node(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_D)
     panel = window.features["node_step"].panel
@@ -173,43 +151,6 @@ def test_a_disabled_cut_is_restored(window, qtbot, tmp_path, mesh_file):
     assert view.look.cut == box
 
 
-def test_a_session_of_version_1_leaves_panels_unchanged(window, qtbot, tmp_path):
-    """The file has no panel settings, no colours of runs and no pose history."""
-    run(window, qtbot, "laplacian")
-    path = saved(window, tmp_path)
-    _, data = read_archive(path, "Hexmend session", VERSION)
-    for mesh in data["meshes"]:
-        del mesh["target"]
-    for name in ("features", "cameras"):
-        del data["window"][name]
-    data["window"]["eye"] = None
-    data["window"]["view"]["look"] = former_look()
-    for record in data["window"]["history"]["records"]:
-        del record["slot"], record["plotted"], record["settings"]
-    write_archive(path, "Hexmend session", 1, without_later_fields(data))
-    window.features["convergence"].panel.head.log.setChecked(False)
-    settings = panel_settings(window)
-    open_and_wait(qtbot, window, path)
-    at_rest(window, qtbot)
-    assert panel_settings(window) == settings
-    assert [(record.slot, record.plotted) for record in window.session.history.records] == [(0, True)]
-    assert not window.canvas.can_go_back
-    write_archive(path, "Hexmend session", VERSION, data)
-    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
-        window.features["open"].open(path)
-
-
-def test_a_session_of_version_2_has_no_cameras(window, qtbot, tmp_path):
-    path = saved(window, tmp_path)
-    _, data = read_archive(path, "Hexmend session", VERSION)
-    del data["window"]["cameras"], data["window"]["features"]["cut"]
-    data["window"]["view"]["look"] = former_look()
-    write_archive(path, "Hexmend session", 2, without_later_fields(data))
-    window.session.saved_cameras.add("of another", Camera("+x"))
-    open_and_wait(qtbot, window, path)
-    assert window.session.saved_cameras.all == {}
-
-
 @pytest.mark.parametrize(("part", "field", "value", "said"), [
     ("charts", "shown", ["objective", "taste"], "there is no chart 'taste'"),
     ("worst", "metric", "taste", "there is no metric 'taste'"),
@@ -227,27 +168,3 @@ def test_unknown_settings_are_rejected(window, qtbot, tmp_path, part, field, val
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
     assert said in window.messages.messages()[-1][2]
-
-
-def test_too_many_iterations_per_step_are_rejected(window, qtbot, tmp_path):
-    path = saved(window, tmp_path)
-    _, data = read_archive(path, "Hexmend session", VERSION)
-    data["window"]["features"]["steps"] = 10**20
-    write_archive(path, "Hexmend session", VERSION, data)
-    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
-        window.features["open"].open(path)
-    assert "the number of steps is not from 1 to 1,000,000" in window.messages.messages()[-1][2]
-
-
-def test_the_list_of_the_worst_follows_the_session(window, qtbot, tmp_path):
-    listed = window.features["hex_inspector"].worst_list
-    window.show_panel("worst")
-    box = named(listed, QComboBox, "Worst by")
-    walk_to(window, box, "volume")
-    elements = listed.hexes.tolist()
-    path = saved(window, tmp_path)
-    walk_to(window, box, "q")
-    open_and_wait(qtbot, window, path)
-    window.refresh()
-    assert box.currentData() == "volume"
-    assert listed.hexes.tolist() == elements

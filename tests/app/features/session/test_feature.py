@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
-from PySide6.QtGui import QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session.session_file import VERSION
@@ -20,7 +19,7 @@ from hexmend_app.picture.appearance import Arrows, Structure, Traces
 from hexmend_app.picture.cut import Cut
 from hexmend_app.shell.start.window_start import WindowStart
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, key, open_and_wait, phase, pixels
+from tests.app.driving import key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
@@ -221,17 +220,6 @@ def test_a_paused_run_is_saved(window, qtbot, tmp_path):
     window.refresh()
 
 
-def test_a_session_is_dropped_on_the_window(window, qtbot, tmp_path):
-    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
-    data = QMimeData()
-    data.setUrls([QUrl.fromLocalFile(str(tmp_path / "work.hexmend"))])
-    how = Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
-    QApplication.sendEvent(window, QDragEnterEvent(QPoint(50, 50), *how))
-    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
-        QApplication.sendEvent(window, QDropEvent(QPointF(50, 50), *how))
-    assert window.session.document.name == "work.hexmend"
-
-
 def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window):
     work(window, qtbot)
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
@@ -256,8 +244,3 @@ def test_a_damaged_session_is_rejected_and_the_open_mesh_stays(window, qtbot, tm
     assert window.session.document.now is now
     (text,) = (text for kind, _, text in window.messages.messages() if kind == "error")
     assert "the window.view.look: [look] has an unknown key 'colour'" in text
-
-
-def test_a_failed_save_is_reported(window, tmp_path):
-    assert not window.features["session"].save_and_wait(tmp_path / "missing" / "work.hexmend")
-    assert window.messages.messages()[-1][1] == "The session was not saved"

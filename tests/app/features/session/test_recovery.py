@@ -221,16 +221,6 @@ def test_a_file_of_an_earlier_version_is_recovered(fresh_window, qtbot, own_stat
     assert session_data.read(own / "session.hexmend").view.look.show.peel == 1
 
 
-def test_opening_another_mesh_removes_old_files(fresh_window, qtbot, own_state, mesh_file):
-    recovery = fresh_window.features["session"].recovery
-    recovery.begin()
-    (own,) = own_state.iterdir()
-    session_data.write(own / "earlier.hexmend", fresh_window.session.to_data())
-    open_and_wait(qtbot, fresh_window, mesh_file)
-    assert [one.name for one in own.iterdir()] == ["lock"]
-    recovery.end()
-
-
 def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state):
     recovery = fresh_window.features["session"].recovery
     recovery.begin()
@@ -273,19 +263,6 @@ def test_a_change_during_a_write_is_written_too(fresh_window, qtbot, own_state):
         recovery.write()
     (own,) = own_state.iterdir()
     assert session_data.read(own / "session.hexmend").view.look.show.peel == 1
-
-
-def test_a_session_to_recover_survives_another_file_opened_meanwhile(killed, fresh_window, qtbot, mesh_file, own_state):
-    window, session = fresh_window, fresh_window.session
-    window.features["session"].start_autosave()
-    recovery = window.features["session"].recovery
-    (crashed,) = recovery.recoverable
-    recovery.recover(crashed)
-    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
-        session.opener.open(mesh_file)  # instead of the session, which is still being read
-    assert not session.history.records
-    assert recovery.recoverable == (crashed,)
-    assert crashed.path.exists()
 
 
 def test_a_failed_write_is_repeated(fresh_window, qtbot, own_state, monkeypatch):

@@ -7,15 +7,12 @@ import threading
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QMessageBox
 
 from hexmend.run import StoppingCriteria
 from hexmend_app.state.run import worker
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.tasks.task import running
-from hexmend_app.widgets.section import Section
-from tests.app.driving import choose, click, key, named, phase, pixels
+from tests.app.driving import choose, click, key, named, phase
 from tests.patience import PATIENCE
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
@@ -101,27 +98,6 @@ def test_keys_step_and_stop(window, qtbot):
     assert window.session.document.now is not start
 
 
-@pytest.mark.slow
-def test_the_view_follows_the_iterations(window, qtbot):
-    before = pixels(window)
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    qtbot.waitUntil(lambda: (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.002, timeout=PATIENCE)
-
-
-def test_a_method_with_an_invalid_value_is_not_started(window):
-    choose(window, "mend")
-    panel = window.features["smooth"].panel
-    panel.findChild(Section).expand()
-    line = panel.stage.parameters.editor("p").lineEdit()
-    line.setFocus()
-    line.selectAll()
-    QTest.keyClicks(line, "0.1")
-    click(window, "Run")
-    assert not window.session.run.busy
-    assert "Correct" in sentence(window)
-
-
 @pytest.fixture
 def slow_method(monkeypatch):
     """Block the preparation of a method until the returned event is set."""
@@ -156,23 +132,6 @@ def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_metho
 
 
 # Closing the window
-
-
-@pytest.fixture
-def running_window(fresh_window, qtbot):
-    """A separate window with a run that does not end by itself."""
-    choose(fresh_window, "local-sd", StoppingCriteria(tolerance=0.0))
-    click(fresh_window, "Run")
-    qtbot.waitUntil(phase(fresh_window, Phase.RUNNING), timeout=PATIENCE)
-    return fresh_window
-
-
-@pytest.mark.slow
-def test_closing_while_running_leaves_no_thread(running_window):
-    assert "smoother local-sd" in [task.name for task in running()]
-    running_window.close()
-    assert running() == ()
-    assert not running_window.isVisible()
 
 
 @pytest.mark.slow

@@ -26,11 +26,6 @@ def _menu(window, title):
     return next(one.menu() for one in window.menuBar().actions() if one.text().replace("&", "") == title)
 
 
-def test_a_stored_pace_that_is_none_is_the_default(window):
-    settings.RUN_PACE.set("jump")
-    assert settings.RUN_PACE.get() == settings.RUN_PACE.default
-
-
 def test_actions_and_sessions_have_the_result_and_not_what_is_shown_on_the_way(window, qtbot):
     session = window.session
     session.run.set_pace(Pace.EASED)

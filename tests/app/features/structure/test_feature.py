@@ -4,26 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel, QLineEdit
 
-from hexmend import gallery, io
+from hexmend import io
 from hexmend.boundary import NodeClass
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import find_structure
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.page import Page
-from hexmend_app.scene.layers.optional.structure import KINDS, LOCKED, PINNED, VALENCES
-from hexmend_app.shell.palette.command_palette import CommandPalette
+from hexmend_app.scene.layers.optional.structure import KINDS, LOCKED, PINNED
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.boundary_classifier import PIN
-from tests.app.driving import choose, click, open_and_wait, tick, turn
+from tests.app.driving import choose, open_and_wait, tick
 from tests.app.features.structure.layers import count, open_and_know, pixels, press_key, texts
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
-from tests.core.mesh.test_structure import tetrahedron
 from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
@@ -102,38 +96,6 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
     assert not window.canvas.viewport.overlay_layers.optional["original"].shown
 
 
-def test_empty_layers_are_disabled(five):
-    assert not five.window_actions["show_boundary"].isEnabled()
-    assert not five.window_actions["show_locked"].isEnabled()
-    press_key(five, "boundary")
-    assert five.session.view.look.structure == Structure()
-
-
-def test_irregular_edges_are_shown_by_the_palette(five, qtbot):
-    five.window_actions["commands"].trigger()
-    field = five.findChild(CommandPalette).findChild(QLineEdit)
-    QTest.keyClicks(field, "irregular edges inside")
-    QTest.keyClick(field, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: five.session.view.look.structure.is_on("irregular"), timeout=PATIENCE)
-    assert count(pixels(five), VALENCES[5]) > 100
-
-
-def test_marks_follow_a_smoother(window, qtbot, tmp_path):
-    io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
-    open_and_know(qtbot, window, tmp_path / "five.vtu")
-    tick(window.features["structure"].panel.layers["irregular"].box)
-    marks = window.canvas.viewport.overlay_layers.structure.irregular_inside
-    before = np.array(marks.poly.points)
-    start = window.session.document.now
-    choose(window, "laplacian")
-    click(window, "Step")
-    qtbot.waitUntil(lambda: window.session.document.now is not start, timeout=PATIENCE)
-    window.refresh()
-    now = np.array(marks.poly.points)
-    assert not np.array_equal(now, before)
-    np.testing.assert_array_equal(now, window.session.document.now.mesh.points[marks.nodes])
-
-
 def test_a_pinned_node_changes_its_colour(five, qtbot):
     tick(five.features["structure"].panel.layers["fixed"].box)
     inside = int(np.flatnonzero(five.session.document.now.mesh.free)[0])
@@ -179,25 +141,6 @@ def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
     assert window.features["save"].picture(tmp_path / "locked.png", (640, 480))
     image = np.asarray(Image.open(tmp_path / "locked.png").convert("RGB")).astype(int)
     assert count(image, LOCKED) > 20
-
-
-@pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
-def test_nothing_is_cut_off(five, qtbot, size):
-    five.resize(*size)
-    panel = five.features["structure"].panel
-    panel.set_nodes(1_234_567, 12_345, 1_234_567, 12_345)
-    five.session.view.change(structure=Structure.of("irregular"))
-    found = find_structure(tetrahedron())
-    valence = np.repeat([3, 5, 6, 7, 8], [14_461, 10_776, 1_048, 303, 10])
-    panel.set_found(type(found)(found.interior, valence, np.arange(8672), found.boundary, valence, found.sharp))
-    five.refresh()
-    turn()
-    for layer in panel.layers.values():
-        assert layer.box.width() >= layer.box.sizeHint().width()
-        for label in layer.entries.findChildren(QLabel):
-            if label.isVisible():
-                assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
-    assert panel.mapTo(five, panel.rect().bottomRight()).x() < size[0]
 
 
 def test_other_cells_are_shown_and_reported(window, qtbot, tmp_path):

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QDoubleSpinBox, QLabel, QSpi
 from hexmend.run import StoppingCriteria
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, open_and_wait, phase, pixels
+from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, phase, pixels
 from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
 
@@ -75,13 +75,6 @@ def check(window, text):
     box = next(b for b in window.features["smooth"].panel.breakpoint_form.findChildren(QCheckBox) if b.text() == text)
     QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
     assert box.isChecked()
-
-
-def test_the_bar_is_disabled_without_a_run(window):
-    bar = window.features["timeline"].panel
-    assert bar.isVisible()
-    assert not any(bar.button(name).isEnabled() for name in ("first", "back", "play", "on", "newest", "branch"))
-    assert not window.window_actions["iteration_play"].isEnabled()
 
 
 @pytest.mark.slow
@@ -234,15 +227,6 @@ def test_memory_and_speed_are_remembered(window, qtbot):
     window.refresh()
     assert record not in window.session.history.records
     assert not window.window_actions["iteration_play"].isEnabled()
-
-
-@pytest.mark.slow
-def test_another_mesh_has_an_empty_timeline(window, qtbot, mesh_file):
-    stepped(window, qtbot)
-    open_and_wait(qtbot, window, mesh_file)
-    window.refresh()
-    assert named(window.features["timeline"].panel, QComboBox, "Run").count() == 0
-    assert not window.features["timeline"].panel.button("play").isEnabled()
 
 
 @pytest.mark.slow

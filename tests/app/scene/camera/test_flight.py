@@ -1,7 +1,6 @@
 """Flights of the camera between poses."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from vtkmodules.vtkRenderingCore import vtkCamera
@@ -62,11 +61,3 @@ def test_a_flight_takes_the_shorter_rotation():
     camera = camera_in(start)
     Flight(camera, goal).at(0.5)
     np.testing.assert_allclose(camera.GetPosition(), (0.5**0.5, -(0.5**0.5), 0), atol=1e-9)
-
-
-def test_a_flight_has_the_projection_of_the_goal():
-    start = CameraPose((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0, "z")
-    camera = camera_in(start)
-    Flight(camera, CameraPose(start.position, start.focal, start.up, True, 4.0, "z")).at(0.5)
-    assert camera.GetParallelProjection()
-    assert camera.GetParallelScale() == pytest.approx(2.0)

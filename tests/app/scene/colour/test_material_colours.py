@@ -11,7 +11,7 @@ from hexmend_app.picture import ColourBarStyle, Colours, Page, Scene, TextPlace
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.colour.colouring import INVERTED, Colouring, resolve
 from hexmend_app.scene.colour.hex_colours import HexColours
-from hexmend_app.scene.colour.material_colours import material_names, material_table
+from hexmend_app.scene.colour.material_colours import material_table
 from hexmend_app.scene.film.film_histogram import count_bars, draw_histogram
 from hexmend_app.scene.film.frame_parts import colour_bar
 from hexmend_app.scene.page.layout import Layout
@@ -45,11 +45,6 @@ def test_hexes_have_the_colour_of_their_material_and_inverted_ones_magenta():
     assert colours.colouring.names == ("low", "a name of a mat…")
     inverted = colours.colouring.colours(np.zeros(1), np.ones(1, bool))
     assert tuple(inverted[0]) == INVERTED
-
-
-def test_a_mesh_of_one_material_has_one_colour_and_name():
-    assert material_names(ONE) == ("one material",)
-    assert (measured(ONE).of(np.arange(64)) == material_table(1)).all()
 
 
 def test_thirty_materials_have_different_colours_and_none_is_that_of_inverted_hexes():

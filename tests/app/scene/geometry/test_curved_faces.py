@@ -133,20 +133,6 @@ def test_moved_faces_are_those_of_the_moved_mesh():
     np.testing.assert_array_equal(poly.cell_data["colours"], expected.cell_data["colours"])
 
 
-def test_shrunk_hexes_keep_their_shape():
-    mesh = curved_shell(27, around=1)
-    _, poly, _ = faces(mesh, 3, shrink=0.5)
-    _, whole, _ = faces(mesh, 3)
-    centre = mesh.points[mesh.hexes[0]].mean(axis=0)
-    np.testing.assert_allclose(poly.points - centre, (whole.points - centre) / 2, atol=1e-12)
-
-
-def test_more_faces_are_divided_less():
-    numbers = [divisions_of(n) for n in (0, 6, 300, 1000, 5766, 60_000, 60_001)]
-    assert numbers == [8, 8, 8, 4, 2, 2, 1]
-    assert all(n * divisions_of(n) ** 2 <= 20_000 for n in range(1, 5000))
-
-
 def drawn(viewport):
     return pv.wrap(viewport.mesh_layer.skin.actor.GetMapper().GetInput())
 

@@ -125,9 +125,3 @@ def test_colours_of_a_change_distinguish_newly_invalid_and_mended_hexes(viewport
     assert colouring.title == "change of q(H) since then"
     assert not np.array_equal(colouring.table[0], colouring.table[-1])
     assert colouring.table[127:129].min() > 230  # nothing has changed in the middle
-
-
-def test_without_a_movement_nothing_has_moved(viewport):
-    look_at(viewport, Look(movement=Traces(arrows=Arrows.ALL), colours=Colours(metric="moved-most")))
-    assert (viewport.colouring.low, viewport.colouring.high) == (0.0, 1.0)
-    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)

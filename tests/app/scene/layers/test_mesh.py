@@ -69,15 +69,6 @@ def test_shading_that_is_known_or_switched_off_is_not_computed(viewport):
     np.testing.assert_allclose(shades(viewport), 1)
 
 
-def test_other_colours_have_the_same_shading(viewport):
-    draw(viewport)
-    viewport.shade()
-    before = shades(viewport)
-    draw(viewport, Look(show=Show(hidden=STEP.show.hidden), colours=Colours(map="plasma", reverse=True)))
-    assert viewport.mesh_layer.needs_shading is None
-    np.testing.assert_allclose(shades(viewport), before, atol=0.05)  # but for rounding
-
-
 def test_shading_is_dropped_when_nodes_move(viewport):
     draw(viewport)
     viewport.shade()

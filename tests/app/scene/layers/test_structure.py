@@ -25,7 +25,6 @@ from hexmend_app.scene.layers.optional.structure import (
     PINNED,
     SHARP,
     VALENCES,
-    valence_colours,
 )
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
@@ -84,12 +83,6 @@ def test_irregular_edges_are_visible_through_the_mesh_in_the_colour_of_their_val
     assert count(image, VALENCES[3]) > 20
     assert count(image, VALENCES[5]) == 0
     assert count(image, IRREGULAR_NODE) > 5
-
-
-def test_visible_edges_are_thicker_than_hidden_ones(draw):
-    through = count(draw(FIVE, Structure.of("irregular")), VALENCES[5])
-    draw.viewport.mesh_layer.skin.actor.SetVisibility(False)
-    assert count(draw.pixels(), VALENCES[5]) > 1.4 * through
 
 
 def test_sharp_edges_and_irregular_edges_of_a_smooth_boundary(draw):
@@ -180,12 +173,6 @@ def test_many_marks_are_drawn_in_full_only_in_fine_frames(draw, monkeypatch):
     assert not layers.layer.GetDraw()
 
 
-def test_valences_without_a_separate_colour_share_one():
-    colours = valence_colours(np.array([1, 2, 3, 4, 5, 6, 7, 40]))
-    expected = [VALENCES.get(n, OTHER) for n in (1, 2, 3, 4, 5, 6, 7, 40)]
-    assert colours.tolist() == [list(bytes.fromhex(colour[1:])) for colour in expected]
-
-
 def test_boundary_nodes_have_the_colour_of_their_class(draw):
     mesh = grid(3)
     image = draw(mesh, Structure.of("kinds"))
@@ -228,13 +215,3 @@ def test_a_view_beside_the_first_does_not_mark_nodes_that_have_not_moved_there()
     other = Frame(mesh, measure(mesh.points, mesh.hexes)).matching(first)
     assert not (other.kinds == LEFT).any()
     assert Frame(moved, figures).matching(first).kinds is classes.kinds
-
-
-def test_given_classes_are_drawn(draw):
-    mesh = grid(3)
-    kinds = np.where(mesh.topology.boundary, WHISKER, 0).astype(np.uint8)
-    look = Look(structure=Structure.of("kinds"), lines=LineStyle(edges=0.0), show=Show(outline=False))
-    draw(mesh, Structure.of("kinds"))
-    draw.viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look, kinds=kinds))
-    assert count(draw.pixels(), KINDS[WHISKER]) > 300
-    assert count(draw.pixels(), KINDS[NodeClass.PATCH]) == 0

@@ -7,12 +7,10 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.colour.colouring import INVERTED
-from hexmend_app.scene.cutting.plane_widget import PlaneWidget
 from tests.app.scene.views.showing import MESH, figures_of, show
 from tests.core.grids import scrambled
 
@@ -65,22 +63,6 @@ def test_faces_turned_inside_out_are_seen(seen):
     mirrored = MESH.with_points(MESH.points * [-1, 1, 1] + [4, 0, 0])
     show(viewport, mirrored)
     assert magenta(pixels()) > 0.9 * drawn
-
-
-def test_a_vector_along_z_is_a_direction_like_any_other(seen, capfd):
-    viewport, pixels = seen
-    before = pixels()
-    viewport.view((0.0, 0.0, 2.0))
-    np.testing.assert_array_equal(pixels(), before)
-    assert capfd.readouterr().err == ""  # VTK would say that it had to turn the camera
-
-
-def test_edges_are_drawn_or_not(seen):
-    viewport, pixels = seen
-    middle = np.s_[40:110, 65:135]
-    assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) > 1
-    show(viewport, look=Look(lines=LineStyle(edges=0.0)))
-    assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) == 1
 
 
 def test_the_same_picture_however_its_look_was_reached(seen):
@@ -137,14 +119,6 @@ def test_an_outline_moves_with_its_element(seen):
         np.testing.assert_allclose(drawn.max(axis=0), outline.max(axis=0), atol=3)
 
 
-def test_inverted_elements_that_are_hidden_are_not_outlined(seen):
-    viewport, pixels = seen
-    tangled = scrambled(MESH, 1.5)
-    show(viewport, tangled)
-    show(viewport, look=Look(show=Show(quality=(1.5, 2))))  # nothing
-    assert white(pixels()) == 0
-
-
 def test_a_fitted_range_follows_the_points(seen):
     viewport, _ = seen
     show(viewport, look=Look(colours=Colours(range=Range.FITTED)))
@@ -166,19 +140,6 @@ def test_nodes_that_no_hex_uses_do_not_count(seen):
     viewport.view("+z")
     assert viewport.bounds == (0, 4, 0, 4, 0, 4)
     np.testing.assert_array_equal(pixels(), before)
-
-
-def test_setting_the_plane_does_not_report_a_drag(pane):
-    dragged = []
-    pane.window.Render()
-    widget = PlaneWidget(pane, dragged.append)
-    widget.set_bounds((0, 4, 0, 4, 0, 4))
-    for plane in (INSIDE.planes[0], Plane((1, 0, 0), point=(1, 0, 0)), None, INSIDE.planes[0]):
-        widget.set(plane)
-    assert dragged == []
-    widget.widget.InvokeEvent("InteractionEvent")  # what VTK does as the user drags
-    assert dragged == [INSIDE.planes[0]]
-    widget.close()
 
 
 def test_picking_finds_the_visible_hex(seen):

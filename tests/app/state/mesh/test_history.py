@@ -100,16 +100,6 @@ def test_positions_meet_the_limit_and_the_first_and_last_stay(count):
     assert len(record.rows) == 25
 
 
-def test_older_positions_are_further_apart():
-    history = History(30 * FREE)
-    record, _, _ = recorded(history, 300)
-    gaps = np.diff(history.recorded_numbers(record))
-    assert gaps[-10:].max() <= 3
-    assert gaps.sum() == 300
-    early, late = gaps[: len(gaps) // 2].mean(), gaps[len(gaps) // 2 :].mean()
-    assert early > 4 * late
-
-
 def test_a_lower_limit_drops_positions_at_once_and_the_nearest_is_shown():
     history = History()
     record, _, _ = recorded(history)

@@ -5,18 +5,14 @@ from itertools import count
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from hexmend.iteration import Step
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
-from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.run import eased_view
-from hexmend_app.state.run.pace import REST, SHOWN, Easing, Pace
+from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase, RunController
-from tests.core.grids import grid
 from tests.patience import PATIENCE
 
 TEN = StoppingCriteria(max_iterations=10, tolerance=0)
@@ -40,23 +36,6 @@ def run(document):
 def run_and_wait(qtbot, run, stop=TEN, smoother=None):
     with qtbot.waitSignal(run.ended, timeout=PATIENCE):
         run.start(smoother or LocalSteepestDescent(), stop)
-
-
-@given(st.lists(st.floats(0.001, 0.5), min_size=1, max_size=40), st.integers(1, 500), st.floats(0, 4))
-def test_the_position_only_rises_and_arrives_in_time(times, result, ran):
-    now, easing, seen = 100.0, Easing(100.0), []
-    for step in times:
-        now += step
-        if now < 100 + ran:
-            seen.append(easing.position(now, result))
-    end = max(now, 100 + ran)
-    easing.finish(end)
-    rest = [easing.rest(end + share * (SHOWN + REST), result) for share in np.linspace(0, 1, 60)]
-    assert rest[-1] is None
-    seen += [one for one in rest if one is not None]
-    assert (np.diff(seen) >= 0).all()
-    assert 0 <= min(seen) <= max(seen) <= result
-    assert easing.rest(end + REST - 1e-6, result) is not None
 
 
 def test_the_result_is_recorded_at_once_and_shown_after_all_between(document, run, qtbot):
@@ -105,17 +84,6 @@ def test_the_result_is_there_for_who_goes_on(document, run, qtbot, act):
     act(document, run)
     assert not run.view.eased.active
     assert document.now is result
-
-
-def test_undo_and_other_states_end_it(document, run, qtbot):
-    run_and_wait(qtbot, run)
-    document.undo()
-    assert not run.view.eased.active
-    assert document.now is document.start
-    document.redo()
-    run_and_wait(qtbot, run)
-    document.replace(State.of(grid(3)), None)
-    assert not run.view.eased.active
 
 
 def test_pausing_shows_the_iteration_at_which_it_pauses(document, run, qtbot):
