@@ -52,6 +52,7 @@ def test_inverted_hexes_have_a_swatch_of_their_colour(shown, ramp, colour):
     assert bar.accessibleDescription().startswith("inverted;")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("qapp")
 @given(st.floats(-1e7, 1e7), st.floats(-1e7, 1e7), st.floats(10, 2000))
 def test_ticks_include_both_ends_and_labels_do_not_overlap(low, high, length):

@@ -5,8 +5,6 @@ import pytest
 
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
-
 
 def rested(window, qtbot):
     """Wait until the view is shaded, and return its mesh layer."""
@@ -22,6 +20,7 @@ def test_a_view_at_rest_is_shaded(window, qtbot):
     assert mesh_layer.light.min() < 1
 
 
+@pytest.mark.slow
 def test_a_change_computes_the_shading_again(window, qtbot):
     mesh_layer = rested(window, qtbot)
     before = mesh_layer.light
@@ -32,6 +31,7 @@ def test_a_change_computes_the_shading_again(window, qtbot):
     assert mesh_layer.light is not before
 
 
+@pytest.mark.slow
 def test_shutting_down_ends_the_computation(window):
     window.canvas.panes.still()
     window.canvas.shading_task.start()

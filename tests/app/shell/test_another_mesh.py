@@ -19,8 +19,6 @@ from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
-
 SHIFT = Qt.KeyboardModifier.ShiftModifier
 
 
@@ -142,6 +140,7 @@ def everything(window, qtbot):
     window.refresh()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("work", [*WORKS, everything], ids=lambda one: one.__name__)
 def test_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file, work):
     work(window, qtbot)
@@ -153,6 +152,7 @@ def test_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file, w
     is_shown(window)
 
 
+@pytest.mark.slow
 def test_a_session_of_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file, mesh_file, tmp_path):
     open_and_wait(qtbot, window, small_file)
     window.session.selection.choose(7, window.session.document.now.mesh.hexes[7, 0])
@@ -167,6 +167,7 @@ def test_a_session_of_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, 
 LAYERS = ("outline", "structure", "selection", "ghosts", "original", "others", "arrows")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("layer", LAYERS)
 def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatch):
     overlay_layers, failures = window.canvas.viewport.overlay_layers, []
@@ -188,6 +189,7 @@ def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatc
     assert failures == [f"{layer} has failed"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", ["set_mesh", "rebuild"])
 def test_no_mesh_is_shown_if_its_hexes_cannot_be_drawn(window, small_file, mesh_file, qtbot, part, monkeypatch):
     def fail(*_):
@@ -210,6 +212,7 @@ def test_no_mesh_is_shown_if_its_hexes_cannot_be_drawn(window, small_file, mesh_
     is_shown(window)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["cut", "hex_inspector", "histogram", "structure", "tags", "quality", "smooth", "node_step"]
 )

@@ -78,6 +78,7 @@ def with_plotter(tmp_path, monkeypatch):
         del sys.modules[name]
 
 
+@pytest.mark.slow
 def test_a_feature_draws_with_pyvista(with_plotter, fresh_window, tmp_path, monkeypatch):
     low, high = np.reshape(fresh_window.canvas.viewport.bounds, (3, 2)).T
     pv.Sphere(radius=np.linalg.norm(high - low) / 2, center=(low + high) / 2).save(tmp_path / "part.stl")
@@ -174,6 +175,7 @@ def test_the_state_of_a_feature_is_in_sessions_and_its_export_in_the_script(
     assert "['3', '5']" in script
 
 
+@pytest.mark.slow
 def test_a_window_without_the_feature_keeps_its_data_and_one_with_it_refuses_other_types(
     fresh_window, with_notes, qtbot, tmp_path
 ):

@@ -26,6 +26,8 @@ from tests.app.features.cut.test_cut import seen_at
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 
 def middle(window):
     return tuple(window.session.document.now.mesh.points.mean(axis=0))
@@ -71,7 +73,6 @@ def test_a_hex_is_tagged_only_under_a_name_and_only_if_there_is_one(window):
     assert window.session.document.now.mesh.hex_sets["bad"].tolist() == [7]
 
 
-@pytest.mark.slow
 def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
     window.session.commands.tag("one", [1])
     choose(window, "laplacian")
@@ -105,7 +106,6 @@ def test_hexes_removed_by_a_smooth_cut_are_not_tagged_as_shown(window, notch):
     assert mesh.hex_sets["shown"].tolist() == np.flatnonzero(~gone).tolist()
 
 
-@pytest.mark.slow
 def test_the_box_can_be_dragged_again_after_an_interrupted_drag(window, qtbot):
     size = np.ptp(window.session.document.now.mesh.points, axis=0)
     low = window.session.document.now.mesh.points.min(axis=0)
@@ -155,7 +155,6 @@ def test_a_mesh_in_other_units_opens_after_a_cut(window, qtbot, tmp_path):
         assert 0 < window.canvas.viewport.shown < mesh.n_hexes
 
 
-@pytest.mark.slow
 def test_a_cut_begins_in_the_mesh_however_far_unused_nodes_are(window, qtbot, tmp_path):
     mesh = scrambled(grid(3), 0.3)
     stray = Mesh(np.concatenate([mesh.points, [[1e4, 1e4, 1e4]]]), mesh.hexes)
@@ -165,7 +164,6 @@ def test_a_cut_begins_in_the_mesh_however_far_unused_nodes_are(window, qtbot, tm
     assert 0 < window.canvas.viewport.shown < mesh.n_hexes
 
 
-@pytest.mark.slow
 def test_a_picture_has_the_hexes_of_the_view_after_nodes_moved(window, tmp_path):
     window.session.view.set_cut(Cut.at((1, 0, 0), middle(window)))
     window.refresh()
@@ -188,7 +186,6 @@ def _found(view, place):
     return hit and (hit.hex, hit.node)
 
 
-@pytest.mark.slow
 def test_a_click_with_a_small_movement_selects_the_hex_under_it(window, qtbot, monkeypatch):
     monkeypatch.setattr(mesh_layer, "MANY", 10)
     view = window.canvas.viewport

@@ -9,8 +9,6 @@ from PySide6.QtTest import QTest
 
 from tests.app.driving import pixels
 
-pytestmark = pytest.mark.slow
-
 SHIFT = Qt.KeyboardModifier.ShiftModifier
 
 
@@ -18,6 +16,7 @@ def direction(camera):
     return np.array(camera.GetDirectionOfProjection())
 
 
+@pytest.mark.slow
 def test_keys_of_vtk_do_nothing(window):
     view = window.canvas.interactor
     view.setFocus()

@@ -15,8 +15,6 @@ from hexmend_app.shell.start.program import report_unexpected_errors
 from tests.app.driving import key, named, pixels
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
-
 
 def test_an_opened_mesh_is_shown_with_its_figures(window):
     assert window.windowTitle().startswith("bridge.vtu")
@@ -30,6 +28,7 @@ def test_an_opened_mesh_is_shown_with_its_figures(window):
     assert (image.max(axis=2) - image.min(axis=2) > 60).mean() > 0.05
 
 
+@pytest.mark.slow
 def test_the_slider_and_the_view_keep_their_places_while_a_task_is_shown(window, qtbot):
     slider = named(window.features["timeline"].panel, QSlider, "Iteration")
 
@@ -48,6 +47,7 @@ def test_the_slider_and_the_view_keep_their_places_while_a_task_is_shown(window,
     assert places() == before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
 def test_nothing_is_cut_off(window, qtbot, size):
     window.resize(*size)
@@ -90,6 +90,7 @@ def test_unexpected_errors_are_shown(window, monkeypatch):
     assert "ZeroDivisionError: one over nothing" in window.messages.messages()[-1][2]
 
 
+@pytest.mark.slow
 def test_messages_and_the_colour_bar_do_not_change_the_layout(window, qtbot):
     canvas, bar = window.canvas, window.canvas.colour_bar
     before = canvas.interactor.geometry(), bar.geometry()
@@ -106,6 +107,7 @@ def test_messages_and_the_colour_bar_do_not_change_the_layout(window, qtbot):
     assert not window.messages.isVisible()
 
 
+@pytest.mark.slow
 def test_the_view_has_the_focus_when_a_mesh_is_shown(fresh_window):
     view = fresh_window.canvas.interactor
     fresh_window.canvas.hide()
@@ -117,6 +119,7 @@ def test_the_view_has_the_focus_when_a_mesh_is_shown(fresh_window):
     assert not fresh_window.docks.hidden
 
 
+@pytest.mark.slow
 def test_a_failing_refresh_is_reported_once_and_other_features_are_refreshed(fresh_window, qtbot, monkeypatch):
     window = fresh_window
     monkeypatch.setattr(sys, "excepthook", sys.excepthook)

@@ -26,7 +26,6 @@ def differ(before, after):
     return (np.abs(after - before).sum(axis=2) > 60).mean()
 
 
-@pytest.mark.slow
 def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     whole, bar = pixels(window), window.canvas.colour_bar
     walk_to(window, named(panel, QComboBox, "Metric"), "scaled-jacobian")
@@ -53,6 +52,7 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     assert window.session.view.look.colours.range == (low.value(), high.value())
 
 
+@pytest.mark.slow
 def test_faces_within_a_range_are_rebuilt_only_if_they_change(window, monkeypatch):
     viewport, now = window.canvas.viewport, window.session.document.now
     rebuilt = []
@@ -75,6 +75,7 @@ def test_faces_within_a_range_are_rebuilt_only_if_they_change(window, monkeypatc
     assert viewport.shown == np.count_nonzero((figures.q >= 0.4) & ~figures.inverted)
 
 
+@pytest.mark.slow
 def test_the_mesh_is_drawn_once_for_all_changes_of_one_turn(window, qtbot, monkeypatch):
     drawn, draw = [], window.canvas.draw
     monkeypatch.setattr(window.canvas, "draw", lambda *arguments: (drawn.append(1), draw(*arguments)))

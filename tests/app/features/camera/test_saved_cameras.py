@@ -71,6 +71,7 @@ def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, mo
     assert window.messages.messages()[-1][1] == "Camera not saved"
 
 
+@pytest.mark.slow
 def test_the_menu_applies_a_camera(window, saved):
     menu = menu_of(window)
     assert menu.menuAction().isEnabled()
@@ -82,6 +83,7 @@ def test_the_menu_applies_a_camera(window, saved):
     assert window.canvas.pose == saved["front & side"]
 
 
+@pytest.mark.slow
 def test_the_dialog_applies_and_deletes_cameras(window, saved, dialog, qtbot):
     assert names(dialog) == list(saved)
     dialog.list.setCurrentRow(1)
@@ -104,6 +106,7 @@ def type_name(dialog, row, text):
     QTest.keyClick(editor, Qt.Key.Key_Return)
 
 
+@pytest.mark.slow
 def test_the_dialog_renames(window, saved, dialog, qtbot):
     camera = window.session.saved_cameras.all["top"]
     type_name(dialog, 1, "from above")
@@ -138,6 +141,7 @@ def test_scenes_and_pictures_contain_the_cameras(window, saved, tmp_path, qtbot,
     assert cameras.all == before
 
 
+@pytest.mark.slow
 def test_render_uses_a_camera_of_a_session(window, saved, tmp_path, capsys):
     path = tmp_path / "work.hexmend"
     assert window.features["session"].save_and_wait(path)
@@ -151,6 +155,7 @@ def test_render_uses_a_camera_of_a_session(window, saved, tmp_path, capsys):
     assert "in the scene or the session (known: front & side, top)" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_closing_asks_about_unsaved_cameras_of_a_session(window, saved, tmp_path, monkeypatch):
     questions = []
     monkeypatch.setattr(

@@ -50,6 +50,7 @@ def test_the_table_has_the_values_of_the_core_and_the_mesh_does_not_change(compa
     assert cell.data(Qt.ItemDataRole.AccessibleTextRole).endswith("best")
 
 
+@pytest.mark.slow
 def test_a_click_on_a_header_sorts_with_the_initial_mesh_first(compared):
     header = table_of(compared).horizontalHeader()
     column = COLUMN["q_mean"]
@@ -66,6 +67,7 @@ def test_a_click_on_a_header_sorts_with_the_initial_mesh_first(compared):
     assert orders[1] == orders[0][::-1]
 
 
+@pytest.mark.slow
 def test_cancel_stops_after_the_current_iteration_and_keeps_the_results(comparing, qtbot, monkeypatch):
     reached, resume = Event(), Event()
     steps = METHODS["local-sd"].steps
@@ -101,6 +103,7 @@ def test_cancel_stops_after_the_current_iteration_and_keeps_the_results(comparin
     assert comparing.window_actions["compare"].isEnabled()
 
 
+@pytest.mark.slow
 def test_a_failed_method_has_a_row_and_the_others_continue(comparing, qtbot, monkeypatch):
     def broken(self, mesh):
         raise RuntimeError("no memory")
@@ -146,6 +149,7 @@ def test_a_result_replaces_the_mesh_and_can_be_undone(compared):
     assert compared.session.document.now.mesh is before
 
 
+@pytest.mark.slow
 def test_methods_run_with_their_parameters(comparing, qtbot):
     choose(comparing, "getme", SHORT, relaxation=0.25)
     choose(comparing, "laplacian", SHORT)
@@ -155,6 +159,7 @@ def test_methods_run_with_their_parameters(comparing, qtbot):
     assert comparing.session.comparison.of("getme").row.parameters["relaxation"] == 0.25
 
 
+@pytest.mark.slow
 def test_the_table_is_saved_in_four_formats_and_others_are_refused(compared, tmp_path):
     for suffix in (".csv", ".md", ".tex", ".json"):
         path = tmp_path / f"table{suffix}"
@@ -169,6 +174,7 @@ def test_the_table_is_saved_in_four_formats_and_others_are_refused(compared, tmp
     assert text
 
 
+@pytest.mark.slow
 def test_a_result_equal_to_the_start_says_so(comparing, qtbot):
     window = comparing
     window.session.document.commit("Grid", State.of(grid(3)))  # a grid of cubes cannot be improved

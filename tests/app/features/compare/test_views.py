@@ -53,6 +53,7 @@ def test_one_view_is_closed_by_its_button_and_all_by_a_key(compared):
     assert compared.session.snapshots.all == ()
 
 
+@pytest.mark.slow
 def test_a_state_shown_under_a_name_in_use_replaces_the_view(compared):
     first, second = (compared.session.comparison.of(name).state for name in ("getme", "laplacian"))
     compared.session.side_views.show("iteration 7", first)

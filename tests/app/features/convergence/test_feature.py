@@ -14,8 +14,6 @@ from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, choose, click, phase, press
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
-
 
 @pytest.fixture
 def panel(window, qtbot):
@@ -51,6 +49,7 @@ def test_a_click_in_a_chart_selects_the_iteration_and_moves_the_marker(window, q
     assert panel.plots["objective"].marker.value() == 6
 
 
+@pytest.mark.slow
 def test_branches_start_where_they_left_or_at_zero_and_are_deleted(window, qtbot, panel):
     first = run(window, qtbot)
     window.session.timeline.go(first, 4)

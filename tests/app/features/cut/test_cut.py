@@ -106,6 +106,7 @@ def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 
+@pytest.mark.slow
 def test_a_cut_switched_off_and_on_between_two_refreshes_is_shown_as_on(window):
     window.window_actions["cut"].trigger()
     window.refresh()
@@ -139,6 +140,7 @@ def test_the_sphere_is_moved_and_resized_in_the_view(window, qtbot):
     assert moved.radius == pytest.approx(smaller.radius)
 
 
+@pytest.mark.slow
 def test_the_sphere_is_centred_on_the_selected_hex(window):
     key(window, Qt.Key.Key_C)
     choose(window, "Sphere")
@@ -151,6 +153,7 @@ def test_the_sphere_is_centred_on_the_selected_hex(window):
     assert window.session.view.look.cut.sphere.centre == pytest.approx(mesh.points[mesh.hexes[17]].mean(axis=0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "handles"), [("Slab", "plane"), ("Sphere", "sphere"), ("Box", "box")])
 def test_only_the_handles_of_the_cut_are_in_the_view(window, kind, handles):
     key(window, Qt.Key.Key_C)
@@ -161,6 +164,7 @@ def test_only_the_handles_of_the_cut_are_in_the_view(window, kind, handles):
     assert not getattr(window.canvas, handles).widget.GetEnabled()
 
 
+@pytest.mark.slow
 def test_handles_are_hidden_while_a_small_part_of_the_mesh_is_isolated(window, qtbot, tmp_path):
     io.write(tmp_path / "bar.vtu", grid(9, 1, 1))
     open_and_wait(qtbot, window, tmp_path / "bar.vtu")
@@ -175,6 +179,7 @@ def test_handles_are_hidden_while_a_small_part_of_the_mesh_is_isolated(window, q
     assert window.canvas.plane.widget.GetEnabled()
 
 
+@pytest.mark.slow
 def test_the_slab_is_dragged_by_its_middle(window):
     key(window, Qt.Key.Key_C)
     choose(window, "Slab")
@@ -184,6 +189,7 @@ def test_the_slab_is_dragged_by_its_middle(window):
     assert window.session.view.look.cut.slab == slab.moved_to(Plane((0, 0, 1), point=(1, 2, 3)))
 
 
+@pytest.mark.slow
 def test_a_dragged_plane_is_released_where_the_pointer_leaves_the_view(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "Z")

@@ -110,6 +110,7 @@ def test_buttons_are_enabled_if_hexes_are_isolated_or_dug_away(panel):
 # The window
 
 
+@pytest.mark.slow
 def test_hexes_are_dug_away_and_restored(window):
     view, panel = window.session.view, window.features["cut"].inside
     for h in (0, 1, 1, 2):
@@ -149,6 +150,7 @@ def test_everything_combines(window):
     )
 
 
+@pytest.mark.slow
 def test_shrunk_hexes_follow_moving_nodes(window, qtbot):
     slider = named(window.features["cut"].inside, QSlider, SHRINK)
     slider.setFocus()
@@ -171,6 +173,7 @@ def test_shrunk_hexes_follow_moving_nodes(window, qtbot):
     np.testing.assert_allclose(drawn.mesh_layer.whole.points, expected.reshape(-1, 3), atol=1e-12)
 
 
+@pytest.mark.slow
 def test_in_large_meshes_only_visible_hexes_are_shrunk(window, qtbot, monkeypatch):
     monkeypatch.setattr("hexmend_app.scene.geometry.skin.WHOLE", 500)
     window.session.view.change(show={"shrink": 0.3})

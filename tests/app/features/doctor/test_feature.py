@@ -49,6 +49,7 @@ def test_findings_are_listed_with_their_locations(window, panel):
     assert "Hexes 27, 28, 29" in texts(panel)
 
 
+@pytest.mark.slow
 def test_a_finding_is_shown_in_the_view(window, panel):
     press(buttons(panel, "Show")[0])
     assert set(range(27, 54)) == set(window.session.view.look.show.isolate.hexes)
@@ -90,6 +91,7 @@ def test_all_is_repaired_at_once_and_methods_run_on_the_repaired_mesh(window, pa
     assert session.document.now.mesh.n_nodes == 112
 
 
+@pytest.mark.slow
 def test_a_finding_is_shown_while_a_run_is_paused_too(window, panel, qtbot):
     session = window.session
     repair(qtbot, session, buttons(panel, "Repair")[0])  # a run refuses left-handed hexes
@@ -101,6 +103,7 @@ def test_a_finding_is_shown_while_a_run_is_paused_too(window, panel, qtbot):
     end_run(session)
 
 
+@pytest.mark.slow
 def test_changes_on_reading_are_remembered(window, panel):
     mesh = unmerged().replace(notes=("8 hexes were renumbered.",))
     window.session.document.replace(State.of(mesh), None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from PySide6.QtCore import Qt
 
 from hexmend_app.state.run.run_controller import Phase
@@ -26,6 +27,7 @@ def test_keys_undo_and_redo_a_run(window, qtbot):
     assert window.session.document.now is after
 
 
+@pytest.mark.slow
 def test_the_menu_names_the_change_that_is_undone(window):
     undo, redo = window.action("undo"), window.action("redo")
     assert not undo.isEnabled()

@@ -74,6 +74,7 @@ def test_the_export_can_be_cancelled(window, qtbot, folder):
     assert not (folder / "captions.md").exists()
 
 
+@pytest.mark.slow
 def test_a_folder_that_cannot_be_created_is_reported(window, folder):
     folder.write_text("a file")
     window.window_actions["figure_set"].trigger()

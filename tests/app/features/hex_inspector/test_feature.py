@@ -48,6 +48,7 @@ def test_a_click_in_the_view_selects_a_hex_and_a_drag_does_not(window, qtbot):
     assert window.session.selection.hex is None
 
 
+@pytest.mark.slow
 def test_a_click_in_the_view_does_not_open_the_drawer(window):
     size = window.canvas.size()
     click_view(window)
@@ -93,6 +94,7 @@ def test_a_hex_stays_selected_during_a_run(window, qtbot):
     assert window.features["hex_inspector"].worst_list.hexes[0] == window.session.document.now.figures.q.argmin()
 
 
+@pytest.mark.slow
 def test_the_list_of_the_worst_is_saved_or_an_error_is_shown(window, tmp_path):
     assert window.features["hex_inspector"].save(tmp_path / "worst.csv")
     lines = (tmp_path / "worst.csv").read_text().splitlines()
@@ -163,6 +165,7 @@ def test_a_boundary_node_pinned_by_key_does_not_slide(window, qtbot, tmp_path):
     assert not pin.isChecked()
 
 
+@pytest.mark.slow
 def test_the_class_of_a_boundary_node_is_shown(window, qtbot):
     mesh = window.session.document.now.mesh
     window.show_panel("show")
@@ -175,6 +178,7 @@ def test_the_class_of_a_boundary_node_is_shown(window, qtbot):
     assert any(f"Node {node:,}: boundary, a corner, " in label.text() for label in labels)
 
 
+@pytest.mark.slow
 def test_the_distance_of_a_node_that_was_moved_off_its_corner_is_shown(window, qtbot):
     session = window.session
     mesh = session.document.now.mesh
@@ -204,6 +208,7 @@ def test_the_distance_of_a_node_that_was_moved_off_its_corner_is_shown(window, q
     assert not any("off its corner" in label.text() for label in labels)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])
 def test_the_histogram_is_saved_as_picture_or_as_counts(window, tmp_path, suffix):
     path = tmp_path / f"histogram{suffix}"
@@ -216,6 +221,7 @@ def test_the_histogram_is_saved_as_picture_or_as_counts(window, tmp_path, suffix
         assert int(rows[0][3]) == window.session.document.now.summary.inverted
 
 
+@pytest.mark.slow
 def test_the_saved_histogram_equals_the_drawn_one(window, tmp_path):
     histogram, now = window.features["histogram"].panel, window.session.document.now
     histogram.metric_chosen.emit("condition")
@@ -269,6 +275,7 @@ def test_ctrl_click_hides_a_hex_and_backspace_shows_it(window, qtbot):
     assert not window.session.view.look.show.hidden
 
 
+@pytest.mark.slow
 def test_next_worst_begins_with_the_worst_hex(window):
     worst_list = window.features["hex_inspector"].worst_list
     worst = list(worst_list.hexes[:3])

@@ -142,6 +142,7 @@ def test_a_click_on_the_bar_of_inverted_hexes_shows_only_them(window, histogram)
     assert window.canvas.viewport.shown == 4000
 
 
+@pytest.mark.slow
 def test_a_refresh_during_a_drag_does_not_reset_the_range(window, qtbot, histogram):
     view = histogram.plot.view
     view.brushed.emit((0.2, 0.4))
@@ -151,6 +152,7 @@ def test_a_refresh_during_a_drag_does_not_reset_the_range(window, qtbot, histogr
     assert histogram.range().high == pytest.approx(0.5, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_the_bars_have_the_colours_of_the_view(window, qtbot, histogram):
     window.refresh()
     gradient, colouring = histogram.series()[0].gradient, window.canvas.colouring

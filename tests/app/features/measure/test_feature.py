@@ -67,6 +67,7 @@ def test_two_clicks_measure_a_distance_a_third_an_angle_and_escape_ends(window, 
     assert window.session.selection.hex is not None
 
 
+@pytest.mark.slow
 def test_a_click_next_to_the_mesh_measures_nothing(window):
     window.session.view.start_measuring()
     window.refresh()
@@ -74,6 +75,7 @@ def test_a_click_next_to_the_mesh_measures_nothing(window):
     assert window.session.view.look.measurement == Measurement()
 
 
+@pytest.mark.slow
 def test_clear_keeps_measuring_and_another_mesh_ends_it(window, panel):
     view = window.session.view
     view.start_measuring()

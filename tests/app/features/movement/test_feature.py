@@ -75,6 +75,7 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
     assert window.session.view.look.colours.range is Range.FULL
 
 
+@pytest.mark.slow
 def test_displacements_are_among_the_metrics_of_the_colours(window, record, qtbot):
     colours = window.features["appearance"].panel
     combo, maps = (
@@ -100,6 +101,7 @@ def test_displacements_are_among_the_metrics_of_the_colours(window, record, qtbo
     assert window.session.view.look.colours.map == "viridis"
 
 
+@pytest.mark.slow
 def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     free = window.session.document.now.summary.free_nodes
     press(panel.arrows, "all")
@@ -124,6 +126,7 @@ def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     assert text_of(panel, "Number of arrows") == "No visible node has moved."
 
 
+@pytest.mark.slow
 def test_the_displacement_is_shown_in_figures(window, record, panel):
     start, now = window.session.document.start, window.session.document.now
     change = now.figures.q - start.figures.q
@@ -162,6 +165,7 @@ def test_newly_invalid_hexes_are_isolated(window, mesh_to_invert, record, panel,
     assert len(isolated) == movement.counts.newly_invalid
 
 
+@pytest.mark.slow
 def test_another_mesh_is_opened_while_a_displacement_is_shown(window, record, panel, qtbot, tmp_path):
     press(panel.colours, "moved-most")
     press(panel.arrows, "all")

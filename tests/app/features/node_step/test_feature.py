@@ -30,8 +30,6 @@ from tests.app.features.node_step.step_display import (
 from tests.core.grids import grid, scrambled, with_edge_midpoints
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
-
 # One node
 
 
@@ -50,6 +48,7 @@ def test_a_key_explains_a_free_node_of_the_worst_hex(node_window):
     assert window.session.document.now is window.session.document.start  # nothing has moved
 
 
+@pytest.mark.slow
 def test_links_select_nodes_and_a_change_of_method_updates_the_step(node_window, qtbot):
     window = node_window
     label = named(window.features["node_step"].panel, QLabel, "Free nodes")
@@ -74,6 +73,7 @@ def test_links_select_nodes_and_a_change_of_method_updates_the_step(node_window,
     assert shown_step(window).energy != step.energy
 
 
+@pytest.mark.slow
 def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
     choose_by_keys(window, "local-sd")
     window.show_panel("node")
@@ -95,6 +95,7 @@ def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
     assert shown_step(window) is None
 
 
+@pytest.mark.slow
 def test_a_node_that_a_pinned_higher_order_node_fixes_is_not_called_pinned(node_window, qtbot, tmp_path):
     window, mesh = node_window, with_edge_midpoints(scrambled(grid(3), 0.1))
     write(tmp_path / "quadratic.vtu", mesh)
@@ -108,6 +109,7 @@ def test_a_node_that_a_pinned_higher_order_node_fixes_is_not_called_pinned(node_
     assert shown_step(window) is None
 
 
+@pytest.mark.slow
 def test_an_invalid_parameter_is_reported(node_window, qtbot):
     window = node_window
     if not window.features["smooth"].panel.stage.parameters.isVisible():
@@ -147,6 +149,7 @@ def test_no_step_is_shown_during_a_run_and_none_is_made_while_it_is_paused(node_
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
 
 
+@pytest.mark.slow
 def test_nothing_is_computed_while_another_panel_is_in_front(node_window, qtbot):
     window = node_window
     window.show_panel("convergence")

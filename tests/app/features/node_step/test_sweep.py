@@ -92,7 +92,6 @@ def test_any_other_change_of_the_mesh_ends_the_sweep_first(node_window, qtbot, t
     np.testing.assert_array_equal(window.session.document.now.mesh.points, stepped.mesh.points)
 
 
-@pytest.mark.slow
 def test_going_back_to_an_iteration_ends_the_sweep(node_window, qtbot):
     window = node_window
     choose_by_keys(window, "laplacian")

@@ -60,6 +60,7 @@ def test_recent_files_are_listed_once_each_newest_first(window, qtbot, recent, m
     assert menu.isHidden()
 
 
+@pytest.mark.slow
 def test_a_missing_file_is_disabled_and_the_list_can_be_cleared(recent, menu, tmp_path):
     for k in range(MAX_RECENT_FILES + 2):
         recent.add(tmp_path / f"mesh{k}.vtu")
@@ -73,6 +74,7 @@ def test_a_missing_file_is_disabled_and_the_list_can_be_cleared(recent, menu, tm
     assert not menu.menuAction().isEnabled()
 
 
+@pytest.mark.slow
 def test_the_welcome_page_opens_recent_files(window, qtbot, mesh_file):
     welcome = window.features["open"].welcome
     assert not welcome.isVisible()
@@ -96,6 +98,7 @@ def test_a_dropped_file_is_opened(window, qtbot, tmp_path):
     assert window.windowTitle().startswith("five.mesh")
 
 
+@pytest.mark.slow
 def test_a_dropped_folder_of_a_case_is_opened_and_saved(window, qtbot, tmp_path):
     mesh = gallery.make("five-side", size=500)
     io.write(tmp_path / "case" / "case.foam", mesh)
@@ -133,6 +136,7 @@ def test_an_unreadable_file_shows_an_error_and_the_open_mesh_stays(window, qtbot
     assert not window.messages.isVisible()
 
 
+@pytest.mark.slow
 def test_opening_another_mesh_ends_the_run(window, qtbot, mesh_file):
     choose(window, "local-sd", StoppingCriteria(tolerance=0.0))
     click(window, "Run")
@@ -165,6 +169,7 @@ def finish_reading(qtbot, slow_read):
     qtbot.waitUntil(lambda: not any(task.name.startswith("reading") for task in running()), timeout=PATIENCE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("by", ["button", "Esc"])
 def test_opening_shows_its_progress_and_is_cancelled(window, qtbot, slow_read, recent, mesh_file, tmp_path, by):
     other = tmp_path / "slow.vtu"
@@ -189,6 +194,7 @@ def test_opening_shows_its_progress_and_is_cancelled(window, qtbot, slow_read, r
     assert window.session.document.name == "slow.vtu"
 
 
+@pytest.mark.slow
 def test_another_mesh_is_opened_while_a_cancelled_file_is_still_read(window, qtbot, slow_read, mesh_file, tmp_path):
     other = tmp_path / "slow.vtu"
     shutil.copy(mesh_file, other)
@@ -202,6 +208,7 @@ def test_another_mesh_is_opened_while_a_cancelled_file_is_still_read(window, qtb
     assert window.session.document.name == mesh_file.name
 
 
+@pytest.mark.slow
 def test_a_cancelled_file_is_read_no_further(window, qtbot, monkeypatch, mesh_file, tmp_path):
     """The thread ends although the file would take for ever."""
     monkeypatch.setattr(file_watcher, "INTERVAL", 0.0)

@@ -44,7 +44,6 @@ def mesh(tmp_path):
     return tmp_path / "mesh.vtu"
 
 
-@pytest.mark.slow
 def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     look, pose = change_appearance(window, qtbot)
@@ -62,6 +61,7 @@ def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_
     assert np.abs(first.astype(int) - second).mean() < 0.2
 
 
+@pytest.mark.slow
 def test_the_selected_hex_is_marked_in_a_picture_which_restores_it(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     window.refresh()
@@ -93,6 +93,7 @@ def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp
     assert window.session.recipe_draft.stages == (stage,)
 
 
+@pytest.mark.slow
 def test_a_picture_of_the_command_line_is_opened(window, qtbot, mesh, tmp_path):
     assert main(["render", str(mesh), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--view", "-y"]) == 0
     open_and_wait(qtbot, window, tmp_path / "p.png")
@@ -101,6 +102,7 @@ def test_a_picture_of_the_command_line_is_opened(window, qtbot, mesh, tmp_path):
     assert pose.position[1] < pose.focal[1]
 
 
+@pytest.mark.slow
 def test_a_changed_mesh_file_is_reported(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
@@ -128,6 +130,7 @@ def test_a_missing_mesh_is_located_by_the_user(window, qtbot, mesh, tmp_path, mo
     assert window.session.view.look == look
 
 
+@pytest.mark.slow
 def test_a_picture_with_hexes_that_the_mesh_does_not_have_is_rejected(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     window.session.view.change(show={"hidden": frozenset({60})})

@@ -113,6 +113,7 @@ def test_a_suggestion_that_undoes_the_run_restores_the_mesh_before_it(window, qt
     assert window.session.document.now.summary.inverted == 0
 
 
+@pytest.mark.slow
 def test_the_kept_iteration_is_shown_and_reported(window, qtbot, tmp_path):
     io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=864))
     open_and_wait(qtbot, window, tmp_path / "sound.vtu")

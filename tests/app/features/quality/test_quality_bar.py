@@ -72,6 +72,7 @@ def test_the_bar_follows_a_run(window, qtbot):
     qtbot.waitUntil(lambda: all(change in bar.text for change in changes), timeout=PATIENCE)
 
 
+@pytest.mark.slow
 def test_an_action_hides_the_bar_and_shows_it_again(window):
     bar = window.features["quality"].bar
     action = window.action("key_figures")
@@ -82,6 +83,7 @@ def test_an_action_hides_the_bar_and_shows_it_again(window):
         assert (bar.isVisible(), action.isChecked(), settings.KEY_FIGURES.get()) == (on, on, on)
 
 
+@pytest.mark.slow
 def test_several_views_have_their_figures_in_the_captions_instead(window):
     bar = window.features["quality"].bar
     assert bar.isVisible()

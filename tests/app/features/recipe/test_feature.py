@@ -107,6 +107,7 @@ def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
     assert window.session.recipe_draft.stages[1].smoother == METHODS["laplacian"]()
 
 
+@pytest.mark.slow
 def test_enter_shows_a_stage_above(window, panel):
     add(window, panel, "local-sd", {"p": 4.0})
     add(window, panel, "mend", stop=StoppingCriteria())
@@ -118,6 +119,7 @@ def test_enter_shows_a_stage_above(window, panel):
     assert (shown.stage.parameters.values()["p"], shown.stage.stop.values()) == (4, SHORT.values())
 
 
+@pytest.mark.slow
 def test_an_invalid_value_is_not_added(window, panel):
     choose(window, "local-sd")
     type_value(window, "p", "99")
@@ -129,6 +131,7 @@ def test_an_invalid_value_is_not_added(window, panel):
     assert "Correct" not in said(window)
 
 
+@pytest.mark.slow
 def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
     mesh = window.session.document.now.mesh
     add(window, panel, "getme")
@@ -225,6 +228,7 @@ def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatc
     assert title.text() == "Mine"
 
 
+@pytest.mark.slow
 def test_an_invalid_file_is_reported_and_the_recipe_stays(window, panel, tmp_path):
     add(window, panel, "getme")
     before = window.session.recipe_draft.recipe

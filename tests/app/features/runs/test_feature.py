@@ -74,6 +74,7 @@ def test_all_runs_are_listed_beside_the_mesh_at_the_start(window, three):
         assert texts(window, column)[0] == texts(window, column)[0].strip() != ""
 
 
+@pytest.mark.slow
 def test_dominated_runs_are_grey_and_say_which_are_as_good(window, three):
     rows = panel(window).model.rows
     assert three[0].name in rows[2].dominated_by
@@ -100,6 +101,7 @@ def test_a_click_shows_the_result_of_a_run(window, three):
     assert timeline.shown_iteration.record is three[0]
 
 
+@pytest.mark.slow
 def test_a_click_shows_the_mesh_at_the_start_even_if_no_run_began_there(window, qtbot):
     session = window.session
     start = session.document.start
@@ -122,6 +124,7 @@ def test_a_click_shows_the_mesh_at_the_start_even_if_no_run_began_there(window, 
     assert session.timeline.shown_iteration.number == session.timeline.record.result
 
 
+@pytest.mark.slow
 def test_runs_that_differ_in_rules_of_motion_alone_have_other_settings(window, qtbot):
     session, stop = window.session, StoppingCriteria(max_iterations=1)
     session.commands.tag("a<b", [1, 2])
@@ -134,6 +137,7 @@ def test_runs_that_differ_in_rules_of_motion_alone_have_other_settings(window, q
     assert "fix=a&lt;b" in panel(window).model.index(2, NAME).data(Qt.ItemDataRole.ToolTipRole)
 
 
+@pytest.mark.slow
 def test_the_active_run_is_named_so(window, qtbot):
     window.show_panel("runs")
     run_control = window.session.run
@@ -148,6 +152,7 @@ def test_the_active_run_is_named_so(window, qtbot):
     assert texts(window, NAME) == ["At the start", name]
 
 
+@pytest.mark.slow
 def test_iterations_that_arrive_leave_the_row_that_was_reached_by_keys(window, three):
     click(window, 3)
     table = panel(window).table
@@ -158,6 +163,7 @@ def test_iterations_that_arrive_leave_the_row_that_was_reached_by_keys(window, t
     assert table.currentIndex().row() == 2
 
 
+@pytest.mark.slow
 def test_a_session_keeps_the_table(window, qtbot, three, tmp_path):
     before = [texts(window, column) for column in range(FIRST + len(QUANTITIES))]
     assert window.features["open"].save_and_wait(tmp_path / "runs.hexmend")

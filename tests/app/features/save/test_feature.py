@@ -40,6 +40,7 @@ def test_saving_writes_the_displayed_mesh(window, qtbot, tmp_path):
     assert window.messages.messages()[-1][0] == "error"
 
 
+@pytest.mark.slow
 def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot, tmp_path, monkeypatch):
     assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
@@ -153,6 +154,7 @@ def test_the_dialog_remembers_the_last_picture(window, qtbot, tmp_path, monkeypa
     assert again.scene().camera.pose == window.canvas.pose
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("style", [CutStyle.CRINKLE, CutStyle.SMOOTH])
 def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypatch, style):
     mesh = window.session.document.now.mesh
@@ -176,6 +178,7 @@ def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypa
     assert window.session.modified  # the tag: the mesh itself is not saved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("tagged", "warned"), [((0,), True), ((1,), False)], ids=["in the part", "elsewhere"])
 def test_only_data_of_the_visible_hexes_is_missed(window, qtbot, tmp_path, tagged, warned):
     window.session.commands.tag("far", tagged)
@@ -188,6 +191,7 @@ def test_only_data_of_the_visible_hexes_is_missed(window, qtbot, tmp_path, tagge
     assert ("element sets (far)" in missed) is warned
 
 
+@pytest.mark.slow
 def test_visible_hexes_that_cannot_be_written_are_reported(window, qtbot, tmp_path):
     saver = window.features["save"].visible
     saver.save(tmp_path / "missing" / "out.vtu", window.canvas.viewport)

@@ -22,8 +22,6 @@ from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
-
 
 def run(window, qtbot, method, iterations=4):
     with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
@@ -113,6 +111,7 @@ def tables(window):
     }
 
 
+@pytest.mark.slow
 def test_a_session_is_restored(window, qtbot, tmp_path, mesh_file):
     work(window, qtbot)
     path = tmp_path / "work.hexmend"
@@ -133,6 +132,7 @@ def test_a_session_is_restored(window, qtbot, tmp_path, mesh_file):
             np.testing.assert_array_equal(record.points(number), place)
 
 
+@pytest.mark.slow
 def test_a_restored_session_can_be_continued(window, qtbot, tmp_path):
     """Undo, timeline, branches, breakpoints and runs work after restoring."""
     work(window, qtbot)
@@ -176,6 +176,7 @@ def test_the_title_shows_the_session_and_unsaved_changes(window, qtbot, tmp_path
     assert window.isWindowModified()
 
 
+@pytest.mark.slow
 def test_a_displayed_iteration_is_not_a_change(window, qtbot, tmp_path):
     run(window, qtbot, "laplacian")
     session = window.session
@@ -190,6 +191,7 @@ def test_a_displayed_iteration_is_not_a_change(window, qtbot, tmp_path):
     assert session.document.now.summary == session.history.records[0].end.summary
 
 
+@pytest.mark.slow
 def test_unsaved_work_is_saved_to_the_opened_session(window, qtbot, tmp_path, monkeypatch):
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     run(window, qtbot, "laplacian")
@@ -206,6 +208,7 @@ def test_unsaved_work_is_saved_to_the_opened_session(window, qtbot, tmp_path, mo
     assert [record.name for record in window.session.history.records] == ["Laplacian"]
 
 
+@pytest.mark.slow
 def test_a_paused_run_is_saved(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_F10)
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
@@ -220,6 +223,7 @@ def test_a_paused_run_is_saved(window, qtbot, tmp_path):
     window.refresh()
 
 
+@pytest.mark.slow
 def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window):
     work(window, qtbot)
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
@@ -232,6 +236,7 @@ def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window)
     assert bare_window.canvas.pose == pose
 
 
+@pytest.mark.slow
 def test_a_damaged_session_is_rejected_and_the_open_mesh_stays(window, qtbot, tmp_path):
     path = tmp_path / "work.hexmend"
     window.features["session"].save_and_wait(path)

@@ -37,7 +37,6 @@ def counts(window):
     return named(window, QLabel, "Counts").text()
 
 
-@pytest.mark.slow
 def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
     window, document = endless, endless.session.document
     start = document.now
@@ -70,6 +69,7 @@ def test_a_complete_run_untangles_and_shows_it(window, qtbot):
     assert "invalid" not in counts(window)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("back", [Qt.Key.Key_Z, Qt.Key.Key_R], ids=["undo", "reset"])
 def test_the_outcome_of_a_run_follows_undo_and_redo(window, qtbot, back):
     panel, before = window.features["smooth"].panel, counts(window)
@@ -112,6 +112,7 @@ def slow_method(monkeypatch):
     go_on.set()
 
 
+@pytest.mark.slow
 def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_method):
     before = window.session.document.now
     click(window, "Run")

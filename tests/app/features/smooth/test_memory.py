@@ -74,6 +74,7 @@ def test_a_recipe_and_a_comparison_need_consent(window, asked):
     assert len(asked) == 2
 
 
+@pytest.mark.slow
 def test_a_branch_without_consent_leaves_the_active_run(window, qtbot, asked):
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0))
     click(window, "Step")

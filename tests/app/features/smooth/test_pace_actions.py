@@ -26,6 +26,7 @@ def _menu(window, title):
     return next(one.menu() for one in window.menuBar().actions() if one.text().replace("&", "") == title)
 
 
+@pytest.mark.slow
 def test_actions_and_sessions_have_the_result_and_not_what_is_shown_on_the_way(window, qtbot):
     session = window.session
     session.run.set_pace(Pace.EASED)
@@ -40,6 +41,7 @@ def test_actions_and_sessions_have_the_result_and_not_what_is_shown_on_the_way(w
         assert not session.run.view.eased.active
 
 
+@pytest.mark.slow
 def test_keys_that_move_the_camera_leave_the_easing_and_others_end_it(window, qtbot):
     session, view = window.session, window.canvas.interactor
     session.run.set_pace(Pace.EASED)

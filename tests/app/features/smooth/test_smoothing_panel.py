@@ -137,6 +137,7 @@ def test_the_status_shows_progress_and_wraps_the_outcome(panel, qtbot):
     assert sentence.width() <= panel.width()
 
 
+@pytest.mark.slow
 def test_buttons_show_their_actions(window, qtbot):
     window.show_panel("run")
     buttons = window.features["smooth"].panel.buttons

@@ -20,8 +20,6 @@ from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
-
 
 @pytest.mark.parametrize("name", ["irregular", "sharp", "fixed", "free"])
 def test_a_key_shows_and_hides_a_layer(five, name):
@@ -38,6 +36,7 @@ def test_a_key_shows_and_hides_a_layer(five, name):
     np.testing.assert_array_equal(pixels(five), before)
 
 
+@pytest.mark.slow
 def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
     press_key(five, "kinds")
     qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.is_on("kinds"), timeout=PATIENCE)
@@ -57,6 +56,7 @@ def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
     assert f"{after.count(NodeClass.CURVE)} on curves" in texts(panel, "kinds")
 
 
+@pytest.mark.slow
 def test_a_pin_changes_the_class_of_a_boundary_node(five, qtbot):
     press_key(five, "kinds")
     qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.is_on("kinds"), timeout=PATIENCE)
@@ -67,6 +67,7 @@ def test_a_pin_changes_the_class_of_a_boundary_node(five, qtbot):
     qtbot.waitUntil(lambda: five.session.boundary_classifier.classes.kinds[node] == NodeClass.PATCH, timeout=PATIENCE)
 
 
+@pytest.mark.slow
 def test_locked_hexes_that_sliding_frees_are_counted(window, qtbot, tmp_path):
     io.write(tmp_path / "ball.vtu", slid(ball(3), 0.6, seed=0))
     open_and_wait(qtbot, window, tmp_path / "ball.vtu")
@@ -81,6 +82,7 @@ def test_locked_hexes_that_sliding_frees_are_counted(window, qtbot, tmp_path):
     assert said == [f"of {classes.locked} hexes", f"{classes.freed} freed by sliding"]
 
 
+@pytest.mark.slow
 def test_the_original_surface_is_that_of_the_opened_mesh(five):
     press_key(five, "original")
     window, opened = five, five.session.document.start.mesh.points
@@ -96,6 +98,7 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
     assert not window.canvas.viewport.overlay_layers.optional["original"].shown
 
 
+@pytest.mark.slow
 def test_a_pinned_node_changes_its_colour(five, qtbot):
     tick(five.features["structure"].panel.layers["fixed"].box)
     inside = int(np.flatnonzero(five.session.document.now.mesh.free)[0])
@@ -114,6 +117,7 @@ def test_a_pinned_node_changes_its_colour(five, qtbot):
     assert len(texts(five.features["structure"].panel, "fixed")) == 1
 
 
+@pytest.mark.slow
 def test_boundary_counts_follow_the_mesh(window, qtbot, tmp_path):
     mesh, one = grid(2), grid(1)
     apart = Mesh(
@@ -128,6 +132,7 @@ def test_boundary_counts_follow_the_mesh(window, qtbot, tmp_path):
         assert texts(panel, "fixed") == [f"{boundary} boundary"]
 
 
+@pytest.mark.slow
 def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
     mesh = grid(3)
     points = mesh.points.copy()
@@ -143,6 +148,7 @@ def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
     assert count(image, LOCKED) > 20
 
 
+@pytest.mark.slow
 def test_other_cells_are_shown_and_reported(window, qtbot, tmp_path):
     bare = grid(2, 2, 1)
     tip = bare.points[bare.hexes[0, 4:]].mean(axis=0) + [0, 0, 1]

@@ -65,6 +65,7 @@ def test_a_hex_is_tagged_and_untagged_by_key_undone_and_saved(window, panel, tmp
     assert kept.hex_sets["tagged"].tolist() == sorted([first, second])
 
 
+@pytest.mark.slow
 def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
     name = panel.findChild(QComboBox)
     name.lineEdit().selectAll()
@@ -86,6 +87,7 @@ def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
     assert list(tags(window)) == ["bad ones"]
 
 
+@pytest.mark.slow
 def test_a_typed_name_is_not_completed_or_added(window, panel):
     window.session.commands.tag("Tagged", [1])
     window.refresh()
@@ -97,6 +99,7 @@ def test_a_typed_name_is_not_completed_or_added(window, panel):
     assert [name.itemText(at) for at in range(name.count())] == ["Tagged"]
 
 
+@pytest.mark.slow
 def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
     window.session.commands.tag("one", [1, 2])
     window.session.commands.tag("two", [3])
@@ -134,6 +137,7 @@ def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot)
     np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
 
 
+@pytest.mark.slow
 def test_tagging_keeps_the_displayed_iteration(window, panel, qtbot):
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
     with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
@@ -147,6 +151,7 @@ def test_tagging_keeps_the_displayed_iteration(window, panel, qtbot):
     assert shown.text() == before
 
 
+@pytest.mark.slow
 def test_a_format_without_tags_is_reported(window, panel, tmp_path):
     window.session.commands.tag("lost", [5])
     assert window.features["save"].save_and_wait(tmp_path / "mesh.mesh")

@@ -168,6 +168,7 @@ def test_a_breakpoint_pauses_and_selects_the_hex(window, qtbot):
     assert frame.hit.sentence in slider(window).toolTip()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "method", "chooses"), [("Node moves", "laplacian", True), ("Line search backtracks", "global-sd", False)]
 )
@@ -189,6 +190,7 @@ def test_breakpoints_for_a_node_and_for_the_line_search(window, qtbot, text, met
     assert window.session.selection.node == (node if chooses else None)
 
 
+@pytest.mark.slow
 def test_saving_writes_the_displayed_iteration(window, qtbot, tmp_path):
     from hexmend import io
 
@@ -206,6 +208,7 @@ def test_saving_writes_the_displayed_iteration(window, qtbot, tmp_path):
     assert at(window, 12)()
 
 
+@pytest.mark.slow
 def test_memory_and_speed_are_remembered(window, qtbot):
     record = stepped(window, qtbot)
     each = (window.session.history.bytes) // 12

@@ -70,6 +70,7 @@ def test_a_part_is_saved_after_changes_and_closed_with_the_session(qapp):
     assert counter.closed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("window", [3, None, {"choices": 3}, {"choices": ["charts"]}])
 def test_damaged_data_of_earlier_versions_are_named(window):
     with pytest.raises(DecodeError, match="not a table"):
