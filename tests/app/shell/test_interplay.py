@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QTableWidget
+from PySide6.QtWidgets import QTableWidget
 
 from hexmend import io
 from hexmend.mesh.mesh import Mesh
@@ -21,7 +21,7 @@ from hexmend_app.picture.cut_shapes import Box, Plane
 from hexmend_app.scene.layers import mesh as mesh_layer
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, choose, click, key, move, named, open_and_wait, phase, pixels
+from tests.app.driving import LEFT, choose, click, key, move, open_and_wait, phase, pixels
 from tests.app.features.cut.test_cut import seen_at
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
@@ -53,24 +53,6 @@ def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path)
     window.refresh()
     assert window.window_actions["run"].isEnabled()
     assert window.features["smooth"].panel.isEnabled()
-
-
-def test_a_hex_is_tagged_only_under_a_name_and_only_if_there_is_one(window):
-    window.show_panel("tags")
-    name = named(window.features["tags"].panel, QComboBox, "Tag as")
-    window.session.selection.choose(7)
-    name.setCurrentText("")
-    window.canvas.interactor.setFocus()
-    key(window, Qt.Key.Key_T)
-    assert "Enter a tag name" in window.messages.messages()[-1][1]
-    name.setCurrentText("bad")
-    window.session.selection.choose(None)
-    key(window, Qt.Key.Key_T)
-    assert "No hex selected" in window.messages.messages()[-1][1]
-    assert not window.session.document.now.mesh.hex_sets
-    window.session.selection.choose(7)
-    key(window, Qt.Key.Key_T)
-    assert window.session.document.now.mesh.hex_sets["bad"].tolist() == [7]
 
 
 def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):

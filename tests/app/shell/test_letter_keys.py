@@ -96,13 +96,3 @@ def test_text_fields_receive_letters_and_numbers(lists):
     lists.number.selectAll()
     QTest.keyClicks(lists.number, "11")
     assert (lists.editable.currentText(), lists.number.value(), lists.pressed) == ("slm", 11, [])
-
-
-def test_letters_change_nothing_in_a_floating_panel(lists, qtbot):
-    lists.dock.setFloating(True)
-    lists.dock.activateWindow()
-    lists.docked.setFocus()
-    qtbot.waitUntil(lambda: QApplication.focusWidget() is lists.docked, timeout=PATIENCE)
-    QTest.keyClicks(lists.docked, "stn")
-    assert lists.docked.currentIndex() == 0
-    lists.dock.setFloating(False)

@@ -7,7 +7,7 @@ from threading import Event
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
@@ -48,23 +48,6 @@ def test_the_table_has_the_values_of_the_core_and_the_mesh_does_not_change(compa
     cell = model(compared).index(row(compared, best), COLUMN["inverted"])
     assert cell.data(Qt.ItemDataRole.FontRole).bold()
     assert cell.data(Qt.ItemDataRole.AccessibleTextRole).endswith("best")
-
-
-@pytest.mark.slow
-def test_a_click_on_a_header_sorts_with_the_initial_mesh_first(compared):
-    header = table_of(compared).horizontalHeader()
-    column = COLUMN["q_mean"]
-    table_of(compared).scrollTo(model(compared).index(0, column))
-    place = QPoint(header.sectionViewportPosition(column) + 12, header.height() // 2)
-    orders = []
-    for _ in range(2):
-        QTest.mouseClick(header.viewport(), LEFT, pos=place)
-        entries = model(compared).entries
-        assert entries[0].name == "initial"
-        assert not any(one.record for one in entries[4:])
-        orders.append([one.record["q_mean"] for one in entries[1:4]])
-    assert orders[0] == sorted(orders[0], reverse=orders[0][0] > orders[0][-1])
-    assert orders[1] == orders[0][::-1]
 
 
 @pytest.mark.slow
@@ -147,16 +130,6 @@ def test_a_result_replaces_the_mesh_and_can_be_undone(compared):
     assert compared.session.document.undo_title == METHODS["laplacian"].title
     key(compared, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert compared.session.document.now.mesh is before
-
-
-@pytest.mark.slow
-def test_methods_run_with_their_parameters(comparing, qtbot):
-    choose(comparing, "getme", SHORT, relaxation=0.25)
-    choose(comparing, "laplacian", SHORT)
-    choose_methods(comparing, "getme")
-    press(button(comparing, "Run comparison"))
-    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
-    assert comparing.session.comparison.of("getme").row.parameters["relaxation"] == 0.25
 
 
 @pytest.mark.slow

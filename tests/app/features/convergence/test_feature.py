@@ -90,22 +90,6 @@ def test_charts_are_redrawn_during_a_run_by_a_timer(window, qtbot, panel):
 
 
 @pytest.mark.slow
-def test_hidden_charts_are_drawn_once_they_are_visible(window, qtbot):
-    panel, record = window.features["convergence"].panel, run(window, qtbot)
-    assert record not in [one.record for one in panel.curves]
-    window.show_panel("convergence")
-    qtbot.waitUntil(lambda: [one.record for one in panel.curves] == [record], timeout=PATIENCE)
-
-
-@pytest.mark.slow
-def test_another_mesh_has_no_curves(window, qtbot, panel, mesh_file):
-    run(window, qtbot)
-    window.session.document.replace(window.session.document.start, mesh_file)
-    window.refresh()
-    assert panel.curves == []
-
-
-@pytest.mark.slow
 def test_charts_are_saved_as_figures_and_values_of_all_runs_as_a_table(window, qtbot, panel, tmp_path):
     first = run(window, qtbot, "mend", 5)
     window.session.timeline.go(first, 2)

@@ -80,15 +80,6 @@ def test_marks_are_undone_redone_and_removed(window, ends):
 
 
 @pytest.mark.slow
-def test_the_same_node_twice_marks_nothing(window, ends):
-    select(window, ends[0])
-    assert window.action("mark_curve").text() == "&Mark curve from this node"
-    mark(window, [ends[0], ends[0]])
-    assert not len(marked(window))
-    assert window.session.document.undo_title is None
-
-
-@pytest.mark.slow
 def test_a_saved_mesh_and_a_session_have_the_marks(window, qtbot, ends, tmp_path):
     mark(window, ends)
     expected = marked(window)

@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
 from hexmend import io
-from hexmend_app.picture import Cut, Plane
+from hexmend_app.picture import Cut
 from tests.app.driving import LEFT, drag, key, move, named, open_and_wait, pixels, press, seen_at, tick
 from tests.core.grids import grid
 
@@ -141,30 +141,6 @@ def test_the_sphere_is_moved_and_resized_in_the_view(window, qtbot):
 
 
 @pytest.mark.slow
-def test_the_sphere_is_centred_on_the_selected_hex(window):
-    key(window, Qt.Key.Key_C)
-    choose(window, "Sphere")
-    button = named(window.features["cut"].panel, QPushButton, "Centre on hex")
-    assert not button.isEnabled()
-    window.session.selection.choose(17)
-    window.refresh()
-    press(button)
-    mesh = window.session.document.now.mesh
-    assert window.session.view.look.cut.sphere.centre == pytest.approx(mesh.points[mesh.hexes[17]].mean(axis=0))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("kind", "handles"), [("Slab", "plane"), ("Sphere", "sphere"), ("Box", "box")])
-def test_only_the_handles_of_the_cut_are_in_the_view(window, kind, handles):
-    key(window, Qt.Key.Key_C)
-    choose(window, kind)
-    on = {name for name in ("plane", "sphere", "box") if getattr(window.canvas, name).widget.GetEnabled()}
-    assert on == {handles}
-    tick(named(window, QCheckBox, "Handles"))
-    assert not getattr(window.canvas, handles).widget.GetEnabled()
-
-
-@pytest.mark.slow
 def test_handles_are_hidden_while_a_small_part_of_the_mesh_is_isolated(window, qtbot, tmp_path):
     io.write(tmp_path / "bar.vtu", grid(9, 1, 1))
     open_and_wait(qtbot, window, tmp_path / "bar.vtu")
@@ -177,16 +153,6 @@ def test_handles_are_hidden_while_a_small_part_of_the_mesh_is_isolated(window, q
     window.session.view.end_isolation()
     window.refresh()
     assert window.canvas.plane.widget.GetEnabled()
-
-
-@pytest.mark.slow
-def test_the_slab_is_dragged_by_its_middle(window):
-    key(window, Qt.Key.Key_C)
-    choose(window, "Slab")
-    slab = window.session.view.look.cut.slab
-    turned = Plane((0.0, 0.05, 1.0), point=(1, 2, 3))
-    window.canvas.plane_dragged.emit(turned)
-    assert window.session.view.look.cut.slab == slab.moved_to(Plane((0, 0, 1), point=(1, 2, 3)))
 
 
 @pytest.mark.slow

@@ -70,17 +70,3 @@ def test_pictures_and_sessions_restore_the_cut_hexes(window, moved, qtbot, tmp_p
     window.session.view.set_cut(CUT)  # a new cut
     window.refresh()
     assert (window.canvas.viewport.kept() != moved).any()
-
-
-def test_a_preview_of_another_cut_does_not_change_the_view(window, moved):
-    scene = window.canvas.scene(Page(pixels=(100, 80)))
-    window.canvas.draw_page(replace(scene, cut=Cut.at((0, 0, 1), (2.0, 2.0, 2.0))))
-    window.session.view.change(show={"shrink": 0.1})
-    window.refresh()
-    np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)
-
-
-def test_a_scene_of_an_unmoved_mesh_lists_no_hexes(window, qtbot):
-    window.session.view.set_cut(CUT)
-    window.refresh()
-    assert window.canvas.scene(Page()).cut.hexes == ""

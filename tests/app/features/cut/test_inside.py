@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel, QPushButton, QSlider, QSpinBox
+from PySide6.QtWidgets import QPushButton, QSlider, QSpinBox
 
 from hexmend import gallery, io
 from hexmend_app.features.cut.inside_panel import InsidePanel
@@ -14,9 +14,8 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.shell.start.program import application
-from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.widgets.inputs.slider_box import SliderBox
-from tests.app.driving import LEFT, choose, click, named, open_and_wait, press
+from tests.app.driving import LEFT, named, open_and_wait
 from tests.patience import PATIENCE
 
 PEEL, SHRINK, RINGS = "Peel layers", "Shrink hexes", "Rings around isolated hexes"
@@ -110,24 +109,6 @@ def test_buttons_are_enabled_if_hexes_are_isolated_or_dug_away(panel):
 # The window
 
 
-@pytest.mark.slow
-def test_hexes_are_dug_away_and_restored(window):
-    view, panel = window.session.view, window.features["cut"].inside
-    for h in (0, 1, 1, 2):
-        view.dig(h)
-    window.refresh()
-    assert [label for label in panel.findChildren(QLabel) if label.text() == "3 hexes hidden"]
-    assert not {0, 1, 2} & set(faces(window))
-    press(named(panel, QPushButton, "Show last"))
-    assert view.look.show.hidden == {0, 1}
-    press(named(panel, QPushButton, "Show hidden"))
-    assert not view.look.show.hidden
-    view.dig(7)
-    view.undig_last()
-    view.undig_last()
-    assert not view.look.show.hidden
-
-
 def test_everything_combines(window):
     view = window.session.view
     mesh, figures = window.session.document.now.mesh, window.session.document.now.figures
@@ -148,29 +129,6 @@ def test_everything_combines(window):
     np.testing.assert_array_equal(
         np.unique(faces(window), return_counts=True), [expected.nonzero()[0], [6] * expected.sum()]
     )
-
-
-@pytest.mark.slow
-def test_shrunk_hexes_follow_moving_nodes(window, qtbot):
-    slider = named(window.features["cut"].inside, QSlider, SHRINK)
-    slider.setFocus()
-    for _ in range(5):
-        QTest.keyClick(slider, Qt.Key.Key_PageUp)
-    assert window.session.view.look.show.shrink == 0.3
-    window.session.view.change(show={"peel": 3})
-    window.refresh()
-    chosen = np.flatnonzero(window.session.document.now.mesh.topology.layers >= 3)
-    before = window.canvas.viewport.mesh_layer.faces
-    choose(window, "laplacian")
-    click(window, "Step")
-    qtbot.waitUntil(lambda: window.session.run.phase is Phase.PAUSED, timeout=PATIENCE)
-    window.refresh()
-    drawn = window.canvas.viewport
-    assert drawn.mesh_layer.faces is before  # nothing depends on quality, so the faces are reused
-    corners = drawn.frame.mesh.points[drawn.frame.mesh.hexes[chosen]]
-    assert not np.array_equal(drawn.frame.mesh.points, window.session.document.start.mesh.points)
-    expected = corners + 0.3 * (corners.mean(axis=1, keepdims=True) - corners)
-    np.testing.assert_allclose(drawn.mesh_layer.whole.points, expected.reshape(-1, 3), atol=1e-12)
 
 
 @pytest.mark.slow

@@ -9,9 +9,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import end_run
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import press
 from tests.patience import PATIENCE
 
@@ -49,12 +47,6 @@ def test_findings_are_listed_with_their_locations(window, panel):
     assert "Hexes 27, 28, 29" in texts(panel)
 
 
-@pytest.mark.slow
-def test_a_finding_is_shown_in_the_view(window, panel):
-    press(buttons(panel, "Show")[0])
-    assert set(range(27, 54)) == set(window.session.view.look.show.isolate.hexes)
-
-
 def repair(qtbot, session, button):
     """Press a button that repairs, and wait until the mesh is repaired."""
     with qtbot.waitSignal(session.repairer.ended, timeout=PATIENCE):
@@ -89,18 +81,6 @@ def test_all_is_repaired_at_once_and_methods_run_on_the_repaired_mesh(window, pa
         session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
     session.commands.reset()
     assert session.document.now.mesh.n_nodes == 112
-
-
-@pytest.mark.slow
-def test_a_finding_is_shown_while_a_run_is_paused_too(window, panel, qtbot):
-    session = window.session
-    repair(qtbot, session, buttons(panel, "Repair")[0])  # a run refuses left-handed hexes
-    qtbot.waitUntil(lambda: len(buttons(panel, "Repair")) == 1, timeout=PATIENCE)
-    session.commands.step(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=30, tolerance=0)), 1)
-    qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED, timeout=PATIENCE)
-    press(buttons(panel, "Show")[-1])
-    assert set(range(27, 54)) == set(session.view.look.show.isolate.hexes)
-    end_run(session)
 
 
 @pytest.mark.slow

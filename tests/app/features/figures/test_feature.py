@@ -74,14 +74,6 @@ def test_the_export_can_be_cancelled(window, qtbot, folder):
     assert not (folder / "captions.md").exists()
 
 
-@pytest.mark.slow
-def test_a_folder_that_cannot_be_created_is_reported(window, folder):
-    folder.write_text("a file")
-    window.window_actions["figure_set"].trigger()
-    assert not window.features["figures"].going_on
-    assert "is a file" in " ".join(window.messages.messages()[-1])
-
-
 @pytest.fixture
 def page(tmp_path, monkeypatch):
     path = tmp_path / "report.html"

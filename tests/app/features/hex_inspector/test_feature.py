@@ -13,7 +13,6 @@ from PySide6.QtWidgets import QCheckBox, QLabel
 from hexmend import io
 from hexmend.boundary import NodeClass
 from hexmend.quality import METRICS
-from hexmend.run import StoppingCriteria
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.boundary_classifier import node_classes
@@ -49,17 +48,6 @@ def test_a_click_in_the_view_selects_a_hex_and_a_drag_does_not(window, qtbot):
 
 
 @pytest.mark.slow
-def test_a_click_in_the_view_does_not_open_the_drawer(window):
-    size = window.canvas.size()
-    click_view(window)
-    assert window.session.selection.hex is not None
-    assert not window.in_front("hex")
-    assert window.canvas.size() == size
-    window.docks.set_folded(False)
-    assert window.in_front("hex")
-
-
-@pytest.mark.slow
 def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot):
     camera = window.canvas.viewport.camera
     before = np.array(camera.GetFocalPoint())
@@ -78,57 +66,6 @@ def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot)
     assert window.session.selection.hex == worst
     key(window, Qt.Key.Key_Escape)
     assert window.session.selection.hex is None
-
-
-@pytest.mark.slow
-def test_a_hex_stays_selected_during_a_run(window, qtbot):
-    key(window, Qt.Key.Key_N)
-    worst = window.session.selection.hex
-    choose(window, window.session.run_setup.method, StoppingCriteria(tolerance=1e-2))
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
-    window.show_panel("worst")
-    window.refresh()
-    assert window.session.selection.hex == worst
-    assert not window.session.document.now.figures.inverted[worst]
-    assert window.features["hex_inspector"].worst_list.hexes[0] == window.session.document.now.figures.q.argmin()
-
-
-@pytest.mark.slow
-def test_the_list_of_the_worst_is_saved_or_an_error_is_shown(window, tmp_path):
-    assert window.features["hex_inspector"].save(tmp_path / "worst.csv")
-    lines = (tmp_path / "worst.csv").read_text().splitlines()
-    assert len(lines) == 1 + len(window.features["hex_inspector"].worst_list.hexes)
-    assert not window.features["hex_inspector"].save(tmp_path / "nowhere" / "worst.csv")
-    assert window.messages.messages()[-1][0] == "error"
-
-
-@pytest.mark.slow
-def test_a_pinned_node_does_not_move_and_undo_unpins_it(window, qtbot):
-    mesh = window.session.document.now.mesh
-    inner = int(np.flatnonzero(mesh.free)[50])
-    h = int(np.flatnonzero((mesh.hexes == inner).any(axis=1))[0])
-    window.session.selection.choose(h)
-    window.features["hex_inspector"].panel.node_chosen.emit(inner)
-    assert window.session.selection.node == inner
-    window.show_panel("hex")
-    window.refresh()
-    pin = next(b for b in window.features["hex_inspector"].panel.findChildren(QCheckBox) if b.text() == "Pinned")
-    assert not pin.isChecked()
-    QTest.mouseClick(pin, LEFT, pos=QPoint(8, pin.height() // 2))
-    assert window.session.document.now.mesh.pinned[inner]
-    assert window.session.document.undo_title == "pin"
-    choose(window, "laplacian")
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
-    np.testing.assert_array_equal(window.session.document.now.mesh.points[inner], mesh.points[inner])
-    window.session.commands.undo()
-    window.refresh()
-    assert pin.isChecked()
-    window.session.commands.undo()
-    assert window.session.document.now.mesh.free[inner]
-    window.refresh()
-    assert not pin.isChecked()
 
 
 @pytest.mark.slow
@@ -166,19 +103,6 @@ def test_a_boundary_node_pinned_by_key_does_not_slide(window, qtbot, tmp_path):
 
 
 @pytest.mark.slow
-def test_the_class_of_a_boundary_node_is_shown(window, qtbot):
-    mesh = window.session.document.now.mesh
-    window.show_panel("show")
-    window.refresh()
-    qtbot.waitUntil(lambda: window.session.boundary_classifier.of(mesh) is not None, timeout=PATIENCE)
-    node = int(np.flatnonzero(window.session.boundary_classifier.classes.kinds == NodeClass.CORNER)[0])
-    window.session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
-    window.refresh()
-    labels = window.features["hex_inspector"].panel.findChildren(QLabel)
-    assert any(f"Node {node:,}: boundary, a corner, " in label.text() for label in labels)
-
-
-@pytest.mark.slow
 def test_the_distance_of_a_node_that_was_moved_off_its_corner_is_shown(window, qtbot):
     session = window.session
     mesh = session.document.now.mesh
@@ -206,19 +130,6 @@ def test_the_distance_of_a_node_that_was_moved_off_its_corner_is_shown(window, q
     session.commands.reset()  # the classes are not wanted and stay those of the moved node
     window.refresh()
     assert not any("off its corner" in label.text() for label in labels)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])
-def test_the_histogram_is_saved_as_picture_or_as_counts(window, tmp_path, suffix):
-    path = tmp_path / f"histogram{suffix}"
-    assert window.features["histogram"].save(path)
-    starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"q from,q to,at the start,now"}
-    assert path.read_bytes().startswith(starts[suffix])
-    if suffix == ".csv":
-        rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
-        assert sum(int(row[3]) for row in rows) == window.session.document.now.mesh.n_hexes
-        assert int(rows[0][3]) == window.session.document.now.summary.inverted
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ from PySide6.QtTest import QTest
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
 from tests.app.driving import LEFT, move
-from tests.app.features.histogram.mouse import ends, nothing_pending, point_at
+from tests.app.features.histogram.mouse import ends, point_at
 from tests.patience import PATIENCE
 
 
@@ -62,17 +62,6 @@ def test_a_drag_moves_an_end_or_the_whole_range(histogram, announced, drag):
     assert ends(announced[-1]) == (pytest.approx(0.6, abs=0.021), 1)  # keeps its width at the limit
 
 
-def test_a_drag_announces_ranges_but_not_at_every_move(histogram, announced, qtbot):
-    viewport, moves = histogram.plot.plot.viewport(), 60
-    QTest.mousePress(viewport, LEFT, pos=point_at(histogram, 0.2))
-    for x in np.linspace(0.3, 0.9, moves):
-        move(viewport, point_at(histogram, x), LEFT)
-    qtbot.waitUntil(lambda: nothing_pending(histogram), timeout=PATIENCE)
-    assert 1 < len(announced) < moves
-    assert announced[-1] == histogram.range()
-    QTest.mouseRelease(viewport, LEFT, pos=point_at(histogram, 0.9))
-
-
 def test_a_double_click_shows_all_hexes(histogram, announced, qtbot):
     histogram.set_range(Show((0.3, 0.5), "q"))
     # Through the window, which handles the second press like that of a mouse.
@@ -80,16 +69,6 @@ def test_a_double_click_shows_all_hexes(histogram, announced, qtbot):
     QTest.mouseDClick(histogram.windowHandle(), LEFT, pos=position)
     qtbot.waitUntil(lambda: announced == [None], timeout=PATIENCE)
     assert histogram.range() is None
-
-
-def test_setters_emit_no_signal(histogram, announced, data, qtbot):
-    histogram.set_range(Show((0.1, 0.2), "q"))
-    histogram.set_current(*data)
-    histogram.set_range(None)
-    histogram.set_metric("scaled-jacobian")
-    qtbot.waitUntil(lambda: nothing_pending(histogram), timeout=PATIENCE)
-    assert announced == []
-    assert histogram.summary.text() == "No mesh is open."
 
 
 def test_a_range_of_an_unbounded_metric_extends_to_infinity(histogram, announced, drag, condition):

@@ -143,16 +143,6 @@ def test_a_click_on_the_bar_of_inverted_hexes_shows_only_them(window, histogram)
 
 
 @pytest.mark.slow
-def test_a_refresh_during_a_drag_does_not_reset_the_range(window, qtbot, histogram):
-    view = histogram.plot.view
-    view.brushed.emit((0.2, 0.4))
-    view.brushed.emit((0.2, 0.5))  # pending
-    window.refresh()
-    qtbot.waitUntil(lambda: window.session.view.look.show.by_quality == histogram.range(), timeout=PATIENCE)
-    assert histogram.range().high == pytest.approx(0.5, abs=1e-9)
-
-
-@pytest.mark.slow
 def test_the_bars_have_the_colours_of_the_view(window, qtbot, histogram):
     window.refresh()
     gradient, colouring = histogram.series()[0].gradient, window.canvas.colouring

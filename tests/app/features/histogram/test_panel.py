@@ -4,12 +4,10 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QActionGroup
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
 
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from tests.app.driving import LEFT, turn
-from tests.app.features.histogram.mouse import point_at
 
 
 def test_the_tooltip_has_the_counts_at_the_start_and_now(histogram, data):
@@ -24,16 +22,6 @@ def test_the_tooltip_has_the_counts_at_the_start_and_now(histogram, data):
     bar = histogram.describe_at(sum(Axis("q").inverted) / 2)
     assert bar == f"inverted\nat the start: {inverted.sum()} hexes\nnow: 0 hexes"
     assert histogram.describe_at(-0.05) == histogram.describe_at(1.01) == ""
-
-
-def test_the_plot_has_no_menu_and_no_buttons_and_does_not_zoom(histogram):
-    plot = histogram.plot.plot
-    assert not plot.getPlotItem().menuEnabled()
-    assert plot.getPlotItem().buttonsHidden
-    before = plot.viewRange()
-    QTest.mouseClick(plot.viewport(), Qt.MouseButton.RightButton, pos=point_at(histogram, 0.5))
-    assert QApplication.activePopupWidget() is None
-    assert plot.viewRange() == before
 
 
 def test_inverted_hexes_have_a_separate_bar_for_every_metric(histogram):
@@ -89,20 +77,6 @@ def test_snapshots_are_drawn_renamed_and_removed(histogram, data):
     turn()
     assert list(histogram.legend.entries) == [0]
     assert len(histogram.plot.outlines) == 3
-
-
-def test_an_empty_name_is_ignored(histogram, data):
-    signals = []
-    histogram.renamed.connect(lambda *signal: signals.append(signal))
-    histogram.set_snapshots([(1, "mend 4", *data)])
-    turn()
-    name = histogram.legend.entries[1].name
-    QTest.mouseClick(name, LEFT)
-    name.selectAll()
-    QTest.keyClick(name, Qt.Key.Key_Backspace)
-    QTest.keyClick(name, Qt.Key.Key_Return)
-    assert signals == []
-    assert name.text() == "mend 4"
 
 
 def test_the_axis_does_not_change_with_the_values(histogram, condition):

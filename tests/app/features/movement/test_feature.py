@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLabel
+from PySide6.QtWidgets import QLabel
 
 from hexmend import gallery, io
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
-from hexmend_app.bench.windows import end_run
 from hexmend_app.picture.appearance import Since
 from hexmend_app.picture.colours import Range
 from hexmend_app.picture.cut import Cut
@@ -76,32 +75,6 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
 
 
 @pytest.mark.slow
-def test_displacements_are_among_the_metrics_of_the_colours(window, record, qtbot):
-    colours = window.features["appearance"].panel
-    combo, maps = (
-        next(box for box in colours.findChildren(QComboBox) if box.accessibleName() == name)
-        for name in ("Metric", "Colour map")
-    )
-    window.show_panel("look")
-    qtbot.waitUntil(combo.isVisible, timeout=PATIENCE)
-    combo.setFocus()
-    while combo.currentData() != "moved-mean":
-        QTest.keyClick(combo, Qt.Key.Key_Down)
-    window.refresh()
-    assert window.session.view.look.colours.metric == "moved-mean"
-    window.refresh()
-    assert window.features["movement"].panel.colours.value() == "moved-most"
-    QTest.keyClick(combo, Qt.Key.Key_Down)
-    window.refresh()
-    assert window.session.view.look.colours.metric == "q-change"
-    assert maps.currentText() == "brown – teal"
-    QTest.keyClick(combo, Qt.Key.Key_Home)
-    window.refresh()
-    assert [maps.itemText(k) for k in range(4)] == ["viridis", "cividis", "plasma", "inferno"]
-    assert window.session.view.look.colours.map == "viridis"
-
-
-@pytest.mark.slow
 def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     free = window.session.document.now.summary.free_nodes
     press(panel.arrows, "all")
@@ -163,31 +136,6 @@ def test_newly_invalid_hexes_are_isolated(window, mesh_to_invert, record, panel,
     isolated = window.session.view.look.show.isolate.hexes
     assert window.session.document.now.figures.invalid[list(isolated)].all()
     assert len(isolated) == movement.counts.newly_invalid
-
-
-@pytest.mark.slow
-def test_another_mesh_is_opened_while_a_displacement_is_shown(window, record, panel, qtbot, tmp_path):
-    press(panel.colours, "moved-most")
-    press(panel.arrows, "all")
-    io.write(tmp_path / "other.vtu", gallery.make("cube", size=64, scramble=0.3))
-    open_and_wait(qtbot, window, tmp_path / "other.vtu")
-    window.refresh()
-    layer = window.canvas.viewport.overlay_layers.arrows
-    assert (layer.drawn, layer.moved) == (0, 0)
-    assert not window.canvas.viewport.colours.values.any()
-    assert text_of(panel, "Nodes").startswith("0 of ")
-
-
-@pytest.mark.slow
-def test_the_displacement_is_shown_during_a_run(window, panel, qtbot):
-    press(panel.colours, "moved-most")
-    press(panel.since, "iteration")
-    titles = set()
-    window.session.document.points_moved.connect(lambda: titles.add(window.canvas.viewport.colouring.title))
-    window.session.run.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=100_000, tolerance=0))
-    qtbot.waitUntil(lambda: len(titles) > 3, timeout=PATIENCE)
-    end_run(window.session)
-    assert all(title.startswith("mean edge lengths moved since") for title in titles)
 
 
 @pytest.mark.slow

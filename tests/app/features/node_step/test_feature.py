@@ -9,15 +9,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QLabel
 
-from hexmend.io import write
-from hexmend.mesh.second_order import MID_EDGES
 from hexmend.node_step import explain
 from hexmend.smoothers import METHODS
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Isolate
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import DESCENT, SEARCH
-from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, open_and_wait, phase, pixels, press, tick
+from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, phase, pixels, press, tick
 from tests.app.features.node_step.step_display import (
     button,
     count_pixels,
@@ -27,7 +25,6 @@ from tests.app.features.node_step.step_display import (
     wait_for_step,
     wait_for_text,
 )
-from tests.core.grids import grid, scrambled, with_edge_midpoints
 from tests.patience import PATIENCE
 
 # One node
@@ -96,20 +93,6 @@ def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
 
 
 @pytest.mark.slow
-def test_a_node_that_a_pinned_higher_order_node_fixes_is_not_called_pinned(node_window, qtbot, tmp_path):
-    window, mesh = node_window, with_edge_midpoints(scrambled(grid(3), 0.1))
-    write(tmp_path / "quadratic.vtu", mesh)
-    open_and_wait(qtbot, window, tmp_path / "quadratic.vtu")
-    mesh = window.session.document.now.mesh
-    inner = int(np.flatnonzero(mesh.free)[0])
-    row, corner = np.argwhere(mesh.hexes == inner)[0]
-    window.session.commands.pin(int(mesh.mid_nodes[row, np.flatnonzero((corner == MID_EDGES).any(axis=1))[0]]), True)
-    window.session.selection.choose(int(row), inner)
-    wait_for_text(window, qtbot, "is fixed, by a rule of motion or by a fixed node of higher order")
-    assert shown_step(window) is None
-
-
-@pytest.mark.slow
 def test_an_invalid_parameter_is_reported(node_window, qtbot):
     window = node_window
     if not window.features["smooth"].panel.stage.parameters.isVisible():
@@ -147,17 +130,6 @@ def test_no_step_is_shown_during_a_run_and_none_is_made_while_it_is_paused(node_
     if window.session.run.phase in (Phase.RUNNING, Phase.PREPARING):
         assert "A run is in progress" in texts(window)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-
-
-@pytest.mark.slow
-def test_nothing_is_computed_while_another_panel_is_in_front(node_window, qtbot):
-    window = node_window
-    window.show_panel("convergence")
-    qtbot.waitUntil(lambda: shown_step(window) is None, timeout=PATIENCE)
-    choose_by_keys(window, "getme")
-    assert not window.session.node_step_task.busy
-    window.show_panel("node")
-    wait_for_step(window, qtbot, "getme")
 
 
 # Display

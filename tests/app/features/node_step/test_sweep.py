@@ -114,15 +114,3 @@ def test_going_back_to_an_iteration_ends_the_sweep(node_window, qtbot):
     window.session.commands.undo()
     window.session.commands.redo()
     assert window.session.document.now is stepped
-
-
-def test_only_local_methods_run_node_by_node(node_window, qtbot):
-    window = node_window
-    choose_by_keys(window, "mend")
-    wait_for_step(window, qtbot, "mend")
-    for id in ("next_node", "ten_nodes", "finish_sweep"):
-        assert not window.window_actions[id].isEnabled()
-    assert "Local steepest descent" in button(window, "10 nodes").toolTip()
-    now = window.session.document.now
-    key(window, Qt.Key.Key_F11)
-    assert window.session.document.now is now

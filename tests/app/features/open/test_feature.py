@@ -13,14 +13,12 @@ from PySide6.QtWidgets import QApplication, QPushButton
 
 from hexmend import gallery, io
 from hexmend.io.storage.file_progress import FileAction, file_operation, report
-from hexmend.run import StoppingCriteria
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.resources import demo_mesh
-from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.settings.recent_files import MAX_RECENT_FILES
 from hexmend_app.state.tasks import file_watcher, mesh_opener
 from hexmend_app.state.tasks.task import running
-from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
+from tests.app.driving import LEFT, key, named, open_and_wait, press
 from tests.patience import PATIENCE
 
 
@@ -134,16 +132,6 @@ def test_an_unreadable_file_shows_an_error_and_the_open_mesh_stays(window, qtbot
     assert window.messages.isVisible()
     key(window, Qt.Key.Key_Escape)
     assert not window.messages.isVisible()
-
-
-@pytest.mark.slow
-def test_opening_another_mesh_ends_the_run(window, qtbot, mesh_file):
-    choose(window, "local-sd", StoppingCriteria(tolerance=0.0))
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
-    open_and_wait(qtbot, window, mesh_file)
-    assert not window.session.run.busy
-    assert window.session.document.undo_title is None
 
 
 # Cancelling

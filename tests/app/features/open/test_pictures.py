@@ -62,24 +62,6 @@ def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_
 
 
 @pytest.mark.slow
-def test_the_selected_hex_is_marked_in_a_picture_which_restores_it(window, qtbot, mesh, tmp_path):
-    open_and_wait(qtbot, window, mesh)
-    window.refresh()
-    images = []
-    for selected in (None, 63):
-        window.session.selection.choose(selected)
-        window.refresh()
-        path = tmp_path / f"{selected}.png"
-        assert window.features["save"].picture(path, (300, 200))
-        images.append(np.asarray(Image.open(path).convert("RGB")).astype(int))
-    assert (np.abs(images[0] - images[1]).max(axis=2) > 60).sum() > 100
-    window.session.selection.choose(None)
-    open_and_wait(qtbot, window, tmp_path / "63.png")
-    assert window.session.selection.hex == 63
-    assert not window.session.view.look.show.marked
-
-
-@pytest.mark.slow
 def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     stage = Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3))

@@ -152,11 +152,3 @@ def test_a_mesh_that_differs_from_the_picture_is_reported(window, qtbot, files, 
     kind, title, text = message(window)
     assert (kind, title) == ("warning", "Part of p.png was not restored")
     assert expected in text
-
-
-@pytest.mark.slow
-def test_the_number_of_views_is_limited(window, qtbot, files, tmp_path):
-    path = render(tmp_path, *[files["one"]] * 2, *[files["two"]] * 2, files["three"])
-    open_and_wait(qtbot, window, path)
-    assert [view.name for view in window.session.side_views.all] == ["one (2)", "two", "two (2)"]
-    assert "“three” is not shown: the window shows at most 4 views." in message(window)[1]

@@ -11,8 +11,8 @@ from hexmend.iteration import StoppingCriteria
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, click, key, open_and_wait, phase
 from tests.app.driving import press as press_button
-from tests.core.boundary.solids import slid, wavy
-from tests.core.grids import grid, scrambled
+from tests.core.boundary.solids import slid
+from tests.core.grids import grid
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 from tests.patience import PATIENCE
 
@@ -86,18 +86,6 @@ def test_a_suggestion_is_selected_without_a_run_and_improves_the_mesh(window, qt
 
 
 @pytest.mark.slow
-def test_the_run_of_the_timeline_is_explained(window, qtbot):
-    run(window, qtbot, "laplacian", max_iterations=3)
-    run(window, qtbot, "mend", max_iterations=2)
-    assert "Why Mend stopped" in texts(window)
-    first = window.session.history.records[0]
-    window.session.timeline.choose(first)
-    assert "Why Laplacian stopped" in texts(window)
-    press(window, "Select: Mend")  # starts at the end of that run
-    assert window.session.timeline.shown_iteration.record is first
-
-
-@pytest.mark.slow
 def test_a_suggestion_that_undoes_the_run_restores_the_mesh_before_it(window, qtbot, tmp_path):
     io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=864))
     open_and_wait(qtbot, window, tmp_path / "sound.vtu")
@@ -142,29 +130,6 @@ def test_locked_hexes_are_listed_and_isolated(window, qtbot, locked):
 
 
 @pytest.mark.slow
-def test_the_camera_moves_to_the_hexes_that_limit_the_least_scaled_jacobian(window, qtbot, tmp_path):
-    io.write(tmp_path / "wavy.vtu", wavy(scrambled(grid(3), 0.3, 1), 0.2, 2))
-    open_and_wait(qtbot, window, tmp_path / "wavy.vtu")
-    ended = []
-    window.session.run.ended.connect(ended.append)
-    choose(window, "mend", goal="scaled-jacobian")
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    window.show_panel("outcome")
-    limiting = np.unique(ended[0].limits.hexes).tolist()
-    assert "Limiting: " in texts(window)
-    assert f'<a href="{limiting[0]}">{limiting[0]}</a>' in texts(window)
-    assert f"the minimum scaled Jacobian is {ended[0].after.scaled_jacobian_min:.4f}" in texts(window)
-    with qtbot.waitSignal(window.session.selection.visited, timeout=PATIENCE) as visited:
-        press(window, "Show the limiting hexes")
-    assert visited.args == [tuple(limiting)]
-    assert window.session.view.look.show.isolate.hexes == tuple(limiting)
-    key(window, Qt.Key.Key_Escape)
-    assert window.session.view.look.show.isolate is None
-    assert "The boundary slid" not in texts(window)
-
-
-@pytest.mark.slow
 def test_the_displacement_of_the_boundary_is_reported(window, qtbot, tmp_path):
     io.write(tmp_path / "slid.vtu", slid(grid(4), 0.3, seed=3))
     open_and_wait(qtbot, window, tmp_path / "slid.vtu")
@@ -193,16 +158,3 @@ def test_a_suggestion_unpins_nodes_that_keep_hexes_inverted(window, qtbot, tmp_p
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert window.session.document.now.summary.inverted == 0
-
-
-@pytest.mark.slow
-def test_a_run_without_iterations_is_explained(window, qtbot, tmp_path):
-    run(window, qtbot, "laplacian", max_iterations=1)
-    io.write(tmp_path / "one.vtu", grid(1))
-    window.session.document.mark_saved(tmp_path / "one.vtu")
-    open_and_wait(qtbot, window, tmp_path / "one.vtu")
-    run(window, qtbot, "mend")
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
-    assert "Why Mend stopped Nothing to do: every node is fixed." in texts(window)
-    run(window, qtbot, "laplacian")
-    assert "Why Laplacian stopped" in texts(window)

@@ -40,15 +40,6 @@ def test_it_says_what_a_run_has_changed_and_undoes_it(window, qtbot):
 
 
 @pytest.mark.slow
-def test_compare_shows_the_mesh_before_the_run_next_to_its_result(window, qtbot):
-    start = window.session.document.now
-    run(window, qtbot, "local-sd", max_iterations=2)
-    press(choice(window, "Compare"))
-    (view,) = window.session.side_views.all
-    assert view.state is start
-
-
-@pytest.mark.slow
 def test_it_is_removed_when_its_result_is_undone_by_other_means(window, qtbot):
     run(window, qtbot, "local-sd", max_iterations=2)
     window.messages.show_error("Other")

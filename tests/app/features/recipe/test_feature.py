@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QLabel, QLineEdit, QListWidget, QPushButton
+from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit, QListWidget, QPushButton
 
 from hexmend.iteration import StoppingCriteria
 from hexmend.run import smooth
@@ -105,30 +105,6 @@ def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
     choose(window, "laplacian")
     press(button(panel, "Replace the stage"))
     assert window.session.recipe_draft.stages[1].smoother == METHODS["laplacian"]()
-
-
-@pytest.mark.slow
-def test_enter_shows_a_stage_above(window, panel):
-    add(window, panel, "local-sd", {"p": 4.0})
-    add(window, panel, "mend", stop=StoppingCriteria())
-    click_on(panel, 0)
-    QTest.keyClick(panel.findChild(QListWidget), Qt.Key.Key_Return)
-    assert window.session.run_setup.stage == Stage(METHODS["local-sd"](p=4.0), SHORT)
-    shown = window.features["smooth"].panel
-    assert named(shown, QComboBox, "Method").currentText() == METHODS["local-sd"].title
-    assert (shown.stage.parameters.values()["p"], shown.stage.stop.values()) == (4, SHORT.values())
-
-
-@pytest.mark.slow
-def test_an_invalid_value_is_not_added(window, panel):
-    choose(window, "local-sd")
-    type_value(window, "p", "99")
-    press(button(panel, "Add"))
-    assert stages(panel) == []
-    QApplication.processEvents()
-    assert "Correct the marked value" in said(window)
-    type_value(window, "p", "3")
-    assert "Correct" not in said(window)
 
 
 @pytest.mark.slow

@@ -138,21 +138,6 @@ def test_runs_that_differ_in_rules_of_motion_alone_have_other_settings(window, q
 
 
 @pytest.mark.slow
-def test_the_active_run_is_named_so(window, qtbot):
-    window.show_panel("runs")
-    run_control = window.session.run
-    run_control.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=50), iterations=2)
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    window.refresh()
-    name = run_control.record.name
-    assert texts(window, NAME) == ["At the start", f"{name} (active)"]
-    run_control.stop()
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    window.refresh()
-    assert texts(window, NAME) == ["At the start", name]
-
-
-@pytest.mark.slow
 def test_iterations_that_arrive_leave_the_row_that_was_reached_by_keys(window, three):
     click(window, 3)
     table = panel(window).table

@@ -98,18 +98,6 @@ def test_saving_in_another_format_asks_nothing(deck, qtbot, monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("size", [(640, 480), (1500, 500)])
-def test_a_picture_has_the_requested_size(window, tmp_path, size):
-    window.action("cut").trigger()
-    window.refresh()
-    assert window.features["save"].picture(tmp_path / "view.png", size)
-    image = Image.open(tmp_path / "view.png")
-    assert image.size == size
-    colourful = np.ptp(np.asarray(image.convert("RGB")).astype(int), axis=2) > 60
-    assert colourful.mean() > 0.05
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("views", [1, 2, "wipe"])
 def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, views):
     session = window.session
@@ -133,25 +121,6 @@ def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, v
         assert here.shape == there.shape == (*scene.page.size[::-1], 3)
         assert np.abs(here - there).mean() < 0.5
         assert (np.ptp(here, axis=2) > 60).mean() > 0.05
-
-
-@pytest.mark.slow
-def test_the_dialog_remembers_the_last_picture(window, qtbot, tmp_path, monkeypatch):
-    save = window.features["save"]
-    dialog = save.picture_dialog()
-    qtbot.addWidget(dialog)
-    dialog.target.line.setText(str(tmp_path / "p.pdf"))
-    dialog.size_form.preset.setCurrentIndex(1)
-    dialog.size_form.preset.activated.emit(1)
-    monkeypatch.setattr(type(dialog), "exec", lambda self: True)
-    monkeypatch.setattr(save, "picture_dialog", lambda: dialog)
-    save.ask_picture()
-    assert (tmp_path / "p.pdf").read_bytes().startswith(b"%PDF")
-    monkeypatch.undo()
-    again = save.picture_dialog()
-    qtbot.addWidget(again)
-    assert (again.scene().page.width, again.scene().page.height) == (85, 60)
-    assert again.scene().camera.pose == window.canvas.pose
 
 
 @pytest.mark.slow
@@ -189,11 +158,3 @@ def test_only_data_of_the_visible_hexes_is_missed(window, qtbot, tmp_path, tagge
     qtbot.waitUntil(lambda: not saver.going_on, timeout=PATIENCE)
     missed = " ".join(text for _, title, text in window.messages.messages() if title == "Some data was not saved")
     assert ("element sets (far)" in missed) is warned
-
-
-@pytest.mark.slow
-def test_visible_hexes_that_cannot_be_written_are_reported(window, qtbot, tmp_path):
-    saver = window.features["save"].visible
-    saver.save(tmp_path / "missing" / "out.vtu", window.canvas.viewport)
-    qtbot.waitUntil(lambda: not saver.going_on, timeout=PATIENCE)
-    assert window.messages.messages()[-1][:2] == ("error", "Visible hexes not saved")

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QDialogButtonBox, QLabel, QLineEdit, QMessageBox
 
 from hexmend.errors import ParameterError
 from hexmend_app.features.save.picture_dialog import PictureDialog
-from hexmend_app.picture import Camera, ColourBarStyle, Page, PicturePanel, Scene, TextPlace, read_scene, write_scene
+from hexmend_app.picture import Camera, Page, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
 from tests.core.grids import grid
@@ -94,16 +94,6 @@ def test_a_file_is_replaced_only_after_confirmation(dialog, tmp_path, monkeypatc
     write(dialog, tmp_path / "p")
     save(dialog)
     assert bool(dialog.result()) == (answer == QMessageBox.StandardButton.Yes)
-
-
-def test_unchanged_settings_are_preserved(qtbot):
-    scene = Scene(
-        page=Page(170, 90, dpi=450, background="#102030", margin=2.5, crop=True, font_size=7.5),
-        bar=ColourBarStyle(TextPlace.RIGHT, (0.0, 0.25), "title"),
-        panels=(PicturePanel(caption="one"), PicturePanel(mesh=2, caption="two")),
-    )
-    assert made(qtbot, scene, views=("one", "two")).scene() == scene
-    assert made(qtbot).scene() == Scene(page=Page(pixels=(640, 480)))
 
 
 def test_a_size_is_chosen_in_millimetres_or_pixels(dialog):

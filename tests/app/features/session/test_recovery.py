@@ -201,30 +201,6 @@ def test_autosave_writes_only_changes(fresh_window, qtbot, own_state):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["session.hexmend", "earlier.hexmend"])
-def test_a_file_of_an_earlier_version_is_recovered(fresh_window, qtbot, own_state, mesh_file, name):
-    """Also if the window was killed while it converted the file."""
-    run(fresh_window, qtbot)
-    (own_state / "1-left").mkdir(parents=True)
-    session_data.write(own_state / "1-left" / name, fresh_window.session.to_data())
-    if name != "session.hexmend":
-        (own_state / "1-left/session.hexmend/arrays").mkdir(parents=True)
-        (own_state / "1-left/session.hexmend/arrays/0.npy").touch()
-    feature = fresh_window.features["session"]
-    feature.start_autosave()
-    (left,) = feature.recovery.recoverable
-    with qtbot.waitSignal(fresh_window.session.opener.ended, timeout=PATIENCE):
-        feature.recovery.recover(left)
-    assert len(fresh_window.session.history.records) == 1
-    fresh_window.session.view.change(show={"peel": 1})
-    with qtbot.waitSignal(feature.recovery.written, timeout=PATIENCE):
-        feature.recovery.write()
-    (own,) = own_state.iterdir()
-    assert sorted(one.name for one in own.iterdir()) == ["about.json", "lock", "session.hexmend"]
-    assert session_data.read(own / "session.hexmend").view.look.show.peel == 1
-
-
-@pytest.mark.slow
 def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state):
     recovery = fresh_window.features["session"].recovery
     recovery.begin()

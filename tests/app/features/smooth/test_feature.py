@@ -88,16 +88,6 @@ def test_the_outcome_of_a_run_follows_undo_and_redo(window, qtbot, back):
     assert named(panel, QLabel, "Progress").text() == progress
 
 
-@pytest.mark.slow
-def test_keys_step_and_stop(window, qtbot):
-    start = window.session.document.now
-    key(window, Qt.Key.Key_F10)
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    key(window, Qt.Key.Key_F5, SHIFT)
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert window.session.document.now is not start
-
-
 @pytest.fixture
 def slow_method(monkeypatch):
     """Block the preparation of a method until the returned event is set."""

@@ -137,27 +137,6 @@ def test_the_status_shows_progress_and_wraps_the_outcome(panel, qtbot):
     assert sentence.width() <= panel.width()
 
 
-@pytest.mark.slow
-def test_buttons_show_their_actions(window, qtbot):
-    window.show_panel("run")
-    buttons = window.features["smooth"].panel.buttons
-    for name, keys in (("run", "F5"), ("step", "F10"), ("stop", "Shift+F5"), ("reset", "Ctrl+R")):
-        action, button = window.action(name), buttons.button(name)
-        assert button.defaultAction() is action
-        assert f"({keys})" in button.toolTip()
-        assert button.isEnabled() is action.isEnabled()
-    assert buttons.button("run").text() == buttons.button("run").accessibleName() == "Run"
-    QTest.mouseClick(buttons.button("step"), _LEFT)
-    qtbot.waitUntil(lambda: buttons.button("run").text() == "Resume", timeout=PATIENCE)
-    assert window.action("run").iconText() == "Resume"
-    assert buttons.button("stop").isEnabled()
-    QTest.mouseClick(buttons.button("stop"), _LEFT)
-    qtbot.waitUntil(lambda: buttons.button("run").text() == "Run", timeout=PATIENCE)
-    QTest.mouseClick(buttons.button("reset"), _LEFT)
-    document = window.session.document
-    qtbot.waitUntil(lambda: document.now.mesh.points is document.start.mesh.points, timeout=PATIENCE)
-
-
 def test_a_collapsed_section_is_hidden_and_opens_by_key(panel):
     section = sections(panel)[0]
     section.collapse()

@@ -11,12 +11,11 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.page import Page
-from hexmend_app.scene.layers.optional.structure import KINDS, LOCKED, PINNED
+from hexmend_app.scene.layers.optional.structure import KINDS, LOCKED
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.boundary_classifier import PIN
-from tests.app.driving import choose, open_and_wait, tick
+from tests.app.driving import choose
 from tests.app.features.structure.layers import count, open_and_know, pixels, press_key, texts
-from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
@@ -68,21 +67,6 @@ def test_a_pin_changes_the_class_of_a_boundary_node(five, qtbot):
 
 
 @pytest.mark.slow
-def test_locked_hexes_that_sliding_frees_are_counted(window, qtbot, tmp_path):
-    io.write(tmp_path / "ball.vtu", slid(ball(3), 0.6, seed=0))
-    open_and_wait(qtbot, window, tmp_path / "ball.vtu")
-    window.show_panel("show")
-    window.refresh()
-    qtbot.waitUntil(
-        lambda: window.session.boundary_classifier.of(window.session.document.now.mesh) is not None, timeout=PATIENCE
-    )
-    window.refresh()
-    classes = window.session.boundary_classifier.classes
-    said = texts(window.features["structure"].panel, "locked")
-    assert said == [f"of {classes.locked} hexes", f"{classes.freed} freed by sliding"]
-
-
-@pytest.mark.slow
 def test_the_original_surface_is_that_of_the_opened_mesh(five):
     press_key(five, "original")
     window, opened = five, five.session.document.start.mesh.points
@@ -96,40 +80,6 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
     np.testing.assert_allclose(np.ptp(places, axis=0), np.ptp(opened, axis=0), rtol=1e-6)
     press_key(five, "original")
     assert not window.canvas.viewport.overlay_layers.optional["original"].shown
-
-
-@pytest.mark.slow
-def test_a_pinned_node_changes_its_colour(five, qtbot):
-    tick(five.features["structure"].panel.layers["fixed"].box)
-    inside = int(np.flatnonzero(five.session.document.now.mesh.free)[0])
-    five.session.view.change(show={"peel": 1})
-    five.refresh()
-    assert count(pixels(five), PINNED) == 0
-    visible = five.canvas.viewport.mesh_layer.faces.nodes
-    inside = int(visible[five.session.document.now.mesh.free[visible]][0])
-    five.session.commands.pin(inside, True)
-    five.refresh()
-    assert texts(five.features["structure"].panel, "fixed")[1] == "1 pinned"
-    nodes = five.canvas.viewport.overlay_layers.structure.nodes.poly
-    assert (nodes.cell_data["colours"] == tuple(bytes.fromhex(PINNED[1:]))).all(axis=1).sum() == 1
-    five.session.commands.undo()
-    five.refresh()
-    assert len(texts(five.features["structure"].panel, "fixed")) == 1
-
-
-@pytest.mark.slow
-def test_boundary_counts_follow_the_mesh(window, qtbot, tmp_path):
-    mesh, one = grid(2), grid(1)
-    apart = Mesh(
-        np.concatenate([mesh.points, one.points + 9]), np.concatenate([mesh.hexes, one.hexes + len(mesh.points)])
-    )
-    panel = window.features["structure"].panel
-    for name, each, boundary in (("one", mesh, 26), ("two", apart, 34)):
-        io.write(tmp_path / f"{name}.vtu", each)
-        open_and_wait(qtbot, window, tmp_path / f"{name}.vtu")
-        window.refresh()
-        assert texts(panel, "free") == ["1"]
-        assert texts(panel, "fixed") == [f"{boundary} boundary"]
 
 
 @pytest.mark.slow

@@ -9,8 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableWidget
 
 from hexmend import io
-from hexmend.run import StoppingCriteria
-from tests.app.driving import LEFT, choose, click, key, named, press
+from tests.app.driving import LEFT, choose, click, key, press
 from tests.patience import PATIENCE
 
 
@@ -135,26 +134,3 @@ def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot)
     window.session.commands.reset()
     assert tags(window) == {"kept": [5], "later": [6]}
     np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
-
-
-@pytest.mark.slow
-def test_tagging_keeps_the_displayed_iteration(window, panel, qtbot):
-    choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
-    shown = named(window, QLabel, "Iteration shown")
-    window.refresh()
-    before = shown.text()
-    assert before.endswith("of 3")
-    window.session.commands.tag("bad", [5])
-    window.refresh()
-    assert shown.text() == before
-
-
-@pytest.mark.slow
-def test_a_format_without_tags_is_reported(window, panel, tmp_path):
-    window.session.commands.tag("lost", [5])
-    assert window.features["save"].save_and_wait(tmp_path / "mesh.mesh")
-    kind, title, text = window.messages.messages()[-1]
-    assert (kind, title) == ("warning", "Some data was not saved")
-    assert "lost" in text

@@ -111,25 +111,6 @@ def test_shortcuts_show_other_iterations(window, qtbot):
 
 
 @pytest.mark.slow
-def test_buttons_and_playing(window, qtbot):
-    stepped(window, qtbot)
-    window.session.timeline.set_speed(60)
-    press(window, "first")
-    assert at(window, 0)()
-    press(window, "play")
-    assert window.features["timeline"].panel.button("play").accessibleName() == "Pause"
-    qtbot.waitUntil(lambda: not window.session.timeline.playing, timeout=PATIENCE)
-    assert at(window, 12)()
-    press(window, "back")
-    press(window, "back")
-    assert at(window, 10)()
-    key(window, Qt.Key.Key_K)
-    assert window.session.timeline.playing
-    key(window, Qt.Key.Key_K)
-    assert not window.session.timeline.playing
-
-
-@pytest.mark.slow
 def test_a_branch_is_a_second_run(window, qtbot):
     first = stepped(window, qtbot)
     go(window, qtbot, 4)
@@ -253,15 +234,6 @@ def test_the_method_can_change_while_a_run_is_paused(window, qtbot):
     assert window.session.document.undo_title == "Local steepest descent"
     window.session.document.undo()
     assert window.session.document.now is window.session.document.start
-
-
-@pytest.mark.slow
-def test_an_unchanged_run_resumes_as_it_was(window, qtbot):
-    record = stepped(window, qtbot, 3, "local-nr")
-    with qtbot.assertNotEmitted(window.features["smooth"].panel.change_requested):
-        click(window, "Step")
-        qtbot.waitUntil(at(window, 6), timeout=PATIENCE)
-    assert {row["method"] for row in record.rows} == {"local-nr"}
 
 
 @pytest.mark.slow

@@ -81,13 +81,6 @@ def test_a_look_or_moved_nodes_leave_the_camera(panes):
     assert pose_of(panes.camera_controller.camera) == before
 
 
-def test_fit_uses_the_whole_mesh_if_nothing_is_shown(panes):
-    whole = pose_of(panes.camera_controller.camera)
-    panes.draw(Frame(MESH, FIGURES, look=Look(show=Show(hidden=frozenset(range(MESH.n_hexes))))))
-    panes.camera_controller.fit()
-    assert pose_of(panes.camera_controller.camera).looks_like(whole)
-
-
 @pytest.mark.parametrize("wipe", [None, Wipe(0, 1, 0.4)])
 def test_fit_includes_the_hexes_of_all_views(panes, wipe):
     wide = MESH.with_points(MESH.points * (2, 1, 1))

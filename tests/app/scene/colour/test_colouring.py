@@ -120,9 +120,3 @@ def test_a_few_far_values_do_not_stretch_a_fitted_range():
     assert got.label(got.low) == "1"
     few = resolve(Colours(metric="condition", range=Range.FITTED), values[:996], np.zeros(996, bool))
     assert (few.low, few.high, few.beyond) == (1.0, 2.0, (False, False))
-
-
-def test_a_given_range_says_what_lies_beyond():
-    got = resolve(Colours(range=(0.3, 0.8)), np.array([0.1, 0.5, 0.8]), np.zeros(3, bool))
-    assert got.beyond == (True, False)
-    assert [got.label(value) for value in (0.3, 0.5, 0.8)] == ["≤ 0.3", "0.5", "0.8"]

@@ -86,16 +86,6 @@ def test_visible_or_all_nodes_that_have_moved_have_arrows(viewport):
     assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)
 
 
-def test_the_longest_of_many_arrows_are_drawn(viewport, monkeypatch):
-    monkeypatch.setattr(layer, "MAX_ARROWS", 20)
-    look_at(viewport, Look(movement=Traces(arrows=Arrows.ALL)))
-    move(viewport)
-    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (20, int(MESH.free.sum()))
-    starts = np.asarray(viewport.overlay_layers.arrows.lines.points)[::7]
-    longest = np.argsort(np.linalg.norm(NOW - MESH.points, axis=1))[-20:]
-    np.testing.assert_allclose(starts, MESH.points[np.sort(longest)])
-
-
 def test_arrows_are_drawn_move_with_the_nodes_and_are_removed(viewport, drawn):
     without = drawn()
     look_at(viewport, Look(cut=CUT, movement=Traces(arrows=Arrows.SIGHT, factor=1)))

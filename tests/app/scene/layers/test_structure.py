@@ -161,18 +161,6 @@ def test_marks_move_with_the_nodes_and_with_shrunk_hexes(draw):
         assert np.abs(shrunk - point).max(axis=1).min() < 1e-6
 
 
-def test_many_marks_are_drawn_in_full_only_in_fine_frames(draw, monkeypatch):
-    monkeypatch.setattr("hexmend_app.scene.layers.optional.structure._MANY", 5)
-    draw(FIVE, Structure.of("irregular"))
-    layers = draw.viewport.overlay_layers.structure
-    assert not layers.layer.GetDraw()
-    draw.viewport.still()
-    assert layers.layer.GetDraw()
-    assert layers.irregular_inside.filled.GetProperty().GetOpacity() == pytest.approx((5 / 11) ** 0.5)
-    draw.viewport.draw(dataclasses.replace(draw.viewport.frame, look=Look()))
-    assert not layers.layer.GetDraw()
-
-
 def test_boundary_nodes_have_the_colour_of_their_class(draw):
     mesh = grid(3)
     image = draw(mesh, Structure.of("kinds"))
@@ -192,15 +180,6 @@ def test_nodes_that_were_moved_off_the_boundary_have_a_colour_of_their_own(draw)
     points[(points == [3, 3, 3]).all(axis=1)] += 0.2
     assert count(draw(mesh.with_points(points), Structure.of("kinds")), KINDS[LEFT]) > 10
     assert count(draw(grid(3), Structure.of("kinds")), KINDS[LEFT]) == 0
-
-
-def test_nodes_that_moved_off_the_boundary_follow_the_frames_of_a_film(draw):
-    mesh = grid(3).keeping_surface()
-    points = mesh.points.copy()
-    points[(points == [3, 3, 3]).all(axis=1)] += 0.2
-    at_start, moved, again = (mesh.with_points(one) for one in (mesh.points, points, mesh.points.copy()))
-    marks = [count(draw(one, Structure.of("kinds")), KINDS[LEFT]) for one in (at_start, moved, again)]
-    assert marks[0] == marks[2] == 0 < marks[1]
 
 
 def test_a_view_beside_the_first_does_not_mark_nodes_that_have_not_moved_there():

@@ -168,11 +168,6 @@ def test_values_may_begin_with_a_minus():
     assert parser.parse_args(["a.vtk", "-o", "a.png", "--clip", "-.5,1,0"]).clip == ["-.5,1,0"]
 
 
-@pytest.mark.parametrize("size", [(64, 64), (128, 96), (320, 160), (200, 600)])
-def test_a_picture_has_the_size_asked_for_with_room_for_the_bar_or_not(size):
-    assert sheet(grid(2), pixels=size).image().size == size
-
-
 def asked(mesh, *words):
     parser = argparse.ArgumentParser(allow_abbrev=False)
     command.arguments(parser)

@@ -74,20 +74,6 @@ def test_each_view_shows_its_mesh_as_it_would_alone(panes, pixels):
     assert np.abs(both[:, 5:115] - both[:, 125:235]).max() < 16  # the same mesh, so the same picture, but for rounding
 
 
-@pytest.mark.parametrize("views", [1, 2, 4])
-def test_space_for_the_legend_is_reserved_to_the_right_of_several_views(panes, views):
-    panes.show([shown(mesh) for mesh in OTHERS[: views - 1]])
-    panes.reserve_legend(60)
-    share = 0.75 if views > 1 else 1
-    for view, (left, low, right, high) in zip(panes.all, grid(views), strict=True):
-        assert view.layers[0].GetViewport() == pytest.approx((left * share, low, right * share, high))
-    fitted = panes.camera_controller.fitted
-    panes.reserve_legend(0)
-    assert fitted
-    assert panes.camera_controller.fitted
-    assert panes.first.layers[0].GetViewport() == pytest.approx(grid(views)[0])
-
-
 def test_all_views_share_a_camera(panes, pixels):
     panes.show([shown(mesh) for mesh in OTHERS])
     assert all(view.camera is panes.first.camera for view in panes.all)
@@ -195,17 +181,3 @@ def test_all_views_have_the_same_reference_state(panes):
     look_at(panes, look, Displacement(MESH, ReferenceState(OTHERS[0].points, second, "later"), MESH.points, first))
     assert other.colouring.title.endswith("since later")
     np.testing.assert_array_equal(other.frame.movement.before.points, OTHERS[0].points)
-
-
-@pytest.mark.parametrize("dark", [False, True])
-def test_the_background_is_a_gradient_at_rest_and_uniform_in_fast_frames(panes, stage, dark):
-    panes.first.axes.widget.EnabledOff()
-    panes.set_dark(dark)
-    panes.moving()
-    uniform = stage.picture().astype(int)[:, 1]
-    assert np.ptp(uniform, axis=0).max() == 0
-    panes.still()
-    column = stage.picture().astype(int)[:, 1]
-    assert 8 < np.ptp(column, axis=0).max() < 30  # restrained
-    assert (np.diff(column.sum(axis=1)) <= 0).all()  # brighter above
-    assert np.abs(column.mean(axis=0) - uniform[0]).max() <= 2

@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
@@ -119,19 +119,6 @@ def test_an_outline_moves_with_its_element(seen):
         np.testing.assert_allclose(drawn.max(axis=0), outline.max(axis=0), atol=3)
 
 
-def test_a_fitted_range_follows_the_points(seen):
-    viewport, _ = seen
-    show(viewport, look=Look(colours=Colours(range=Range.FITTED)))
-    assert viewport.colouring.high - viewport.colouring.low < 1e-5
-    other = scrambled(MESH, 0.2)
-    figures = figures_of(other)
-    show(viewport, other)
-    assert (viewport.colouring.low, viewport.colouring.high) == (figures.q.min(), figures.q.max())
-    show(viewport, look=Look(colours=Colours(metric="scaled-jacobian", range=Range.FITTED)))
-    assert viewport.colouring.title == "Scaled Jacobian"
-    assert viewport.colouring.low == figures.scaled_jacobian.min()
-
-
 def test_nodes_that_no_hex_uses_do_not_count(seen):
     viewport, pixels = seen
     before = pixels()
@@ -140,23 +127,6 @@ def test_nodes_that_no_hex_uses_do_not_count(seen):
     viewport.view("+z")
     assert viewport.bounds == (0, 4, 0, 4, 0, 4)
     np.testing.assert_array_equal(pixels(), before)
-
-
-def test_picking_finds_the_visible_hex(seen):
-    viewport, pixels = seen
-    pixels()
-    hit = viewport.pick(100, 75)
-    h, node = hit.hex, hit.node
-    assert h in np.flatnonzero(MESH.points[MESH.hexes][:, :, 2].max(axis=1) == MESH.points[:, 2].max())
-    assert node in MESH.hexes[h]
-    assert viewport.pick(1, 1) is None
-    show(viewport, look=Look(cut=INSIDE))  # cut through at z = 2: the section is what is seen
-    pixels()
-    below = viewport.pick(100, 75).hex
-    assert MESH.points[MESH.hexes[below]][:, 2].min() < 2
-    np.testing.assert_allclose(
-        MESH.points[MESH.hexes[below]].mean(axis=0)[:2], MESH.points[MESH.hexes[h]].mean(axis=0)[:2]
-    )
 
 
 def test_a_marked_hex_is_visible_through_the_mesh_and_its_values_if_it_is_large(seen, pane):

@@ -80,15 +80,6 @@ def test_a_result_is_exact():
     assert history.state(RecordedIteration(record, 0), MESH) is record.start
 
 
-def test_nothing_more_is_recorded_of_a_removed_run():
-    history = History()
-    record, _, seen = recorded(history)
-    history.clear()
-    history.add(record, seen[-1])
-    assert history.bytes == 0
-    assert len(record.rows) == len(seen)
-
-
 @given(count=st.integers(1, 25))
 def test_positions_meet_the_limit_and_the_first_and_last_stay(count):
     history = History(count * FREE)

@@ -1,12 +1,10 @@
 """Short runs are shown eased; their result is recorded at once, and shown at once for whoever asks."""
 
-import threading
 from itertools import count
 
 import numpy as np
 import pytest
 
-from hexmend.iteration import Step
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh.history import History
@@ -105,31 +103,6 @@ def test_steps_and_large_meshes_are_shown_as_they_are(document, run, qtbot, monk
     run_and_wait(qtbot, run)
     assert not run.view.eased.active
     assert document.now is document.recorded
-
-
-class Worsening(LocalSteepestDescent):
-    """Method that inverts hexes step by step, and goes on after six steps once one is shown."""
-
-    shown = threading.Event()
-
-    def steps(self, mesh):
-        yield Step(mesh.points)
-        generator = np.random.default_rng(1)
-        for number in count():
-            assert number < 6 or self.shown.wait(PATIENCE / 1000)
-            yield Step(mesh.points + generator.normal(size=mesh.points.shape) * mesh.free[:, None])
-
-
-@pytest.mark.slow
-def test_a_run_without_a_better_iteration_ends_on_the_mesh_before_it(document, run, qtbot):
-    start = document.now
-    document.points_moved.connect(Worsening.shown.set)
-    run_and_wait(qtbot, run, stop=StoppingCriteria(max_iterations=12, tolerance=0), smoother=Worsening())
-    assert run.record.result == 0
-    assert run.view.eased.active
-    qtbot.waitUntil(lambda: not run.view.eased.active, timeout=PATIENCE)
-    assert document.now is document.recorded is start
-    assert not document.previews
 
 
 def test_a_run_stopped_while_it_prepares_leaves_the_mesh_alone(document, run, qtbot):

@@ -118,14 +118,6 @@ def test_stop_keeps_the_result(document, smoothing, qtbot):
     np.testing.assert_array_equal(document.now.mesh.points, result.mesh.points)
 
 
-def test_stop_ends_a_paused_run(document, smoothing, qtbot):
-    smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
-    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
-    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
-        smoothing.stop()
-    assert ended.args[0].iterations == 1
-
-
 @pytest.mark.parametrize("iterations", [1, float("inf")])
 def test_closing_leaves_no_thread(document, smoothing, qtbot, iterations):
     with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):

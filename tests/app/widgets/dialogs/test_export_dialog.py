@@ -30,17 +30,6 @@ def test_edited_values_are_in_the_chosen_style(dialog):
     assert dialog.result() == ChartDialog.DialogCode.Accepted
 
 
-def test_the_preview_follows_the_style(dialog, qtbot):
-    qtbot.waitUntil(lambda: not dialog.preview.pixmap().isNull(), timeout=PATIENCE)
-    before = dialog.preview.pixmap().toImage()
-    dialog.names["at the start"].setText("a name that is much longer")
-    dialog.names["at the start"].textEdited.emit("")
-    qtbot.waitUntil(lambda: dialog.preview.pixmap().toImage() != before, timeout=PATIENCE)
-    dialog.target.line.setText("a.csv")
-    qtbot.waitUntil(lambda: "no preview" in dialog.preview.text(), timeout=PATIENCE)
-    assert not dialog.form.isEnabled()
-
-
 @pytest.mark.parametrize(("file", "problem"), [("", "Enter the name of the file"), ("a.gif", ".gif")])
 def test_a_missing_or_unsupported_file_name_is_a_problem(dialog, qtbot, file, problem):
     dialog.target.line.setText(file)

@@ -120,27 +120,6 @@ def test_a_modified_value_is_marked_and_reset_separately(form, changes):
     assert len(changes) == 1
 
 
-def test_defaults_replace_invalid_texts_and_values(form, changes):
-    form.set_values(_OTHER)
-    type_into(form.editor("delta"), "x")
-    QTest.mouseClick(named(form, QToolButton, "Defaults"), _LEFT)
-    assert AllKinds(**form.values()) == AllKinds()
-    assert form.problems() == {}
-    assert not named(form, QToolButton, "Defaults").isEnabled()
-
-
-def test_help_is_a_tooltip_and_can_be_shown(form):
-    for declaration in declared(AllKinds):
-        assert declaration.help in form.editor(declaration.name).toolTip()
-        assert form.editor(declaration.name).accessibleName()
-        assert not form.rows[declaration.name].help.isVisible()
-    QTest.mouseClick(named(form, QToolButton, "Explain"), _LEFT)
-    for declaration in declared(AllKinds):
-        label = form.rows[declaration.name].help
-        assert label.isVisible()
-        assert label.text() == declaration.help
-
-
 def test_the_wheel_changes_only_focused_editors(form):
     form.editor("label").setFocus()
 
@@ -243,12 +222,3 @@ def test_advanced_parameters_are_shown_on_request_below_the_basic_ones(shown):
     assert shown_names(form) == ["goal"]
     QApplication.processEvents()
     assert form.sizeHint().height() == low
-
-
-def test_an_advanced_parameter_with_another_value_is_always_shown(shown):
-    form = shown(ParameterForm(declared(Mixed)))
-    form.set_values({"backtracks": 7})
-    assert shown_names(form) == ["goal", "backtracks"]
-    assert form.values() == {"goal": "shape", "c1": 0.1, "backtracks": 7}
-    form.set_values({"backtracks": 30})
-    assert shown_names(form) == ["goal"]
