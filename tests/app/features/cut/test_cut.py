@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
 from hexmend import io
 from hexmend_app.picture import Cut
+from hexmend_app.picture.cut import CutStyle
 from tests.app.driving import LEFT, drag, key, move, named, open_and_wait, pixels, press, seen_at, tick
 from tests.core.grids import grid
 
@@ -25,18 +26,17 @@ def choose(window, text):
     press(next(b for b in window.features["cut"].panel.findChildren(QPushButton) if b.text() == text))
 
 
-@pytest.mark.parametrize("cut", ["crinkle", "smooth"])
-def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
+def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot):
     whole = moving(window)
     panel = window.features["cut"].panel
     tick(next(b for b in panel.findChildren(QCheckBox) if b.text() == "Cut"))
     assert window.session.view.look.cut.active
     assert window.window_actions["cut"].isChecked()
-    for text in ("Y", "Smooth cut" if cut == "smooth" else "Whole hexes"):
+    for text in ("Y", "Smooth cut"):
         choose(window, text)
     clip = window.session.view.look.cut
     assert np.abs(clip.planes[0].normal).tolist() == [0, 1, 0]
-    assert clip.style.value == cut
+    assert clip.style is CutStyle.SMOOTH
     halved = moving(window)
     assert (np.abs(halved - whole).sum(axis=2) > 60).mean() > 0.02
     slider = named(panel, QSlider, "Position")

@@ -57,8 +57,8 @@ def test_a_finished_sweep_equals_one_iteration_of_the_method(node_window, qtbot)
     assert "Moved." in texts(window)
 
 
-@pytest.mark.parametrize("change", ["run", "method", "tag", "save", "reset"])
-def test_any_other_change_of_the_mesh_ends_the_sweep_first(node_window, qtbot, tmp_path, change):
+@pytest.mark.parametrize("change", ["run", "method", "reset"])
+def test_any_other_change_of_the_mesh_ends_the_sweep_first(node_window, qtbot, change):
     window = node_window
     start = window.session.document.now
     key(window, Qt.Key.Key_F11)
@@ -77,13 +77,6 @@ def test_any_other_change_of_the_mesh_ends_the_sweep_first(node_window, qtbot, t
         key(window, Qt.Key.Key_F11)
         assert window.session.node_sweep.sweep.done == 1
         window.session.commands.undo()
-    elif change == "tag":
-        window.session.commands.tag("bad", [7])
-        assert window.session.document.undo_title == "tag"
-        window.session.commands.undo()
-    elif change == "save":
-        assert window.features["save"].save_and_wait(tmp_path / "saved.vtu")
-        assert not window.session.document.modified
     else:
         window.session.commands.reset()
         np.testing.assert_array_equal(window.session.document.now.mesh.points, start.mesh.points)

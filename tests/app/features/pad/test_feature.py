@@ -33,7 +33,7 @@ def pad(qtbot, session, choice):
     return session.document.now
 
 
-@pytest.mark.parametrize("choice", [PaddingChoice(), PaddingChoice(around="locked"), PaddingChoice(thickness=0.2)])
+@pytest.mark.parametrize("choice", [PaddingChoice(), PaddingChoice(around="locked", thickness=0.2)])
 def test_the_mesh_is_padded_and_undone(window, session, qtbot, choice):
     before = session.document.now
     assert before.summary.locked_inverted == 1
