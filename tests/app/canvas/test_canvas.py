@@ -94,19 +94,6 @@ def test_views_can_be_stepped_back_and_forward(canvas, qtbot):
     assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
 
 
-@pytest.mark.slow
-def test_successive_key_strokes_are_one_entry_of_the_history(canvas, qtbot):
-    home = pose(canvas)
-    for _ in range(4):
-        QTest.keyClick(canvas.interactor, Qt.Key.Key_Right)
-    rested(qtbot, canvas)
-    assert not pose(canvas).looks_like(home)
-    canvas.back_view()
-    rested(qtbot, canvas)
-    assert pose(canvas).looks_like(home)
-    assert not canvas.can_go_back
-
-
 def test_an_unbound_key_does_not_end_a_flight(canvas, qtbot):
     canvas.fly_to(0)
     QTest.keyClick(canvas.interactor, Qt.Key.Key_N)

@@ -7,7 +7,7 @@ import sys
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QSlider, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.picture.colours import Range
@@ -26,25 +26,6 @@ def test_an_opened_mesh_is_shown_with_its_figures(window):
     assert not window.features["open"].welcome.isVisible()
     image = pixels(window)
     assert (image.max(axis=2) - image.min(axis=2) > 60).mean() > 0.05
-
-
-@pytest.mark.slow
-def test_the_slider_and_the_view_keep_their_places_while_a_task_is_shown(window, qtbot):
-    slider = named(window.features["timeline"].panel, QSlider, "Iteration")
-
-    def places():
-        for _ in range(5):
-            QApplication.processEvents()
-        return slider.mapTo(window, slider.rect().topLeft()), slider.size(), window.canvas.size()
-
-    before = places()
-    window.busy.show_work("test", "Drawing the film…", "Cancel", "End it.", share=0.3)
-    assert places() == before
-    assert window.busy.isVisible()
-    window.busy.done("test")
-    window.session.selection.choose(7)  # the counts name it
-    window.refresh()
-    assert places() == before
 
 
 @pytest.mark.slow

@@ -1,7 +1,7 @@
 """Overlays."""
 
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QRect, QSettings, QSize, Qt
+from PySide6.QtCore import QPoint, QPointF, QSettings, QSize, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
@@ -122,29 +122,6 @@ def test_it_avoids_another_overlay_while_that_is_visible(over, row):
     assert card.geometry() == home  # it does not reach so far
     row.setGeometry(0, 400, 600, 24)
     assert card.geometry().getRect() == (492, 92, 100, 300)  # as far away as it has to be
-
-
-def test_it_avoids_several_overlapping_widgets_and_areas(over, row):
-    card, place = laid(over)
-    inner = QWidget(over)
-    inner.setGeometry(550, 245, 10, 5)
-    inner.show()
-    for part in (row, inner):
-        place.keep_off(part)
-    assert not card.geometry().intersects(row.geometry())
-    row.setGeometry(490, 0, 100, 500)
-    inner.hide()
-    place.keep_off(row, lambda: QRect(0, 300, 100, 20))
-    assert card.geometry().getRect() == (492, 8, 100, 284)
-
-
-def test_a_drag_moves_it_past_another_overlay(over, row):
-    card, place = laid(over)
-    place.keep_off(row)
-    below = card.y()
-    moved(card, QPoint(-100, -250))
-    assert card.y() < 230 < below
-    assert not card.geometry().intersects(row.geometry())
 
 
 def test_the_wheel_reaches_the_widget_below_and_so_do_clicks_outside(over):

@@ -113,18 +113,6 @@ def test_each_choice_emits_one_signal(panel, emitted):
     ]
 
 
-def test_unbounded_ranges_are_disabled(panel, emitted):
-    choose(metrics(panel), "long")
-    assert emitted[-1].range is Range.FITTED
-    for mode in ("full", "acceptable"):
-        assert not ranges(panel).button(mode).isEnabled()
-        assert "unbounded" in ranges(panel).button(mode).toolTip()
-        press(panel, mode)
-    assert panel.colours().range is Range.FITTED
-    choose(metrics(panel), "q")
-    assert ranges(panel).button("full").isEnabled()
-
-
 def test_pinning_fixes_the_current_range(panel, emitted):
     press(panel, "fitted")
     panel.set_ends(0.123456, 0.987654)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from PySide6.QtGui import QGuiApplication
 
 from hexmend_app.picture import camera_from
@@ -20,13 +19,3 @@ def test_a_copied_camera_is_pasted_unchanged(window):
     assert canvas.pose != pose
     window.action("paste_camera").trigger()
     assert canvas.pose == pose
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("text", ["some words", "{ position = [nan, 0, 0] }"])
-def test_pasting_other_text_shows_an_error_and_changes_nothing(window, text):
-    stand = window.canvas.pose
-    QGuiApplication.clipboard().setText(text)
-    window.action("paste_camera").trigger()
-    assert window.messages.messages()[-1][:2] == ("error", "Camera not pasted")
-    assert window.canvas.pose == stand

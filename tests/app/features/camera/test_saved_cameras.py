@@ -120,21 +120,3 @@ def test_scenes_and_pictures_contain_the_cameras(window, saved, tmp_path, qtbot,
     assert cameras.all == before
     open_and_wait(qtbot, window, mesh_file)
     assert cameras.all == before
-
-
-@pytest.mark.slow
-def test_closing_asks_about_unsaved_cameras_of_a_session(window, saved, tmp_path, monkeypatch):
-    questions = []
-    monkeypatch.setattr(
-        QMessageBox, "exec", lambda self: questions.append(self.text()) or QMessageBox.StandardButton.Cancel
-    )
-    assert window.may_leave()
-    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
-    window.refresh()
-    assert window.may_leave()
-    assert not window.isWindowModified()
-    window.features["camera"].keep("another")
-    window.refresh()
-    assert window.isWindowModified()
-    assert not window.may_leave()
-    assert questions == ["work.hexmend has unsaved cameras."]

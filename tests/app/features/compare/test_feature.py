@@ -14,21 +14,17 @@ from PySide6.QtWidgets import QLabel
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
 from hexmend_app.features.compare.comparison_table import VIEW, ComparisonModel, ComparisonRow
-from hexmend_app.state.mesh.document import State
-from tests.app.driving import LEFT, choose, key, named, open_and_wait, press
+from tests.app.driving import LEFT, choose, key, named, press
 from tests.app.features.compare.table import (
     COLUMN,
     ENDLESS,
     SHORT,
     button,
-    captions,
     choose_methods,
     model,
     row,
     table_of,
-    tick,
 )
-from tests.core.grids import grid
 from tests.patience import PATIENCE
 
 
@@ -104,20 +100,6 @@ def test_a_failed_method_has_a_row_and_the_others_continue(comparing, qtbot, mon
     assert well.record["iterations"] == 4
 
 
-@pytest.mark.slow
-def test_another_mesh_cancels_the_comparison_and_clears_the_results(compared, qtbot, mesh_file):
-    tick(compared, "getme", VIEW)
-    choose(compared, "mend", ENDLESS)
-    choose_methods(compared, "local-sd")
-    press(button(compared, "Run comparison"))
-    open_and_wait(qtbot, compared, mesh_file)
-    assert not compared.session.comparison.busy
-    assert not any(one.record for one in model(compared).entries)
-    assert compared.session.side_views.all == ()
-    assert captions(compared) == []
-    assert len(compared.canvas.panes.all) == 1
-
-
 def test_a_result_replaces_the_mesh_and_can_be_undone(compared):
     before = compared.session.document.now.mesh
     assert not button(compared, "Use result").isEnabled()
@@ -145,22 +127,6 @@ def test_the_table_is_saved_in_four_formats_and_others_are_refused(compared, tmp
     assert kind == "error"
     assert not (tmp_path / "table.doc").exists()
     assert text
-
-
-@pytest.mark.slow
-def test_a_result_equal_to_the_start_says_so(comparing, qtbot):
-    window = comparing
-    window.session.document.commit("Grid", State.of(grid(3)))  # a grid of cubes cannot be improved
-    choose_methods(window, "laplacian", "local-sd")
-    press(button(window, "Run comparison"))
-    qtbot.waitUntil(lambda: not window.session.comparison.busy, timeout=PATIENCE)
-    table, kept = model(window), []
-    for name in ("laplacian", "local-sd"):
-        result = window.session.comparison.of(name)
-        if result.row.iterations:
-            kept.append(table.index(row(window, name), COLUMN["outcome"]).data())
-    assert kept
-    assert set(kept) == {"initial mesh kept: no iteration was better"}
 
 
 def test_a_column_has_one_number_of_decimals_and_equal_texts_are_marked_alike():

@@ -54,19 +54,6 @@ def test_one_view_is_closed_by_its_button_and_all_by_a_key(compared):
 
 
 @pytest.mark.slow
-def test_a_state_shown_under_a_name_in_use_replaces_the_view(compared):
-    first, second = (compared.session.comparison.of(name).state for name in ("getme", "laplacian"))
-    compared.session.side_views.show("iteration 7", first)
-    compared.refresh()
-    assert captions(compared) == ["now", "iteration 7"]
-    compared.session.side_views.show("iteration 7", second)
-    compared.refresh()
-    assert captions(compared) == ["now", "iteration 7"]
-    assert compared.canvas.panes.all[1].frame.mesh.points is second.mesh.points
-    assert [one.points for one in compared.session.snapshots.all] == [second.mesh.points]
-
-
-@pytest.mark.slow
 def test_a_drag_rotates_all_views_and_a_click_selects_a_hex_in_all(compared, qtbot):
     tick(compared, "getme", VIEW)
     canvas, view = compared.canvas, compared.canvas.interactor

@@ -80,16 +80,6 @@ def test_marks_are_undone_redone_and_removed(window, ends):
 
 
 @pytest.mark.slow
-def test_a_saved_mesh_and_a_session_have_the_marks(window, qtbot, ends, tmp_path):
-    mark(window, ends)
-    expected = marked(window)
-    for name in ("marked.mesh", "marked.hexmend"):
-        assert window.features["open"].save_and_wait(tmp_path / name)
-        open_and_wait(qtbot, window, tmp_path / name)
-        np.testing.assert_array_equal(marked(window), expected)
-
-
-@pytest.mark.slow
 def test_iterations_and_results_of_runs_have_the_marks(window, qtbot, ends):
     window.session.run.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=2, keep_last=True))
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)

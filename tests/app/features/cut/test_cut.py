@@ -64,25 +64,6 @@ def test_the_plane_is_dragged_in_the_view(window, qtbot):
 
 
 @pytest.mark.slow
-def test_a_rotated_plane_snaps_to_a_nearby_axis(window, qtbot):
-    key(window, Qt.Key.Key_C)
-    choose(window, "X")
-    window.canvas.draw_still()
-    view, straight = window.canvas.interactor, window.session.view.look.cut
-    arrow = seen_at(window, np.array(straight.planes[0].point) + (1.35, 0, 0))
-    drag(view, arrow, arrow + QPoint(10, 2))
-    assert window.session.view.look.cut == straight
-    drag(view, arrow, arrow + QPoint(60, 30))
-    turned = window.session.view.look.cut.planes[0].normal
-    assert 0.1 < np.degrees(np.arccos(turned[0])) < 80
-    assert np.degrees(np.arccos(turned[0])) > 8
-    choose(window, "X")
-    tick(next(b for b in window.features["cut"].panel.findChildren(QCheckBox) if b.text() == "Snap"))
-    drag(view, arrow, arrow + QPoint(10, 2))
-    assert window.session.view.look.cut != straight
-
-
-@pytest.mark.slow
 def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     whole = moving(window)
     key(window, Qt.Key.Key_C)

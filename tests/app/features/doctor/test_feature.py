@@ -6,9 +6,6 @@ from PySide6.QtWidgets import QLabel, QPushButton
 
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
 from hexmend_app.state.mesh.document import State
 from tests.app.driving import press
 from tests.patience import PATIENCE
@@ -68,19 +65,6 @@ def test_each_finding_is_repaired_by_a_click_and_undone(window, panel, qtbot):
     assert session.document.now.mesh is before
     session.commands.redo()
     assert session.document.now.summary.inverted == 0
-
-
-@pytest.mark.slow
-def test_all_is_repaired_at_once_and_methods_run_on_the_repaired_mesh(window, panel, qtbot):
-    press(buttons(panel, "Repair all")[0])
-    window.refresh()
-    qtbot.waitUntil(lambda: "No problems found" in texts(panel), timeout=PATIENCE)
-    session = window.session
-    assert session.document.start.mesh is session.document.now.mesh
-    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
-        session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
-    session.commands.reset()
-    assert session.document.now.mesh.n_nodes == 112
 
 
 @pytest.mark.slow

@@ -1,7 +1,6 @@
 """Figure sets exported from the window."""
 
 import argparse
-import hashlib
 import json
 import shlex
 
@@ -79,23 +78,6 @@ def page(tmp_path, monkeypatch):
     path = tmp_path / "report.html"
     monkeypatch.setattr("hexmend_app.features.figures.feature.ask_report", lambda parent, stem: str(path))
     return path
-
-
-@pytest.mark.slow
-def test_the_report_shows_the_opened_and_the_current_mesh(window, qtbot, page):
-    stepped(window, qtbot, 4)
-    end_run(window.session)
-    window.refresh()
-    window.window_actions["report"].trigger()
-    qtbot.waitUntil(lambda: not window.features["figures"].going_on, timeout=PATIENCE)
-    assert f"Report saved to {page}" in " ".join(window.messages.messages()[-1])
-    text = page.read_text()
-    now = window.session.document.now.summary
-    assert f"Local steepest descent: {now.inverted:,} inverted, q min {now.q_min:.4f}." in text
-    assert text.count("<figure") >= 5
-    assert hashlib.sha256(window.session.document.path.read_bytes()).hexdigest() in text
-    assert "Commands to reproduce" not in text
-    assert "Limits of each run" not in text
 
 
 @pytest.mark.slow

@@ -11,11 +11,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel
 
 from hexmend import io
-from hexmend.boundary import NodeClass
 from hexmend.quality import METRICS
 from hexmend_app.bench.windows import save_and_wait
-from hexmend_app.state.mesh.document import State
-from hexmend_app.state.tasks.boundary_classifier import node_classes
 from hexmend_app.theme.palette import KEPT
 from tests.app.driving import LEFT, choose, click, drag, key, open_and_wait
 from tests.core.boundary.solids import slid
@@ -103,36 +100,6 @@ def test_a_boundary_node_pinned_by_key_does_not_slide(window, qtbot, tmp_path):
 
 
 @pytest.mark.slow
-def test_the_distance_of_a_node_that_was_moved_off_its_corner_is_shown(window, qtbot):
-    session = window.session
-    mesh = session.document.now.mesh
-    node = int(np.flatnonzero(node_classes(mesh, "auto") == NodeClass.CORNER)[0])
-    points = mesh.points.copy()
-    points[node] += 0.01 * mesh.mean_edge_length
-    session.commands.adopt_positions("move", State.of(mesh.with_points(points)))
-    window.show_panel("show")
-    window.refresh()
-    moved = session.document.now.mesh
-    qtbot.waitUntil(lambda: getattr(session.boundary_classifier.classes, "mesh", None) is moved, timeout=PATIENCE)
-    window.refresh()
-    kinds = window.features["structure"].panel.layers["kinds"].entries
-    legend = [label.text() for label in kinds.findChildren(QLabel)]
-    assert "1 moved off" in legend
-    assert "up to 0.017 edge lengths" in legend
-    session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
-    window.refresh()
-    labels = window.features["hex_inspector"].panel.findChildren(QLabel)
-    assert any(
-        f"Node {node:,}: boundary, 0.017 mean edge lengths from its corner, " in label.text() for label in labels
-    )
-    window.show_panel("histogram")
-    window.refresh()
-    session.commands.reset()  # the classes are not wanted and stay those of the moved node
-    window.refresh()
-    assert not any("off its corner" in label.text() for label in labels)
-
-
-@pytest.mark.slow
 def test_the_saved_histogram_equals_the_drawn_one(window, tmp_path):
     histogram, now = window.features["histogram"].panel, window.session.document.now
     histogram.metric_chosen.emit("condition")
@@ -184,20 +151,3 @@ def test_ctrl_click_hides_a_hex_and_backspace_shows_it(window, qtbot):
     assert window.session.view.look.show.hidden == {first}
     key(window, Qt.Key.Key_Backspace)
     assert not window.session.view.look.show.hidden
-
-
-@pytest.mark.slow
-def test_next_worst_begins_with_the_worst_hex(window):
-    worst_list = window.features["hex_inspector"].worst_list
-    worst = list(worst_list.hexes[:3])
-    window.session.selection.choose(int(worst[2]))  # as by a click in the view
-    for expected in worst:
-        key(window, Qt.Key.Key_N)
-        assert window.session.selection.hex == expected
-    window.session.commands.tag("bad", [int(worst[0])])  # tags do not change the order: the walk goes on
-    key(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
-    assert window.session.selection.hex == worst[1]
-    mesh = window.session.document.now.mesh
-    window.session.document.commit("Scale", State.of(mesh.with_points(mesh.points * 2.0)))
-    key(window, Qt.Key.Key_N)
-    assert window.session.selection.hex == worst_list.hexes[0]

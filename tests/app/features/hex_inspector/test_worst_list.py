@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QComboBox, QLabel, QTableView
+from PySide6.QtWidgets import QAbstractButton, QComboBox, QTableView
 
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.hex_inspector.worst_file import write_worst
@@ -80,16 +80,6 @@ def test_invalid_hexes_are_listed_before_valid_ones_of_lower_quality(worst_list)
     inverted, invalid = figures.n_inverted, figures.n_invalid
     assert figures.inverted[hexes[:inverted]].all()
     assert inside[hexes[inverted:invalid]].all()
-
-
-def test_the_list_states_the_order_of_ties(worst_list):
-    def text():
-        return " ".join(label.text() for label in worst_list.findChildren(QLabel))
-
-    assert "Ties are sorted by scaled Jacobian." in text()
-    metric = worst_list.findChild(QComboBox)
-    metric.setCurrentIndex(metric.findData("scaled-jacobian"))
-    assert "Ties" not in text()
 
 
 def test_a_click_on_a_row_selects_its_hex(worst_list, qtbot):

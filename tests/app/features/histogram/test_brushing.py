@@ -62,15 +62,6 @@ def test_a_drag_moves_an_end_or_the_whole_range(histogram, announced, drag):
     assert ends(announced[-1]) == (pytest.approx(0.6, abs=0.021), 1)  # keeps its width at the limit
 
 
-def test_a_double_click_shows_all_hexes(histogram, announced, qtbot):
-    histogram.set_range(Show((0.3, 0.5), "q"))
-    # Through the window, which handles the second press like that of a mouse.
-    position = histogram.plot.plot.viewport().mapTo(histogram, point_at(histogram, 0.8))
-    QTest.mouseDClick(histogram.windowHandle(), LEFT, pos=position)
-    qtbot.waitUntil(lambda: announced == [None], timeout=PATIENCE)
-    assert histogram.range() is None
-
-
 def test_a_range_of_an_unbounded_metric_extends_to_infinity(histogram, announced, drag, condition):
     values, inverted = condition
     axis = histogram.axis

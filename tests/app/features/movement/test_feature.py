@@ -99,20 +99,6 @@ def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     assert text_of(panel, "Number of arrows") == "No visible node has moved."
 
 
-@pytest.mark.slow
-def test_the_displacement_is_shown_in_figures(window, record, panel):
-    start, now = window.session.document.start, window.session.document.now
-    change = now.figures.q - start.figures.q
-    free = window.session.document.now.summary.free_nodes
-    assert text_of(panel, "Nodes") == f"{free:,} of {free:,} free nodes moved since the file was opened"
-    assert text_of(panel, "Hexes") == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
-    newly = np.count_nonzero(now.figures.invalid & ~start.figures.invalid)
-    repaired = np.count_nonzero(start.figures.invalid & ~now.figures.invalid)
-    assert text_of(panel, "Invalid") == f"{newly:,} newly invalid, {repaired:,} repaired"
-    go(window, record, 0)
-    assert text_of(panel, "Distance") == "–"
-
-
 @pytest.fixture
 def mesh_to_invert(window, qtbot, tmp_path):
     """Open a mesh in which Laplacian smoothing inverts valid hexes."""

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QLabel
+from PySide6.QtWidgets import QLabel
 
 from hexmend.node_step import explain
 from hexmend.smoothers import METHODS
@@ -15,7 +15,7 @@ from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Isolate
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import DESCENT, SEARCH
-from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, phase, pixels, press, tick
+from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, phase, pixels, tick
 from tests.app.features.node_step.step_display import (
     button,
     count_pixels,
@@ -90,23 +90,6 @@ def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
     window.session.commands.pin(inner, True)
     wait_for_text(window, qtbot, "is pinned: no method moves it")
     assert shown_step(window) is None
-
-
-@pytest.mark.slow
-def test_an_invalid_parameter_is_reported(node_window, qtbot):
-    window = node_window
-    if not window.features["smooth"].panel.stage.parameters.isVisible():
-        press(named(window.features["smooth"].panel, QAbstractButton, "Parameters"))
-    editor = window.features["smooth"].panel.stage.parameters.editor("p")
-    target = editor.widget if hasattr(editor, "widget") else editor
-    target.setFocus()
-    line = target.lineEdit() if hasattr(target, "lineEdit") else target
-    line.selectAll()
-    QTest.keyClicks(line, "0.1")
-    wait_for_text(window, qtbot, "Correct the marked parameter")
-    assert shown_step(window) is None
-    assert not button(window, "Next node").isEnabled()
-    assert not window.window_actions["next_node"].isEnabled()
 
 
 @pytest.mark.slow

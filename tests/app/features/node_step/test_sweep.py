@@ -83,27 +83,3 @@ def test_any_other_change_of_the_mesh_ends_the_sweep_first(node_window, qtbot, c
         window.session.commands.undo()
     assert window.session.document.undo_title == "sweep of local-sd, 2 nodes"
     np.testing.assert_array_equal(window.session.document.now.mesh.points, stepped.mesh.points)
-
-
-def test_going_back_to_an_iteration_ends_the_sweep(node_window, qtbot):
-    window = node_window
-    choose_by_keys(window, "laplacian")
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    choose_by_keys(window, "local-sd")
-    wait_for_step(window, qtbot, "local-sd")
-    key(window, Qt.Key.Key_F11)
-    stepped = window.session.document.now
-    timeline = window.session.timeline
-    timeline.go(timeline.record, 0)
-    assert window.session.node_sweep.sweep is None
-    np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
-    assert window.session.document.undo_title == "sweep of local-sd, 1 node"
-    now = window.session.document.now.mesh.points
-    qtbot.waitUntil(lambda: np.array_equal(shown_step(window).before, now[shown_step(window).node]), timeout=PATIENCE)
-    wait_for_step(window, qtbot, "local-sd")
-    window.session.commands.undo()
-    window.session.commands.redo()
-    assert window.session.document.now is stepped

@@ -23,8 +23,9 @@ from tests.patience import PATIENCE
 
 
 @pytest.fixture
-def recent(window):
-    """Return the recent files."""
+def recent(window, qtbot, mesh_file):
+    """Return the recent files: that of the mesh."""
+    open_and_wait(qtbot, window, mesh_file)
     return window.features["open"].recent
 
 
@@ -73,7 +74,7 @@ def test_a_missing_file_is_disabled_and_the_list_can_be_cleared(recent, menu, tm
 
 
 @pytest.mark.slow
-def test_the_welcome_page_opens_recent_files(window, qtbot, mesh_file):
+def test_the_welcome_page_opens_recent_files(window, recent, qtbot, mesh_file):
     welcome = window.features["open"].welcome
     assert not welcome.isVisible()
     welcome.show()

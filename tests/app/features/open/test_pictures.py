@@ -8,7 +8,6 @@ from PIL import Image
 from PySide6.QtWidgets import QFileDialog, QPushButton
 
 from hexmend import io
-from hexmend.cli.main import main
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
@@ -73,15 +72,6 @@ def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp
     open_and_wait(qtbot, window, tmp_path / "p.png")
     assert "in which it was smoothed by “Laplacian" in messages(window)[-1]
     assert window.session.recipe_draft.stages == (stage,)
-
-
-@pytest.mark.slow
-def test_a_picture_of_the_command_line_is_opened(window, qtbot, mesh, tmp_path):
-    assert main(["render", str(mesh), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--view", "-y"]) == 0
-    open_and_wait(qtbot, window, tmp_path / "p.png")
-    window.refresh()
-    pose = window.canvas.pose
-    assert pose.position[1] < pose.focal[1]
 
 
 @pytest.mark.slow

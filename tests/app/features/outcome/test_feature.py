@@ -11,8 +11,6 @@ from hexmend.iteration import StoppingCriteria
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, click, key, open_and_wait, phase
 from tests.app.driving import press as press_button
-from tests.core.boundary.solids import slid
-from tests.core.grids import grid
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 from tests.patience import PATIENCE
 
@@ -102,20 +100,6 @@ def test_a_suggestion_that_undoes_the_run_restores_the_mesh_before_it(window, qt
 
 
 @pytest.mark.slow
-def test_the_kept_iteration_is_shown_and_reported(window, qtbot, tmp_path):
-    io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=864))
-    open_and_wait(qtbot, window, tmp_path / "sound.vtu")
-    run(window, qtbot, "laplacian")
-    assert window.session.document.now.summary.inverted == 0
-    assert window.session.timeline.shown_iteration.number == 3
-    kept = "Iteration 3 was kept: later ones were worse."
-    assert kept in texts(window)
-    assert "Worse than" not in texts(window)
-    panel = window.features["smooth"].panel
-    assert any(kept in label.text() for label in panel.findChildren(QLabel))
-
-
-@pytest.mark.slow
 def test_locked_hexes_are_listed_and_isolated(window, qtbot, locked):
     run(window, qtbot, "mend")
     assert f'<a href="{locked}">{locked}</a>' in texts(window)
@@ -127,34 +111,3 @@ def test_locked_hexes_are_listed_and_isolated(window, qtbot, locked):
     button(window, "Show the locked hexes").setFocus()
     QTest.keyClick(button(window, "Show the locked hexes"), Qt.Key.Key_Space)
     assert window.session.view.look.show.isolate is not None
-
-
-@pytest.mark.slow
-def test_the_displacement_of_the_boundary_is_reported(window, qtbot, tmp_path):
-    io.write(tmp_path / "slid.vtu", slid(grid(4), 0.3, seed=3))
-    open_and_wait(qtbot, window, tmp_path / "slid.vtu")
-    choose(window, "mend", boundary="slide")
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    window.show_panel("outcome")
-    assert "The boundary slid: " in texts(window)
-    assert "it has kept its shape" in texts(window)
-    assert "48 of 48 sharp edges are kept." in texts(window)
-    assert "Limiting" not in texts(window)
-
-
-@pytest.mark.slow
-def test_a_suggestion_unpins_nodes_that_keep_hexes_inverted(window, qtbot, tmp_path):
-    from tests.core.advice.test_advice import pinned_tangle
-
-    mesh = pinned_tangle()
-    io.write(tmp_path / "pinned.vtu", mesh.replace(pinned=None))
-    open_and_wait(qtbot, window, tmp_path / "pinned.vtu")
-    window.session.commands.pin(int(np.flatnonzero(mesh.pinned)[0]), True)
-    run(window, qtbot, "mend")
-    assert window.session.document.now.summary.inverted > 0
-    press(window, "Select: Unpin, then Mend")
-    assert window.session.document.undo_title == "unpin"
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert window.session.document.now.summary.inverted == 0

@@ -51,17 +51,6 @@ def test_the_mesh_is_padded_and_undone(window, session, qtbot, choice):
 
 
 @pytest.mark.slow
-def test_a_run_goes_on_with_the_padded_mesh_and_its_pins(window, session, qtbot):
-    now = pad(qtbot, session, PaddingChoice())
-    assert np.flatnonzero(now.mesh.pinned).tolist() == [21]
-    window.action("run").trigger()
-    qtbot.waitUntil(lambda: not session.run.busy, timeout=PATIENCE)
-    record = session.timeline.record
-    assert record is not None
-    assert session.document.now.mesh.n_hexes == now.mesh.n_hexes
-
-
-@pytest.mark.slow
 def test_a_padded_mesh_is_kept_by_a_session(window, session, qtbot, tmp_path):
     before, now = session.document.now, pad(qtbot, session, PaddingChoice())
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")

@@ -143,14 +143,3 @@ def test_links_are_followed_by_keys(with_inverted):
     QTest.keyClick(grid(table), Qt.Key.Key_Down)
     QTest.keyClick(grid(table), Qt.Key.Key_Enter)  # no link
     assert requests == ["inverted", "locked", "invalid"]
-
-
-def test_a_zero_is_no_link(with_inverted):
-    table, requests = with_inverted
-    table.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW))
-    click(table, "inverted", 2)
-    grid(table).setCurrentCell(_ROW_OF["inverted"], 0)
-    QTest.keyClick(grid(table), Qt.Key.Key_Return)
-    assert requests == []
-    assert not cell(table, "inverted", 2).font().underline()
-    assert "determinant" in cell(table, "inverted", 2).toolTip()

@@ -126,26 +126,6 @@ def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
 
 
 @pytest.mark.slow
-def test_a_paused_recipe_shows_its_stage_and_continues_with_the_next(window, panel, qtbot):
-    add(window, panel, "getme", stop=StoppingCriteria(max_iterations=100_000, tolerance=0))
-    add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=2, tolerance=0))
-    key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
-    window.session.run.pause()
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    assert said(window) == "Stage 1 of 2: GETMe, simultaneous."
-    shown = panel.findChild(QListWidget)
-    assert [shown.item(at).font().bold() for at in range(2)] == [True, False]
-    assert not any(button(panel, name).isEnabled() for name in ("Add", "Run recipe", "Load"))
-    click(window, "Resume")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    window.refresh()
-    assert not any(shown.item(at).font().bold() for at in range(2))
-    assert button(panel, "Add").isEnabled()
-
-
-@pytest.mark.slow
 def test_the_active_stage_of_a_paused_recipe_can_be_changed(window, panel, qtbot):
     add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=2, tolerance=0))
     add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=3, tolerance=0))

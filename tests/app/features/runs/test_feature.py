@@ -13,7 +13,7 @@ from hexmend_app.features.runs.run_table import FIRST, NAME, QUANTITIES, SETTING
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import BLUE, MUTED
-from tests.app.driving import open_and_wait, phase
+from tests.app.driving import phase
 from tests.patience import PATIENCE
 
 GIVEN = {"inverted": 0, "invalid": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
@@ -146,18 +146,6 @@ def test_iterations_that_arrive_leave_the_row_that_was_reached_by_keys(window, t
     three[2].rows.append(three[2].rows[-1])
     window.refresh()
     assert table.currentIndex().row() == 2
-
-
-@pytest.mark.slow
-def test_a_session_keeps_the_table(window, qtbot, three, tmp_path):
-    before = [texts(window, column) for column in range(FIRST + len(QUANTITIES))]
-    assert window.features["open"].save_and_wait(tmp_path / "runs.hexmend")
-    open_and_wait(qtbot, window, tmp_path / "runs.hexmend")
-    window.show_panel("runs")
-    window.refresh()
-    assert [texts(window, column) for column in range(FIRST + len(QUANTITIES))] == before
-    click(window, 1)
-    assert window.session.timeline.shown_iteration.record.name == three[0].name
 
 
 def test_the_dots_are_between_the_smallest_and_the_largest_value():

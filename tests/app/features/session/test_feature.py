@@ -17,7 +17,6 @@ from hexmend_app.bench.windows import end_run
 from hexmend_app.picture import Camera
 from hexmend_app.picture.appearance import Arrows, Structure, Traces
 from hexmend_app.picture.cut import Cut
-from hexmend_app.shell.start.window_start import WindowStart
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
@@ -221,19 +220,6 @@ def test_a_paused_run_is_saved(window, qtbot, tmp_path):
     np.testing.assert_array_equal(window.session.document.now.mesh.points, points)
     assert window.session.timeline.shown_iteration.number == 1
     window.refresh()
-
-
-@pytest.mark.slow
-def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window):
-    work(window, qtbot)
-    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
-    before = tables(window)
-    pose = window.canvas.pose
-    with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
-        WindowStart(bare_window, tmp_path / "work.hexmend")
-    bare_window.refresh()
-    assert tables(bare_window) == before
-    assert bare_window.canvas.pose == pose
 
 
 @pytest.mark.slow

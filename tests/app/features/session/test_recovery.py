@@ -224,17 +224,6 @@ def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state):
 
 
 @pytest.mark.slow
-def test_a_failed_autosave_is_reported_once(fresh_window, tmp_path):
-    (tmp_path / "state").write_text("in the way")
-    feature = fresh_window.features["session"]
-    feature.start_autosave()
-    feature.start_autosave()
-    (warning,) = [message for message in fresh_window.messages.messages() if message[0] == "warning"]
-    assert "Autosave failed" in warning[1]
-    assert not feature.recovery.watching
-
-
-@pytest.mark.slow
 def test_a_change_during_a_write_is_written_too(fresh_window, qtbot, own_state):
     run(fresh_window, qtbot)
     recovery = fresh_window.features["session"].recovery

@@ -60,16 +60,6 @@ def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
 
 
 @pytest.mark.slow
-def test_a_complete_run_untangles_and_shows_it(window, qtbot):
-    choose(window, "mend", StoppingCriteria(tolerance=1e-2))
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        key(window, Qt.Key.Key_F5)
-    assert window.session.document.start.summary.inverted > 0
-    assert window.session.document.now.summary.inverted == 0
-    assert "invalid" not in counts(window)
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("back", [Qt.Key.Key_Z, Qt.Key.Key_R], ids=["undo", "reset"])
 def test_the_outcome_of_a_run_follows_undo_and_redo(window, qtbot, back):
     panel, before = window.features["smooth"].panel, counts(window)

@@ -135,13 +135,3 @@ def test_the_status_shows_progress_and_wraps_the_outcome(panel, qtbot):
     assert "1.84 s" in progress.text()
     qtbot.waitUntil(lambda: sentence.height() > 2 * sentence.fontMetrics().height(), timeout=PATIENCE)
     assert sentence.width() <= panel.width()
-
-
-def test_a_collapsed_section_is_hidden_and_opens_by_key(panel):
-    section = sections(panel)[0]
-    section.collapse()
-    assert not panel.stage.parameters.isVisible()
-    section.toggleButton().setFocus()
-    QTest.keyClick(section.toggleButton(), Qt.Key.Key_Space)
-    assert panel.stage.parameters.isVisible()
-    assert panel.stage.parameters.editor("scaling").height() > 15

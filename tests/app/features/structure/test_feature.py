@@ -11,9 +11,8 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.page import Page
-from hexmend_app.scene.layers.optional.structure import KINDS, LOCKED
+from hexmend_app.scene.layers.optional.structure import KINDS
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.tasks.boundary_classifier import PIN
 from tests.app.driving import choose
 from tests.app.features.structure.layers import count, open_and_know, pixels, press_key, texts
 from tests.core.grids import grid
@@ -56,17 +55,6 @@ def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
 
 
 @pytest.mark.slow
-def test_a_pin_changes_the_class_of_a_boundary_node(five, qtbot):
-    press_key(five, "kinds")
-    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.is_on("kinds"), timeout=PATIENCE)
-    node = int(np.flatnonzero(five.session.boundary_classifier.classes.kinds == NodeClass.PATCH)[0])
-    five.session.commands.pin(node, True)
-    qtbot.waitUntil(lambda: five.session.boundary_classifier.classes.kinds[node] == PIN, timeout=PATIENCE)
-    five.session.commands.undo()
-    qtbot.waitUntil(lambda: five.session.boundary_classifier.classes.kinds[node] == NodeClass.PATCH, timeout=PATIENCE)
-
-
-@pytest.mark.slow
 def test_the_original_surface_is_that_of_the_opened_mesh(five):
     press_key(five, "original")
     window, opened = five, five.session.document.start.mesh.points
@@ -80,22 +68,6 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
     np.testing.assert_allclose(np.ptp(places, axis=0), np.ptp(opened, axis=0), rtol=1e-6)
     press_key(five, "original")
     assert not window.canvas.viewport.overlay_layers.optional["original"].shown
-
-
-@pytest.mark.slow
-def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
-    mesh = grid(3)
-    points = mesh.points.copy()
-    points[15] += [-1.5, 0, 0]
-    io.write(tmp_path / "locked.vtu", Mesh(points, mesh.hexes))
-    open_and_know(qtbot, window, tmp_path / "locked.vtu")
-    press_key(window, "locked")
-    assert count(pixels(window), LOCKED) > 20
-    from PIL import Image
-
-    assert window.features["save"].picture(tmp_path / "locked.png", (640, 480))
-    image = np.asarray(Image.open(tmp_path / "locked.png").convert("RGB")).astype(int)
-    assert count(image, LOCKED) > 20
 
 
 @pytest.mark.slow

@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableWidget
 
 from hexmend import io
-from tests.app.driving import LEFT, choose, click, key, press
+from tests.app.driving import LEFT, key, press
 from tests.patience import PATIENCE
 
 
@@ -87,18 +87,6 @@ def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
 
 
 @pytest.mark.slow
-def test_a_typed_name_is_not_completed_or_added(window, panel):
-    window.session.commands.tag("Tagged", [1])
-    window.refresh()
-    name = panel.findChild(QComboBox)
-    name.lineEdit().selectAll()
-    QTest.keyClicks(name.lineEdit(), "tagged")
-    QTest.keyClick(name.lineEdit(), Qt.Key.Key_Return)
-    assert panel.name == "tagged"
-    assert [name.itemText(at) for at in range(name.count())] == ["Tagged"]
-
-
-@pytest.mark.slow
 def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
     window.session.commands.tag("one", [1, 2])
     window.session.commands.tag("two", [3])
@@ -121,16 +109,3 @@ def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
     write(0, "two")
     assert tags(window) == {"three": [1, 2], "two": [3]}
     assert listed(panel)[0][0] == "three"
-
-
-@pytest.mark.slow
-def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot):
-    window.session.commands.tag("kept", [5])
-    choose(window, "laplacian")
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
-    assert tags(window) == {"kept": [5]}
-    window.session.commands.tag("later", [6])
-    window.session.commands.reset()
-    assert tags(window) == {"kept": [5], "later": [6]}
-    np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)

@@ -1,7 +1,5 @@
 """The timeline in the window, by mouse and keys: scrubbing, playing, branching, breakpoints."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QSettings, Qt
@@ -169,24 +167,6 @@ def test_breakpoints_for_a_node_and_for_the_line_search(window, qtbot, text, met
         click(window, "Run")
     assert hit.args[0].hit.sentence in said(window)
     assert window.session.selection.node == (node if chooses else None)
-
-
-@pytest.mark.slow
-def test_saving_writes_the_displayed_iteration(window, qtbot, tmp_path):
-    from hexmend import io
-
-    record = stepped(window, qtbot)
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Stop")
-    go(window, qtbot, 5)
-    path = Path(tmp_path) / "five.vtu"
-    assert window.features["save"].save_and_wait(path)
-    np.testing.assert_array_equal(io.read(path).points, window.session.document.now.mesh.points)
-    assert not window.session.document.modified
-    assert window.session.document.undo_title == f"go to {record.name} 5"
-    window.session.document.undo()
-    assert window.session.document.modified
-    assert at(window, 12)()
 
 
 @pytest.mark.slow

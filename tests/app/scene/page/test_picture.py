@@ -67,13 +67,6 @@ def ink(image):
     return np.mean(view.max(axis=2) - view.min(axis=2) > 40)
 
 
-@pytest.mark.slow
-def test_the_command_draws_at_the_size_asked_for(pictures):
-    whole = pictures("--view", "iso")
-    assert whole.shape == (240, 320, 3)
-    assert ink(whole) > 0.15
-
-
 def test_structure_is_drawn_by_name(pictures):
     bare = pictures("--no-edges")
     black = np.array([0x11, 0x15, 0x1C])
