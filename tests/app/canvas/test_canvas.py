@@ -10,10 +10,8 @@ from PySide6.QtWidgets import QApplication
 
 from hexmend.quality import measure
 from hexmend_app.canvas.canvas import Canvas
-from hexmend_app.canvas.wipe_handle import WipeHandle
 from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.views.frame import Frame
-from hexmend_app.state.view.side_views import Wipe
 from tests.app.driving import LEFT, drag, turn
 from tests.core.grids import grid
 from tests.patience import PATIENCE
@@ -205,16 +203,3 @@ def test_the_colour_bar_covers_none_of_several_views(canvas, views):
         assert canvas.colour_bar.geometry().left() >= right
     canvas.show_side_by_side([])
     assert canvas.viewport.layers[0].GetViewport() == (0.0, 0.0, 1.0, 1.0)
-
-
-def test_the_colour_bar_does_not_cover_the_knob_of_a_wipe(canvas):
-    canvas.show_side_by_side([(MESH, FIGURES)], Wipe(0, 1, 0.5))
-    home = canvas.colour_bar.geometry()
-    edge = canvas.findChild(WipeHandle)
-    for share in (0.5, 0.9, 0.95):
-        canvas.move_wipe(Wipe(0, 1, share))
-        knob = edge.knob().translated(edge.pos())
-        assert not canvas.colour_bar.geometry().intersects(knob)
-    assert canvas.colour_bar.geometry() != home
-    canvas.move_wipe(Wipe(0, 1, 0.5))
-    assert canvas.colour_bar.geometry() == home

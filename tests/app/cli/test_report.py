@@ -41,22 +41,6 @@ def test_a_report_contains_mesh_methods_and_commands(hexmend, mesh_file, tmp_pat
     assert "http" not in text.replace("http-equiv", "")  # nothing is asked of a network
 
 
-def test_the_figures_of_each_mesh_are_counted_while_they_are_drawn(hexmend, mesh_file, tmp_path, monkeypatch):
-    counts = []
-
-    def count(items, total, text):
-        drawn = list(items)
-        counts.append((text, total, [figure.part for figure in drawn]))
-        return drawn
-
-    monkeypatch.setattr("hexmend_app.cli.report.document.show_count", count)
-    path = tmp_path / "report.html"
-    assert hexmend("report", mesh_file, *METHODS, "-o", path) == 0
-    assert hexmend("report", mesh_file, "--methods", "none", "-o", path) == 0
-    parts = ["behind", "surface", "cut", "distributions", "convergence"]
-    assert counts == [("drawing figures of bridge", 5, parts), ("drawing figures of bridge", 4, parts[:4])]
-
-
 @pytest.mark.parametrize("name", ["two words & <b>$x_{.vtu", "odd\udcff.vtu", "-- 'quoted'.vtu"])
 def test_any_file_name_works(hexmend, mesh_file, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)

@@ -17,9 +17,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.theme.palette import BLUE
 from hexmend_app.widgets.section import Section
-from tests.app.driving import LEFT, choose_by_keys, named
+from tests.app.driving import choose_by_keys, named
 
 pytestmark = pytest.mark.slow
 
@@ -196,39 +195,3 @@ def assert_read_from_the_top(window, reached):
         ):
             assert next_y > y - 8
             assert next_x > x or next_y > y + 8
-
-
-@pytest.mark.parametrize("panels", FRONTS, ids=" ".join)
-def test_focused_widgets_look_different(everything_on, panels):
-    window = everything_on
-    bring(window, panels)
-    plain = {one: one.grab().toImage() for one in controls(window)}
-    reached = walk(window)[:-1]
-    reached[0].setFocus(Qt.FocusReason.TabFocusReason)
-    unmarked = []
-    for one in reached:
-        while QApplication.focusWidget() is not one:  # still at a link of the one before
-            tab(window)
-        if isinstance(one, QLabel):
-            tab(window)  # Qt comes to the text, and then to its first link
-        if one.grab().toImage() == plain[one]:
-            unmarked.append(one.accessibleName())
-    assert unmarked == []
-
-
-def test_the_view_is_marked_when_focused_by_keys(window):
-    canvas = window.canvas
-    last = walk(window)[-2]
-
-    def edge():
-        return canvas.grab().toImage().pixelColor(canvas.interactor.x() - 1, canvas.height() // 3).name()
-
-    last.setFocus()
-    assert edge() != str(BLUE)
-    assert tab(window) is canvas.interactor
-    assert edge() == str(BLUE)
-    tab(window, Qt.Key.Key_Backtab)
-    assert edge() != str(BLUE)
-    QTest.mouseClick(canvas.interactor, LEFT, pos=QPoint(5, 5))
-    assert QApplication.focusWidget() is canvas.interactor
-    assert edge() != str(BLUE)

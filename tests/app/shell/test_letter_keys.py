@@ -7,7 +7,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
-    QApplication,
     QComboBox,
     QDockWidget,
     QListWidget,
@@ -18,8 +17,6 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend_app.shell.letter_keys import LetterKeys
-from tests.app.driving import LEFT
-from tests.patience import PATIENCE
 
 WORDS = ["Laplacian", "Mend", "Steepest descent", "Truss"]
 
@@ -75,17 +72,6 @@ def test_arrows_and_space_work_in_lists(lists):
     lists.list.setFocus()
     QTest.keyClick(lists.list, Qt.Key.Key_Down)
     assert lists.list.currentRow() == 1
-
-
-def test_an_open_list_finds_entries_by_letters(lists, qtbot):
-    QTest.mouseClick(lists.box, LEFT)
-    qtbot.waitUntil(lists.box.view().isVisible, timeout=PATIENCE)
-    QTest.keyClicks(QApplication.focusWidget(), "t")
-    QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Return)
-    assert lists.box.currentText() == "Truss"
-    assert lists.pressed == []
-    QTest.keyClicks(lists.box, "s")
-    assert (lists.box.currentText(), lists.pressed) == ("Truss", ["S"])
 
 
 def test_text_fields_receive_letters_and_numbers(lists):

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton, QSlider, QStyle, Q
 from superqt import QRangeSlider
 
 from hexmend_app.features.cut.cut_panel import CutPanel
-from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Box, Plane, Slab, Sphere
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -80,13 +80,6 @@ def handle(slider):
     )
 
 
-def test_switching_on_cuts_across_the_middle_and_off_again(panel, emitted):
-    switch_on(panel)
-    assert emitted == [Cut.at((1, 0, 0), (1, 15, 3))]
-    switch_on(panel)
-    assert emitted[1:] == [Cut()]
-
-
 @pytest.mark.parametrize(("key", "normal"), [("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))])
 def test_axis_buttons_align_the_plane_and_centre_it(panel, emitted, key, normal):
     panel.set_cut(Cut.at((1, 2, 3), (0, 0, 2)))
@@ -109,28 +102,6 @@ def test_dragging_the_slider_moves_the_plane_with_the_mouse(panel, emitted):
     assert places[-1] > 17
     assert all(plane.normal == (0, 1, 0) for plane in planes)
     assert named(panel, QLabel, "Position in mesh units").text() == f"{places[-1]:.4g}"
-
-
-def test_flipping_hides_the_other_side_in_the_same_place(panel, emitted):
-    plane = Cut.at((0, 1, 0), (1, 7, 3))
-    panel.set_cut(plane)
-    before = slider(panel).value()
-    QTest.mouseClick(named(panel, QPushButton, "Flip"), _LEFT)
-    assert emitted == [plane.with_plane(0, plane.planes[0].flipped())]
-    assert slider(panel).value() == before
-    assert axis(panel).value() == "y"
-    QTest.mouseClick(named(panel, QPushButton, "Flip"), _LEFT)
-    assert emitted[-1] == plane
-
-
-def test_a_rotated_plane_is_shown_as_free_without_a_signal(panel, emitted):
-    panel.set_cut(Cut.at((1, 1, 0), (1, 15, 3), CutStyle.SMOOTH))
-    assert axis(panel).value() == "free"
-    assert cut(panel).value() == "smooth"
-    panel.set_cut(Cut())
-    panel.set_handles(False)
-    panel.set_bounds(None)
-    assert emitted == []
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])

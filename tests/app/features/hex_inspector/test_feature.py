@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -11,9 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel
 
 from hexmend import io
-from hexmend.quality import METRICS
 from hexmend_app.bench.windows import save_and_wait
-from hexmend_app.theme.palette import KEPT
 from tests.app.driving import LEFT, choose, click, drag, key, open_and_wait
 from tests.core.boundary.solids import slid
 from tests.core.grids import grid
@@ -97,42 +93,6 @@ def test_a_boundary_node_pinned_by_key_does_not_slide(window, qtbot, tmp_path):
     window.session.commands.undo()
     window.refresh()
     assert not pin.isChecked()
-
-
-@pytest.mark.slow
-def test_the_saved_histogram_equals_the_drawn_one(window, tmp_path):
-    histogram, now = window.features["histogram"].panel, window.session.document.now
-    histogram.metric_chosen.emit("condition")
-    window.refresh()
-    histogram.keep_requested.emit()
-    histogram.renamed.emit(0, "as it was, before")
-    histogram.head.bins.setValue(20)
-    histogram.head.cumulative.setChecked(True)
-    histogram.head.scale.button("log").click()
-    window.refresh()
-    for suffix in (".csv", ".svg"):
-        assert window.features["histogram"].save(tmp_path / f"drawn{suffix}")
-    with open(tmp_path / "drawn.csv", newline="") as file:
-        head, inverted, *rows = csv.reader(file)
-    assert head == ["condition from", "condition to"] + [
-        f"% of hexes up to: {name}" for name in ("at the start", "now", "as it was, before")
-    ]
-    assert len(rows) == 21  # the last bin is beyond the end of the axis
-    assert rows[-1][1:] == ["inf", "100", "100", "100"]
-    assert float(inverted[3]) == pytest.approx(100 * now.summary.inverted / 4000, rel=1e-5)
-    shares = [float(row[3]) for row in rows]
-    assert shares == sorted(shares)
-    values = METRICS["condition"].of(now.mesh.points, now.mesh.hexes, now.figures)
-    up_to = np.count_nonzero(now.figures.inverted | (values < float(rows[4][1])))
-    assert shares[4] == pytest.approx(100 * up_to / 4000, rel=1e-5)
-    drawing = (tmp_path / "drawn.svg").read_text()
-    for text in ("Condition number", "as it was, before (", "inverted", "% of hexes up to x, inverted first"):
-        assert f">{text}" in drawing
-    assert all(colour in drawing for colour in (KEPT[0].of(dark=False), "#0072b2"))
-    histogram.head.scale.button("linear").click()
-    window.refresh()
-    assert window.features["histogram"].save(tmp_path / "linear.svg")
-    assert (tmp_path / "linear.svg").read_text() != drawing
 
 
 def test_ctrl_click_hides_a_hex_and_backspace_shows_it(window, qtbot):

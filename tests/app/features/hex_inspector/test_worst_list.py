@@ -109,15 +109,6 @@ def test_the_selected_row_follows_its_hex_when_the_mesh_changes(worst_list):
     assert (listed[row] == hex) if hex in listed else row == -1
 
 
-def test_a_hidden_list_is_filled_when_it_is_shown(qtbot):
-    widget = WorstList()
-    qtbot.addWidget(widget)
-    widget.set_figures(MESH, FIGURES)
-    assert widget.findChild(QTableView).model().rowCount() == 0
-    widget.show()
-    assert widget.findChild(QTableView).model().rowCount() == min(MAX_LISTED, MESH.n_hexes)
-
-
 def test_the_saved_list_reads_back(worst_list, tmp_path):
     write_worst(tmp_path / "worst.csv", MESH, worst_list.chosen_metric)
     lines = (tmp_path / "worst.csv").read_text().splitlines()

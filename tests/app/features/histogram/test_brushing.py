@@ -129,16 +129,3 @@ def test_an_end_of_the_range_of_colours_is_dragged(histogram, announced, qtbot):
     assert announced == []  # the hexes shown stay the same
     histogram.set_colour_range(None)
     assert not histogram.plot.colour_range.shown
-
-
-@pytest.mark.parametrize("ends", [(1.5, 2.0), (-2.0, -1.0), (0.3, 0.3005)])
-@pytest.mark.parametrize("end", [0, 1])
-def test_the_range_of_colours_is_never_empty(histogram, ends, end):
-    ranges = []
-    histogram.colours_dragged.connect(lambda low, high: ranges.append((low, high)))
-    for position in (0.0, 0.3, 1.0):
-        histogram.set_colour_range(ends)
-        histogram.plot.colour_range.drag(end, position)
-    assert len(ranges) == 3
-    assert all(low < high for low, high in ranges)
-    assert all(pair[1 - end] == ends[1 - end] for pair in ranges)

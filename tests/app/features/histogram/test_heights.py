@@ -21,39 +21,6 @@ def test_the_largest_count_is_visible_on_both_scales(histogram, scale):
         assert (height - low) / (high - low) > 0.35
 
 
-@pytest.mark.parametrize("scale", ["linear", "log"])
-def test_the_axis_fits_the_bins_and_a_taller_bar_is_broken(histogram, scale):
-    QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
-    q = np.full(3000, 0.5)
-    inverted, repaired = np.arange(3000) >= 100, np.arange(3000) >= 2990
-    histogram.set_initial(q, inverted)
-    histogram.set_current(q, inverted)
-    plot = histogram.plot
-    top = 10**plot.heights.top if scale == "log" else plot.heights.top
-    assert 100 <= top <= 150
-    now, start = (plot.numbers[key][0] for key in ("now", "start"))
-    assert now.toPlainText() == "2,900"
-    assert now.isVisible()
-    assert not start.isVisible()  # the same number again
-    bar = plot.outlines["now"].bar.path()
-    assert len(bar.toSubpathPolygons()) == 2  # with a gap between them
-    assert plot.heights.top < bar.boundingRect().bottom() < plot.plot.viewRange()[1][1]
-    lower, upper = (piece.boundingRect() for piece in bar.toSubpathPolygons())
-    assert lower.top() == plot.heights.floor
-    assert lower.bottom() < upper.bottom()
-    histogram.set_current(np.append(q, q[:500]), np.append(inverted, inverted[100:600]))
-    assert (now.toPlainText(), start.toPlainText()) == ("3,400", "2,900")
-    assert start.isVisible()
-    middles = [number.mapRectToScene(number.boundingRect()).center() for number in (start, now)]
-    assert all(map(plot.view.sceneBoundingRect().contains, middles))
-    assert middles[0].y() < middles[1].y() - 8
-    histogram.set_current(q, repaired)
-    assert now.toPlainText() == "10"
-    if scale == "linear":
-        assert not start.isVisible()  # its bar fits the axis again
-    assert len(plot.outlines["now"].bar.path().toSubpathPolygons()) == 1
-
-
 def test_there_is_an_axis_if_all_hexes_are_inverted(histogram):
     histogram.set_initial(np.zeros(50), np.ones(50, bool))
     histogram.set_current(np.zeros(50), np.ones(50, bool))

@@ -79,13 +79,6 @@ def test_snapshots_are_drawn_renamed_and_removed(histogram, data):
     assert len(histogram.plot.outlines) == 3
 
 
-def test_the_axis_does_not_change_with_the_values(histogram, condition):
-    before = histogram.axis, histogram.plot.plot.viewRange()[0]
-    for share in (0.5, 0.2, 5.0):
-        histogram.set_current(1 + share * np.linspace(0, 9, 2000), np.zeros(2000, bool))
-        assert (histogram.axis, histogram.plot.plot.viewRange()[0]) == before
-
-
 def test_the_line_below_counts_hexes_that_are_invalid_inside(histogram, data):
     assert histogram.summary.text() == "2,000 hexes, 0 inverted"
     histogram.set_current(data[0], np.zeros(2000, bool), 2)

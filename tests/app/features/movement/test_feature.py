@@ -14,9 +14,6 @@ from hexmend.smoothers import METHODS
 from hexmend_app.picture.appearance import Since
 from hexmend_app.picture.colours import Range
 from hexmend_app.picture.cut import Cut
-from hexmend_app.scene.film.film import pictures
-from hexmend_app.scene.film.film_frames import film_frames
-from hexmend_app.state.mesh.run_record import RecordedIteration
 from tests.app.driving import open_and_wait, pixels
 from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
@@ -122,19 +119,3 @@ def test_newly_invalid_hexes_are_isolated(window, mesh_to_invert, record, panel,
     isolated = window.session.view.look.show.isolate.hexes
     assert window.session.document.now.figures.invalid[list(isolated)].all()
     assert len(isolated) == movement.counts.newly_invalid
-
-
-@pytest.mark.slow
-def test_a_film_compares_each_frame_with_the_previous_one(window, record, panel):
-    history, mesh = window.session.history, window.session.document.now.mesh
-    press(panel.colours, "q-change")
-    press(panel.since, "iteration")
-    states = list(film_frames(record, [0, 2, 5], lambda number: history.state(RecordedIteration(record, number), mesh)))
-    look, movement = window.session.view.look, window.canvas.viewport.frame.movement
-    frames = [np.asarray(picture) for picture in pictures(states, look, (400, 300), movement=movement)]
-    assert len(frames) == 3
-    assert (frames[0] != frames[1]).any()
-    still = list(pictures([states[2], states[2]], look, (400, 300), movement=movement))
-    np.testing.assert_array_equal(
-        np.asarray(still[0])[30:], np.asarray(still[1])[30:]
-    )  # nothing moves between equal frames

@@ -3,7 +3,6 @@
 import dataclasses
 
 import numpy as np
-import pyqtgraph as pg
 import pytest
 from PySide6.QtWidgets import QLabel
 
@@ -119,20 +118,3 @@ def test_trials_above_the_plot_are_drawn_at_its_upper_edge(shown):
     assert len(plot.numbers) > 1
     plot.show_step(None)
     assert plot.numbers == []
-
-
-def test_the_power_of_ten_of_large_changes_is_in_the_label(shown):
-    step = step_of("local-sd")
-    curve = step.curve.copy()
-    curve[:, 1] = step.energy + 1e6 * (curve[:, 1] - step.energy)
-    plot = shown(NodePlot(), 260, 180)
-    plot.show_step(dataclasses.replace(step, curve=curve))
-    axis = named(plot, pg.PlotWidget, "Energy along the direction").getAxis("left")
-    assert "[10" in axis.labelText
-    assert 0.1 <= max(abs(v) for v in axis.range) * axis.scale < 20
-
-
-def test_the_sweep_shows_its_progress(shown):
-    panel = shown(NodePanel(), 500, 260)
-    panel.set_sweep(3, 10)
-    assert named(panel, QLabel, "Progress of the sweep").text() == "3 of 10 steps"

@@ -129,17 +129,3 @@ def test_the_numbers_of_inverted_locked_and_invalid_hexes_are_links(with_inverte
     assert requests == ["inverted", "locked", "invalid"]
     assert cell(table, "inverted", 2).font().underline()
     assert "Show only the locked hexes" in cell(table, "locked_inverted", 2).toolTip()
-
-
-def test_links_are_followed_by_keys(with_inverted):
-    table, requests = with_inverted
-    grid(table).setFocus()
-    grid(table).setCurrentCell(_ROW_OF["inverted"], 0)
-    QTest.keyClick(grid(table), Qt.Key.Key_Return)
-    QTest.keyClick(grid(table), Qt.Key.Key_Down)
-    QTest.keyClick(grid(table), Qt.Key.Key_Enter)
-    QTest.keyClick(grid(table), Qt.Key.Key_Down)
-    QTest.keyClick(grid(table), Qt.Key.Key_Enter)
-    QTest.keyClick(grid(table), Qt.Key.Key_Down)
-    QTest.keyClick(grid(table), Qt.Key.Key_Enter)  # no link
-    assert requests == ["inverted", "locked", "invalid"]

@@ -80,13 +80,6 @@ def test_an_unknown_suffix_is_rejected_with_the_known_ones(dialog, tmp_path, nam
     assert dialog.target.path() == tmp_path / "p.png"
 
 
-def test_a_name_without_a_suffix_gets_one(dialog, tmp_path):
-    write(dialog, tmp_path / "p")
-    save(dialog)
-    assert dialog.result()
-    assert dialog.target.path() == tmp_path / "p.png"
-
-
 @pytest.mark.parametrize("answer", [QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No])
 def test_a_file_is_replaced_only_after_confirmation(dialog, tmp_path, monkeypatch, answer):
     monkeypatch.setattr(QMessageBox, "exec", lambda self: answer)

@@ -98,13 +98,3 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     press(panel.layers["irregular"].box)
     assert heard == [Structure()]
     assert not panel.offered()["irregular"]
-
-
-def test_a_click_adds_a_layer(panel):
-    panel.set_found(find_structure(grid(2)))
-    heard = []
-    panel.structure_changed.connect(heard.append)
-    panel.set_structure(Structure.of("locked"))
-    press(panel.layers["sharp"].box)
-    press(panel.layers["sharp"].box)
-    assert heard == [Structure.of("sharp", "locked"), Structure.of("locked")]

@@ -69,11 +69,3 @@ def test_faces_of_hidden_hexes_are_not_drawn(drawn):
     assert not drawn.viewport.overlay_layers.optional["original"].shown
     drawn(frame(MESH.points))
     assert drawn.viewport.overlay_layers.optional["original"].shown
-
-
-def test_other_views_show_it_if_their_hexes_are_equal():
-    first = frame(MESH.points)
-    other_view = Frame(MESH.with_points(MESH.points * 2), measure(MESH.points * 2, MESH.hexes)).matching(first)
-    assert other_view.original is first.original
-    other = grid(2)
-    assert Frame(other, measure(other.points, other.hexes)).matching(first).original is None

@@ -21,9 +21,7 @@ from hexmend_app.scene.layers.optional.structure import (
     IRREGULAR_NODE,
     KINDS,
     LOCKED,
-    OTHER,
     PINNED,
-    SHARP,
     VALENCES,
 )
 from hexmend_app.scene.render.stage import Stage
@@ -83,16 +81,6 @@ def test_irregular_edges_are_visible_through_the_mesh_in_the_colour_of_their_val
     assert count(image, VALENCES[3]) > 20
     assert count(image, VALENCES[5]) == 0
     assert count(image, IRREGULAR_NODE) > 5
-
-
-def test_sharp_edges_and_irregular_edges_of_a_smooth_boundary(draw):
-    assert count(draw(grid(3), Structure.of("sharp")), SHARP) > 300
-    mesh = grid(8)
-    assert count(draw(mesh, Structure.of("boundary")), OTHER) == 0  # the edges of a box are sharp
-    p = mesh.points / 4 - 1
-    size = np.linalg.norm(p, axis=1, keepdims=True)
-    ball = Mesh(p * np.abs(p).max(axis=1, keepdims=True) / np.maximum(size, 1e-9), mesh.hexes)
-    assert count(draw(ball, Structure.of("boundary")), OTHER) > 100
 
 
 def test_nodes_have_the_colour_of_their_kind(draw):

@@ -14,9 +14,7 @@ from hexmend_app.picture import (
     Captions,
     ColourBarStyle,
     Colours,
-    Corner,
     Cut,
-    LineStyle,
     Page,
     PicturePanel,
     Plane,
@@ -134,33 +132,6 @@ def test_a_cropped_page_has_the_mesh_at_its_sides():
     assert nothing.size == (90, 70)
     with_bar = drawn(grid(2), page=Page(pixels=(900, 300), crop=True))
     assert with_bar.size[1] < 300 or with_bar.size[0] < 900
-
-
-@pytest.mark.slow
-def test_edges_have_the_specified_width_at_all_resolutions():
-    shares = []
-    for edges, dpi in ((0.0, 300), (0.5, 150), (0.5, 300), (1.0, 300)):
-        page = Page(100, 60, dpi=dpi, shading=False)
-        image = pixels(drawn(grid(3), lines=LineStyle(edges), page=page, colours=Colours(neutral=True), **BARE))
-        shares.append(255 - image.mean())
-    none, coarse, fine, thick = shares
-    assert coarse - none == pytest.approx(fine - none, rel=0.3)
-    assert 1.4 < (thick - none) / (fine - none) < 3.2
-
-
-@pytest.mark.slow
-def test_axes_are_drawn_in_the_specified_corner():
-    colours = {}
-    for corner in Corner:
-        bare = {
-            "page": Page(pixels=(400, 400)),
-            "show": Show(quality=(0, 0.1), outline=False),
-            "bar": ColourBarStyle(TextPlace.NONE),
-        }
-        image = pixels(drawn(grid(1), axes=AxesStyle(place=corner), **bare))
-        rows, columns = np.nonzero((image < 200).any(axis=2))
-        colours[corner] = ("lower" if rows.mean() > 200 else "upper", "left" if columns.mean() < 200 else "right")
-    assert colours == {corner: tuple(corner.value.split()) for corner in Corner}
 
 
 def test_one_mesh_is_seen_from_several_directions():

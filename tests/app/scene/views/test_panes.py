@@ -74,18 +74,6 @@ def test_each_view_shows_its_mesh_as_it_would_alone(panes, pixels):
     assert np.abs(both[:, 5:115] - both[:, 125:235]).max() < 16  # the same mesh, so the same picture, but for rounding
 
 
-def test_all_views_share_a_camera(panes, pixels):
-    panes.show([shown(mesh) for mesh in OTHERS])
-    assert all(view.camera is panes.first.camera for view in panes.all)
-    before = pixels()
-    panes.first.camera.Azimuth(40)
-    panes.camera_controller.reset_depth()
-    after = pixels()
-    for left, low, right, high in grid(4):
-        part = np.s_[round((1 - high) * 160) : round((1 - low) * 160), round(left * 240) : round(right * 240)]
-        assert np.abs(after[part] - before[part]).max() > 50
-
-
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("at", [0.25, 0.5, 0.8])
 def test_both_halves_of_a_wipe_are_parts_of_one_picture(panes, at, parallel, pixels):

@@ -84,15 +84,6 @@ def test_the_result_is_there_for_who_goes_on(document, run, qtbot, act):
     assert document.now is result
 
 
-def test_pausing_shows_the_iteration_at_which_it_pauses(document, run, qtbot):
-    run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=100_000))
-    qtbot.waitUntil(lambda: run.record.newest > 3, timeout=PATIENCE)
-    run.pause()
-    qtbot.waitUntil(lambda: run.phase is Phase.PAUSED, timeout=PATIENCE)
-    assert not run.view.eased.active
-    assert run.history.iteration_of(document.now).number == run.record.newest
-
-
 def test_steps_and_large_meshes_are_shown_as_they_are(document, run, qtbot, monkeypatch):
     run.start(LocalSteepestDescent(), TEN, iterations=2)
     assert not run.view.eased.active

@@ -147,17 +147,6 @@ def test_the_wheel_changes_only_focused_editors(form):
     assert form.values()["max_cuts"] == 31
 
 
-def test_other_declarations_replace_the_rows(form):
-    old = form.editor("delta")
-    form.set_declarations(declared(AllKinds)[:1])
-    assert list(form.values()) == ["delta"]
-    assert form.editor("delta") is not old
-    form.set_declarations(())
-    assert form.values() == {}
-    assert form.none.isVisible()
-    assert not any(button.isVisible() for button in form.findChildren(QToolButton))
-
-
 @dataclass(frozen=True)
 class WithSuggestions(Parametrised):
     """A text for which values are offered."""
