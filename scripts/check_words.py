@@ -130,8 +130,9 @@ def faults_of_python(source: str, seen: bool) -> Iterator[str]:
     yield from (f"{line} {fault}" for name, line in names_of(tree) if (fault := misnamed(name)))
     docstrings, keys = set(), set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and (text := ast.get_docstring(node)):
-            if fault := opening(text):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            fault = opening(ast.get_docstring(node) or "")
+            if fault:
                 yield f"{node.body[0].lineno} {fault}"
         if isinstance(node, ast.Expr):
             docstrings.add(node.value)
