@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,8 +10,6 @@ from PIL import Image
 
 from hexmend.study.thesis.mesh_figures import MESH_FIGURES
 from hexmend_app.scene.render.colour_count import count_colours
-
-ROOT = Path(__file__).resolve().parents[3]
 
 #: Program that draws every figure, of small meshes.
 DRAW = """

@@ -17,7 +17,6 @@ from hexmend_app.report import case, page
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[3]
 METHODS = ["--methods", "laplacian,mend", "--max-iterations", "8"]
 
 

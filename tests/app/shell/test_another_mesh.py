@@ -19,8 +19,6 @@ from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
 
-SHIFT = Qt.KeyboardModifier.ShiftModifier
-
 
 @pytest.fixture(scope="module")
 def small_file(tmp_path_factory):

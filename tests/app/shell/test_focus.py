@@ -22,8 +22,6 @@ from tests.app.driving import choose_by_keys, named
 
 pytestmark = pytest.mark.slow
 
-SHIFT = Qt.KeyboardModifier.ShiftModifier
-
 
 def tab(window, key=Qt.Key.Key_Tab):
     """Press Tab or another key, and return the widget with the focus."""

@@ -1,4 +1,4 @@
-"""Appearance in the window: colours, ranges, and when the mesh is redrawn."""
+"""Appearance in the window: colours and their ranges."""
 
 from __future__ import annotations
 

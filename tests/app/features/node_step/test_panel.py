@@ -118,3 +118,11 @@ def test_trials_above_the_plot_are_drawn_at_its_upper_edge(shown):
     assert len(plot.numbers) > 1
     plot.show_step(None)
     assert plot.numbers == []
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_every_method_is_explained(name):
+    texts = " ".join(f"{row.name} {row.meaning}" for row in rows(step_of(name)))
+    assert "Energy" in texts
+    assert ("Armijo" in texts) == (name.split("-")[-1] in ("sd", "nr", "mnr"))
+    assert ("Target" in texts) == (name in ("laplacian", "smart-laplacian", "getme", "general"))

@@ -13,7 +13,6 @@ from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.widgets.section import Section
 from tests.patience import PATIENCE
 
-_LEFT = Qt.MouseButton.LeftButton
 _STATES = ("idle", "preparing", "running", "paused", "finished")
 _SIGNALS = (
     "run_requested",

@@ -1,19 +1,12 @@
-"""The view rotated, panned and zoomed by keys."""
+"""Keys of VTK do nothing in the view."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from tests.app.driving import pixels
-
-SHIFT = Qt.KeyboardModifier.ShiftModifier
-
-
-def direction(camera):
-    return np.array(camera.GetDirectionOfProjection())
 
 
 @pytest.mark.slow
