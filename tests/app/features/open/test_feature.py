@@ -160,7 +160,7 @@ def finish_reading(qtbot, slow_read):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("by", ["button", "Esc"])
-def test_opening_shows_its_progress_and_is_cancelled(window, qtbot, slow_read, recent, mesh_file, tmp_path, by):
+def test_opening_shows_its_progress_and_is_cancelled(window, qtbot, recent, slow_read, mesh_file, tmp_path, by):
     other = tmp_path / "slow.vtu"
     shutil.copy(mesh_file, other)
     before = window.session.document.now
