@@ -14,7 +14,7 @@ help:
 	@echo "make test              run the quick tests, on a virtual screen;  make test-slow  runs the others"
 	@echo "make soak [SEED=n]     run the tests of properties on many random examples, of this seed or of another each time"
 	@echo "make mutants           put small faults into copies of the core: do its tests find them? half an hour"
-	@echo "make lint              check the style and the types;  make format  mends the style"
+	@echo "make lint              check style, types, words and pages;  make format  mends the style"
 	@echo "make bench             measure speed, memory and quality; python -m benchmarks --help lists what there is"
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
 	@echo "make docs              write anew what in docs is generated: tables, reference, drawings"
@@ -58,6 +58,8 @@ lint: $(VENV)/.test $(VENV)/.pins
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
 	@$(BIN)/mypy
+	@$(BIN)/python scripts/check_words.py
+	@$(BIN)/python scripts/check_pages.py
 	@$(BIN)/clang-format --dry-run -Werror $(CXX_SOURCES)
 
 format: $(VENV)/.test

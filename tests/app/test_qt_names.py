@@ -9,11 +9,9 @@ import pkgutil
 import textwrap
 from collections.abc import Iterator
 
-import pytest
 from PySide6.QtCore import QObject, Signal
 
 import hexmend_app
-from hexmend_app.shell.letter_keys import LetterKeys
 
 #: Modules that start the program when they are imported.
 _PROGRAMS = {"hexmend_app.__main__"}
@@ -70,11 +68,3 @@ def test_hidden_methods_are_found():
             return None
 
     assert hidden_methods(Hiding) == {"children", "event", "parent"}
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["window", "actions"])
-def test_the_window_keeps_the_methods_of_qt(window, name):
-    assert callable(getattr(window, name))
-    assert window.window() is window
-    assert window.findChild(LetterKeys) is not None

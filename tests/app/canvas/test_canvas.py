@@ -6,16 +6,12 @@ import shiboken6
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QToolButton
+from PySide6.QtWidgets import QApplication
 
 from hexmend.quality import measure
 from hexmend_app.canvas.canvas import Canvas
-from hexmend_app.canvas.view_captions import Caption
-from hexmend_app.canvas.wipe_handle import WipeHandle
-from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.views.frame import Frame
-from hexmend_app.state.view.side_views import Wipe
 from tests.app.driving import LEFT, drag, turn
 from tests.core.grids import grid
 from tests.patience import PATIENCE
@@ -98,32 +94,6 @@ def test_views_can_be_stepped_back_and_forward(canvas, qtbot):
     assert (canvas.camera_animation.can_go_back, canvas.camera_animation.can_go_forward) == (False, False)
 
 
-@pytest.mark.slow
-def test_going_back_immediately_returns_to_the_previous_pose(canvas, qtbot):
-    home = pose(canvas)
-    canvas.look_along("+x")
-    side = pose(canvas)
-    canvas.camera_animation.go_back()  # before it has come to rest
-    rested(qtbot, canvas)
-    assert pose(canvas).looks_like(home)
-    canvas.camera_animation.go_forward()
-    rested(qtbot, canvas)
-    assert pose(canvas).looks_like(side)
-
-
-@pytest.mark.slow
-def test_successive_key_strokes_are_one_entry_of_the_history(canvas, qtbot):
-    home = pose(canvas)
-    for _ in range(4):
-        QTest.keyClick(canvas.interactor, Qt.Key.Key_Right)
-    rested(qtbot, canvas)
-    assert not pose(canvas).looks_like(home)
-    canvas.camera_animation.go_back()
-    rested(qtbot, canvas)
-    assert pose(canvas).looks_like(home)
-    assert not canvas.camera_animation.can_go_back
-
-
 def test_an_unbound_key_does_not_end_a_flight(canvas, qtbot):
     canvas.fly_to(0)
     QTest.keyClick(canvas.interactor, Qt.Key.Key_N)
@@ -146,17 +116,6 @@ def test_the_camera_returns_to_the_bookmarked_pose(canvas, qtbot):
     canvas.look_along("+z")
     canvas.camera_animation.fly_to_bookmark()  # there is nothing to return to
     assert not canvas.camera_animation.active
-
-
-@pytest.mark.slow
-def test_a_pose_bookmarked_during_a_flight_is_the_goal_of_the_flight(canvas, qtbot):
-    canvas.fly_to(3)
-    canvas.camera_animation.remember()
-    canvas.fly_to(60)
-    rested(qtbot, canvas)
-    canvas.camera_animation.fly_to_bookmark()
-    rested(qtbot, canvas)
-    np.testing.assert_allclose(pose(canvas).focal, MESH.points[MESH.hexes[3]].mean(axis=0), atol=1e-6)
 
 
 @pytest.mark.slow
@@ -236,49 +195,6 @@ def test_a_menu_may_block(canvas, qtbot):
     assert moved[0].looks_like(before)
 
 
-def test_vertical_axis_and_projection_can_be_set(canvas):
-    assert (canvas.up, canvas.parallel) == ("z", False)
-    canvas.set_up("y")
-    canvas.set_parallel(True)
-    assert (canvas.up, canvas.parallel) == ("y", True)
-    canvas.look_along("+x")
-    before = pose(canvas)
-    canvas.roll(90)
-    assert np.dot(pose(canvas).up, before.up) == pytest.approx(0, abs=1e-9)
-
-
-@pytest.mark.slow
-def test_the_camera_flies_to_face_a_plane(canvas, qtbot):
-    canvas.face(Plane((0, 1, 0), point=(2, 2, 2)))
-    assert canvas.camera_animation.active
-    rested(qtbot, canvas)
-    np.testing.assert_allclose(canvas.viewport.camera.GetDirectionOfProjection(), (0, -1, 0), atol=1e-9)
-
-
-@pytest.mark.slow
-def test_the_view_has_a_minimum_size(canvas):
-    canvas.resize(50, 50)
-    assert canvas.interactor.width() >= 320
-    assert canvas.interactor.height() >= 240
-
-
-@pytest.mark.slow
-def test_the_colour_bar_does_not_cover_close_buttons(canvas, qtbot):
-    others = [(MESH, FIGURES)] * 3
-    for size in ((600, 500), (900, 700), (420, 320)):
-        canvas.resize(*size)
-        canvas.show_side_by_side(others)
-        canvas.frame.set_captions([Caption(f"view {k}", 0.5, 0, 0, None) for k in range(4)], None)
-        turn()
-        bar = canvas.colour_bar.geometry()
-        crosses = [one for one in canvas.findChildren(QToolButton) if one.accessibleName().startswith("Close")]
-        assert len(crosses) == 3
-        for cross in crosses:
-            at = cross.mapTo(canvas.interactor, cross.rect().center())
-            assert canvas.interactor.childAt(at) is cross
-        assert canvas.interactor.rect().contains(bar)
-
-
 @pytest.mark.parametrize("views", [2, 3, 4])
 def test_the_colour_bar_covers_none_of_several_views(canvas, views):
     canvas.resize(900, 600)
@@ -289,16 +205,3 @@ def test_the_colour_bar_covers_none_of_several_views(canvas, views):
         assert canvas.colour_bar.geometry().left() >= right
     canvas.show_side_by_side([])
     assert canvas.viewport.layers[0].GetViewport() == (0.0, 0.0, 1.0, 1.0)
-
-
-def test_the_colour_bar_does_not_cover_the_knob_of_a_wipe(canvas):
-    canvas.show_side_by_side([(MESH, FIGURES)], Wipe(0, 1, 0.5))
-    home = canvas.colour_bar.geometry()
-    edge = canvas.findChild(WipeHandle)
-    for share in (0.5, 0.9, 0.95):
-        canvas.move_wipe(Wipe(0, 1, share))
-        knob = edge.knob().translated(edge.pos())
-        assert not canvas.colour_bar.geometry().intersects(knob)
-    assert canvas.colour_bar.geometry() != home
-    canvas.move_wipe(Wipe(0, 1, 0.5))
-    assert canvas.colour_bar.geometry() == home

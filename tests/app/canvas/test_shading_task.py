@@ -3,12 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.page import Page
-from hexmend_app.picture.visibility import Show
 from tests.patience import PATIENCE
-
-pytestmark = pytest.mark.slow
 
 
 def rested(window, qtbot):
@@ -25,6 +20,7 @@ def test_a_view_at_rest_is_shaded(window, qtbot):
     assert mesh_layer.light.min() < 1
 
 
+@pytest.mark.slow
 def test_a_change_computes_the_shading_again(window, qtbot):
     mesh_layer = rested(window, qtbot)
     before = mesh_layer.light
@@ -35,16 +31,7 @@ def test_a_change_computes_the_shading_again(window, qtbot):
     assert mesh_layer.light is not before
 
 
-def test_nothing_is_computed_without_shading(window, qtbot):
-    rested(window, qtbot)
-    window.session.view.change(page={"shading": False}, show={"hidden": frozenset({3})})
-    qtbot.waitUntil(lambda: window.canvas.viewport.frame.look == window.session.view.look, timeout=PATIENCE)
-    window.canvas.panes.still()
-    window.canvas.shading_task.start()
-    assert not window.canvas.shading_task.active
-    assert window.session.view.look == Look(page=Page(shading=False), show=Show(hidden=frozenset({3})))
-
-
+@pytest.mark.slow
 def test_shutting_down_ends_the_computation(window):
     window.canvas.panes.still()
     window.canvas.shading_task.start()

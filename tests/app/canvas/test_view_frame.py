@@ -10,7 +10,6 @@ from PySide6.QtWidgets import QToolButton, QWidget
 from hexmend_app.canvas.view_captions import HEIGHT, Caption, CaptionRow
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.scene.views.arrangement import grid
-from hexmend_app.state.view.side_views import Wipe
 from tests.app.driving import LEFT
 from tests.patience import PATIENCE
 
@@ -56,14 +55,6 @@ def test_captions_show_the_counts_of_each_view_first(framed):
     assert Caption("view", 0.5, 3, 5, None).figures == "3 inverted · 2 invalid inside · q min 0.5000"
 
 
-def test_captions_leave_the_strip_of_the_legend_free(framed):
-    framed.frame.set_captions(captions(2), None)
-    framed.frame.set_legend_width(101)
-    framed.view.resize(801, 603)
-    framed.frame.fit()
-    assert max(place.right() for place in entries(framed.view).values()) <= 700
-
-
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_each_caption_is_at_the_top_of_its_view(framed, qtbot, count):
     frame, view, size = framed.frame, framed.view, framed.view.size()
@@ -79,16 +70,6 @@ def test_each_caption_is_at_the_top_of_its_view(framed, qtbot, count):
         assert place.height() == HEIGHT
         assert abs(place.left() - left * view.width()) <= 1
         assert abs(place.right() + 1 - right * view.width()) <= 1
-
-
-def test_captions_follow_a_resized_view_and_are_hidden_by_a_wipe(framed, qtbot):
-    frame, view = framed.frame, framed.view
-    frame.set_captions(captions(4), None)
-    framed.resize(1001, 803)
-    frame.fit()
-    assert entries(view)["view 2"].top() == round(view.height() / 2)
-    frame.set_captions(captions(4), Wipe(0, 1, 0.5))
-    assert entries(view) == {}
 
 
 def test_a_close_button_in_the_lower_row_closes_its_view(framed, qtbot):

@@ -9,8 +9,6 @@ import pytest
 
 from hexmend import gallery, io
 
-pytestmark = pytest.mark.slow
-
 #: The program; a signal arrives while VTK calls back into Python.
 PROGRAM = """
 import os, signal, sys
@@ -25,6 +23,7 @@ sys.exit(main(sys.argv[1:]))
 """
 
 
+@pytest.mark.slow
 def test_a_signal_while_a_picture_is_drawn_ends_it_in_order(tmp_path):
     io.write(tmp_path / "mesh.vtu", gallery.make("cube", size=27, scramble=0.3))
     for number in (signal.SIGINT, signal.SIGTERM):

@@ -5,8 +5,6 @@ import json
 import os
 import shlex
 import signal
-import tomllib
-from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
@@ -16,11 +14,9 @@ from hexmend.cli import main as program
 from hexmend.run import memory
 from hexmend_app.cli import figure_set, report
 from hexmend_app.report import case, page
-from hexmend_app.report import figure_set as pages
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).resolve().parents[3]
 METHODS = ["--methods", "laplacian,mend", "--max-iterations", "8"]
 
 
@@ -30,12 +26,6 @@ def hexmend(monkeypatch):
     own = {"report": lambda: report.command, "figures": lambda: figure_set.command}
     monkeypatch.setattr(program, "commands", lambda: own)
     return lambda *words: program.main([*map(str, words)])
-
-
-def test_the_entry_points_are_registered():
-    points = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["entry-points"]
-    for name, command in (("report", report.command), ("figures", figure_set.command)):
-        assert EntryPoint(name, points["hexmend.commands"][name], "hexmend.commands").load() is command
 
 
 def test_a_report_contains_mesh_methods_and_commands(hexmend, mesh_file, tmp_path):
@@ -50,22 +40,6 @@ def test_a_report_contains_mesh_methods_and_commands(hexmend, mesh_file, tmp_pat
     assert "http" not in text.replace("http-equiv", "")  # nothing is asked of a network
 
 
-def test_the_figures_of_each_mesh_are_counted_while_they_are_drawn(hexmend, mesh_file, tmp_path, monkeypatch):
-    counts = []
-
-    def count(items, total, text):
-        drawn = list(items)
-        counts.append((text, total, [figure.part for figure in drawn]))
-        return drawn
-
-    monkeypatch.setattr("hexmend_app.cli.report.document.show_count", count)
-    path = tmp_path / "report.html"
-    assert hexmend("report", mesh_file, *METHODS, "-o", path) == 0
-    assert hexmend("report", mesh_file, "--methods", "none", "-o", path) == 0
-    parts = ["behind", "surface", "cut", "distributions", "convergence"]
-    assert counts == [("drawing figures of bridge", 5, parts), ("drawing figures of bridge", 4, parts[:4])]
-
-
 @pytest.mark.parametrize("name", ["two words & <b>$x_{.vtu", "odd\udcff.vtu", "-- 'quoted'.vtu"])
 def test_any_file_name_works(hexmend, mesh_file, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
@@ -75,14 +49,6 @@ def test_any_file_name_works(hexmend, mesh_file, tmp_path, monkeypatch, name):
     assert hexmend("figures", f"./{name}", "--width-mm", "60", *words, "set") == 0
     assert "<b>" not in Path("report.html").read_text(encoding="utf-8")
     assert Path("set/captions.md").exists()
-
-
-def test_a_report_on_paper_has_its_pictures(hexmend, mesh_file, tmp_path):
-    pytest.importorskip("weasyprint")
-    path = tmp_path / "report.pdf"
-    assert hexmend("report", mesh_file, mesh_file, "--methods", "none", "-o", path) == 0
-    assert path.read_bytes().startswith(b"%PDF-")
-    assert path.read_bytes().count(b"/Subtype /Image") >= 2
 
 
 def test_a_figure_set_has_its_captions_and_its_commands(hexmend, mesh_file, tmp_path):
@@ -148,15 +114,6 @@ def test_runs_without_enough_memory_are_rejected(hexmend, mesh_file, tmp_path, m
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_real_mesh_fits_into_a_page(hexmend, real_mesh, tmp_path):
-    path = tmp_path / "report.html"
-    assert (
-        hexmend("report", real_mesh("pierrot_32735.mesh"), "--methods", "mend", "--max-iterations", "2", "-o", path)
-        == 0
-    )
-    assert path.stat().st_size < 10e6
-
-
 def test_meshes_of_one_name_get_folders_of_their_own(hexmend, mesh_file, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     paths = [Path(name) for name in ("a/part.vtu", "b/part.vtu", "c/b/part.vtu")]
@@ -169,28 +126,6 @@ def test_meshes_of_one_name_get_folders_of_their_own(hexmend, mesh_file, tmp_pat
         (figures,) = (line for line in page.splitlines() if f"hexmend figures {path} " in line)
         assert f"-o {folder}-figures" in figures
         assert f"-o {folder}-results" in page
-
-
-def test_a_file_with_an_undecodable_name_is_reported(hexmend, mesh_file, tmp_path):
-    odd = Path(os.fsdecode(os.fsencode(tmp_path / "bad") + b"\xff.vtk"))
-    try:
-        odd.write_bytes(mesh_file.read_bytes())
-    except OSError:
-        pytest.skip("names are text here")
-    page, folder = tmp_path / "report.html", tmp_path / "set"
-    assert hexmend("report", odd, "--methods", "laplacian", "-o", page) == 0
-    assert "bad?" in page.read_text(encoding="utf-8")
-    assert hexmend("figures", odd, "--methods", "none", "--width-mm", "60", "-o", folder) == 0
-    assert os.fsencode(odd) in (folder / "commands.sh").read_bytes()
-
-
-def test_names_are_not_taken_for_options(hexmend, mesh_file, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path("-x.vtk").write_bytes(mesh_file.read_bytes())
-    assert hexmend("report", "./-x.vtk", "--methods", "laplacian", "-o", "report.html") == 0
-    page = Path("report.html").read_text(encoding="utf-8")
-    assert "-o ./-x-figures" in page
-    assert "-o ./-x-results" in page
 
 
 @pytest.fixture
@@ -234,14 +169,3 @@ def test_a_signal_while_the_first_mesh_is_read_leaves_nothing(hexmend, mesh_file
     interrupting(case, "source_of")
     assert hexmend("report", mesh_file, *METHODS, "-o", tmp_path / "report.html") == 130
     assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_figures_are_written_though_signals_come_in_their_runs_and_while_they_are_drawn(
-    hexmend, mesh_file, tmp_path, interrupting, number
-):
-    interrupting(case, "run_one", number)
-    interrupting(pages, "write_figures", number)
-    words = ["--width-mm", "60", "-o", tmp_path / "set"]
-    assert hexmend("figures", mesh_file, *METHODS, *words) == 128 + number
-    assert (tmp_path / "set" / "captions.md").exists()

@@ -69,7 +69,6 @@ def test_what_is_named_in_the_dialog_is_named_so_in_the_table(worked, tmp_path, 
     assert own not in cells
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("feature", ["histogram", "convergence"])
 def test_a_figure_is_as_wide_as_was_asked_and_the_next_one_too(worked, tmp_path, feature):
     answer(worked, feature, tmp_path / "a.png", "title", {}, width=76.2, resolution=100.0)

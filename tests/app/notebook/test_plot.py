@@ -65,13 +65,6 @@ def test_hexes_that_are_invalid_inside_have_a_colour_and_a_name_of_their_own():
     plotter.close()
 
 
-def test_a_mesh_without_inverted_hexes_has_no_magenta():
-    sound = hx.gallery.make("cube", size=27)
-    _, skin = table_of(sound.plot(show=False, off_screen=True))
-    assert not np.isnan(skin.active_scalars).any()
-    assert skin.n_cells == 6 * 9
-
-
 def test_a_region_is_drawn_alone_and_saved(tmp_path):
     file = tmp_path / "mesh.png"
     MESH.plot(hexes=MESH.region("inverted"), off_screen=True, screenshot=file, window_size=[300, 200])

@@ -35,13 +35,6 @@ def test_only_cuts_by_whole_hexes_list_hexes():
             Cut(**cut, hexes="3")
 
 
-@given(st.tuples(*[st.floats(-1e3, 1e3)] * 3).filter(lambda normal: np.linalg.norm(normal) > 1e-3))
-def test_copies_of_a_plane_are_identical(normal):
-    plane = Plane(normal, point=(0, 0, 0))
-    assert np.linalg.norm(plane.normal) == pytest.approx(1)
-    assert Plane(plane.normal, point=(0, 0, 0)) == plane
-
-
 def test_a_moved_plane_lists_no_hexes():
     cut = CUT.with_hexes(np.array([True, False]))
     assert cut.with_plane(0, Plane((0, 1, 0), point=(0, 0, 0))).hexes == ""

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.errors import ParameterError
-from hexmend_app.picture import Box, Cut, CutKind, CutStyle, Depth, DepthUnit, Plane, Slab, Sphere
+from hexmend_app.picture import Cut, CutKind, CutStyle, Depth, DepthUnit, Plane, Slab, Sphere
 from hexmend_app.picture.cut import proposed_cuts
 from tests.core.grids import grid
 
@@ -79,13 +79,6 @@ def test_contradicting_shapes_are_rejected(keys, message):
 def test_invalid_shapes_are_rejected(make, message):
     with pytest.raises(ParameterError, match=message):
         make()
-
-
-def test_the_kind_of_a_cut_is_that_of_its_shape():
-    shapes = {"planes": (Plane(),), "box": Box(), "slab": Slab(), "sphere": Sphere(), "depth": Depth()}
-    assert {Cut(**{name: shape}).kind: name for name, shape in shapes.items()} == {kind: kind for kind in CutKind}
-    assert Cut().kind is None
-    assert [Cut(**{name: shape}).by_planes for name, shape in shapes.items()] == [True, True, True, False, False]
 
 
 def test_proposed_cuts_lie_in_the_middle_and_keep_normals():

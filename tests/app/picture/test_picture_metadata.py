@@ -5,7 +5,6 @@ from __future__ import annotations
 import struct
 import zlib
 
-import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -14,7 +13,7 @@ from PIL.PngImagePlugin import PngInfo
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.run.recipe import Recipe
-from hexmend_app.picture import Cut, Page, PicturePanel, Plane, Scene, Show
+from hexmend_app.picture import Cut, Page, PicturePanel, Plane, Scene
 from hexmend_app.picture.picture_metadata import PicturedMesh, digest, read_metadata, with_metadata
 from hexmend_app.picture.png_text import is_png, texts
 from tests.core.grids import grid
@@ -84,12 +83,6 @@ def test_compressed_texts_are_skipped(tmp_path):
         read_metadata(path)
 
 
-def test_texts_with_other_keywords_are_skipped(tmp_path):
-    asked = {"hexmend scene": "format = 1"}
-    path = written(tmp_path / "p.png", asked | {f"hexmend {k}": "a" * 1000 for k in range(20)})
-    assert texts(path, ["hexmend scene", "hexmend recipe"]) == asked
-
-
 def test_too_large_or_damaged_texts_are_errors(picture, tmp_path):
     large = written(tmp_path / "large.png", {"hexmend scene": "a" * 5_000_000})
     with pytest.raises(FileError, match="a text of more than"):
@@ -150,10 +143,3 @@ def test_any_text_is_read_or_rejected(tmp_path, text, keyword):
         read_metadata(tmp_path / "p.png")
     except FileError as error:
         assert str(error).startswith("p.png: ")
-
-
-@pytest.mark.slow
-def test_many_listed_hexes_fit_into_a_picture(tmp_path):
-    scene = Scene(show=Show(hidden=tuple(np.arange(200_000).tolist())))
-    path = written(tmp_path / "p.png", with_metadata(scene, [PicturedMesh("", "0" * 64, "0" * 64)]))
-    assert read_metadata(path).scene == scene

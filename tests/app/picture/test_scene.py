@@ -49,13 +49,6 @@ def test_listed_hexes_are_in_the_mesh(look):
         Scene.of(look).look(MESH)
 
 
-def test_a_scene_lists_a_limited_number_of_hexes():
-    for show in (Show(hidden=frozenset(range(300_001))), Show(isolate=Isolate(tuple(range(300_001))))):
-        look = Look(show=show)  # a view has no limit
-        with pytest.raises(ParameterError, match="lists 300,001 hexes"):
-            Scene.of(look)
-
-
 def test_a_text_of_too_many_remaining_hexes_is_omitted():
     cut = Cut.at((1, 0, 0), (2, 2, 2)).with_hexes(np.arange(600_000) % 2 == 0)
     assert len(cut.hexes) > 2_000_000

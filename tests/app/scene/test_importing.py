@@ -5,9 +5,8 @@ import sys
 
 import pytest
 
-pytestmark = pytest.mark.slow
 
-
+@pytest.mark.slow
 def test_a_process_that_draws_loads_no_plots():
     program = "import sys, hexmend_app.scene.page.page_renderer; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)

@@ -78,6 +78,7 @@ def test_a_mesh_is_saved_only_when_it_is_written(window, qtbot, tmp_path, gate):
     np.testing.assert_array_equal(io.read(tmp_path / "out.vtu").points, session.document.now.mesh.points)
 
 
+@pytest.mark.slow
 def test_changes_during_a_save_are_not_saved(window, qtbot, tmp_path, gate):
     smooth(window, qtbot)
     session, writing = window.session, gate(mesh_saver, "write_as_given")
@@ -93,6 +94,7 @@ def test_changes_during_a_save_are_not_saved(window, qtbot, tmp_path, gate):
     assert not session.document.modified
 
 
+@pytest.mark.slow
 def test_a_file_contains_the_last_of_several_saves(window, qtbot, tmp_path, gate):
     session, writing = window.session, gate(mesh_saver, "write_as_given")
     path = tmp_path / "out.vtu"
@@ -107,6 +109,7 @@ def test_a_file_contains_the_last_of_several_saves(window, qtbot, tmp_path, gate
     assert not session.document.modified
 
 
+@pytest.mark.slow
 def test_a_failed_save_is_reported_and_leaves_the_mesh_modified(window, qtbot, tmp_path, monkeypatch):
     smooth(window, qtbot)
 
@@ -125,6 +128,7 @@ def test_a_failed_save_is_reported_and_leaves_the_mesh_modified(window, qtbot, t
     assert window.busy.isHidden()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("answer", ["wait", "do not wait", "cancel"])
 def test_leaving_waits_for_a_save_or_asks(window, qtbot, tmp_path, gate, answer):
     session, writing = window.session, gate(mesh_saver, "write_as_given")
@@ -184,6 +188,7 @@ def test_a_mesh_is_repaired_while_the_window_is_alive(doubled, qtbot, gate):
     assert session.document.now is before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("end", ["cancel", "open another"])
 def test_a_repair_that_is_given_up_changes_nothing(doubled, qtbot, gate, end, mesh_file):
     session, repairing = doubled.session, gate(mesh_repairer, "_repair")
@@ -203,6 +208,7 @@ def test_a_repair_that_is_given_up_changes_nothing(doubled, qtbot, gate, end, me
     assert doubled.busy.isHidden()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["reset", "open", "branch"])
 def test_actions_that_end_a_run_wait_for_its_iteration(window, qtbot, what, mesh_file, monkeypatch):
     session = window.session

@@ -19,10 +19,6 @@ from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
-
-SHIFT = Qt.KeyboardModifier.ShiftModifier
-
 
 @pytest.fixture(scope="module")
 def small_file(tmp_path_factory):
@@ -142,9 +138,9 @@ def everything(window, qtbot):
     window.refresh()
 
 
-@pytest.mark.parametrize("work", [*WORKS, everything], ids=lambda one: one.__name__)
-def test_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file, work):
-    work(window, qtbot)
+@pytest.mark.slow
+def test_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file):
+    everything(window, qtbot)
     window.refresh()
     open_and_wait(qtbot, window, small_file)
     is_shown(window)
@@ -153,6 +149,7 @@ def test_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file, w
     is_shown(window)
 
 
+@pytest.mark.slow
 def test_a_session_of_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file, mesh_file, tmp_path):
     open_and_wait(qtbot, window, small_file)
     window.session.selection.choose(7, window.session.document.now.mesh.hexes[7, 0])
@@ -164,10 +161,8 @@ def test_a_session_of_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, 
     assert window.session.selection.hex == 7
 
 
-LAYERS = ("outline", "structure", "selection", "ghosts", "original", "others", "arrows")
-
-
-@pytest.mark.parametrize("layer", LAYERS)
+@pytest.mark.slow
+@pytest.mark.parametrize("layer", ["structure", "selection"])
 def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatch):
     overlay_layers, failures = window.canvas.viewport.overlay_layers, []
     window.session.view.change(structure=Structure.of("original"))
@@ -188,6 +183,7 @@ def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatc
     assert failures == [f"{layer} has failed"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", ["set_mesh", "rebuild"])
 def test_no_mesh_is_shown_if_its_hexes_cannot_be_drawn(window, small_file, mesh_file, qtbot, part, monkeypatch):
     def fail(*_):
@@ -210,9 +206,8 @@ def test_no_mesh_is_shown_if_its_hexes_cannot_be_drawn(window, small_file, mesh_
     is_shown(window)
 
 
-@pytest.mark.parametrize(
-    "name", ["cut", "hex_inspector", "histogram", "structure", "tags", "quality", "smooth", "node_step"]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["cut", "histogram"])
 def test_a_failing_panel_does_not_keep_the_previous_mesh_in_the_view(window, small_file, qtbot, name, monkeypatch):
     failures = []
 

@@ -8,8 +8,6 @@ import sys
 
 import pytest
 
-pytestmark = pytest.mark.slow
-
 PROGRAM = """
 import sys
 from PySide6.QtCore import QSettings, QTimer
@@ -33,6 +31,7 @@ sys.exit(open_window(sys.argv[1]))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes")
 @pytest.mark.parametrize("before", ["pass", "window.session.opener.cancel()"], ids=["while it reads", "after Cancel"])
 def test_the_process_ends_with_its_window_although_a_file_does_not_respond(qapp, tmp_path, before):

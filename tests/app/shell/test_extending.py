@@ -77,6 +77,7 @@ def with_plotter(tmp_path, monkeypatch):
         del sys.modules[name]
 
 
+@pytest.mark.slow
 def test_a_feature_draws_with_pyvista(with_plotter, fresh_window, tmp_path, monkeypatch):
     low, high = np.reshape(fresh_window.canvas.viewport.bounds, (3, 2)).T
     pv.Sphere(radius=np.linalg.norm(high - low) / 2, center=(low + high) / 2).save(tmp_path / "part.stl")
@@ -157,6 +158,7 @@ def test_the_state_of_a_feature_is_in_sessions_and_is_exported(
     assert csv.read_text(encoding="utf-8").splitlines() == ["hex,note", "3,thin", "5,at the weld"]
 
 
+@pytest.mark.slow
 def test_a_window_without_the_feature_keeps_its_data_and_one_with_it_refuses_other_types(
     fresh_window, with_notes, qtbot, tmp_path
 ):

@@ -13,13 +13,13 @@ from PySide6.QtWidgets import QComboBox, QLabel
 
 from hexmend.cli.main import main
 from hexmend.errors import ParameterError
-from hexmend_app.picture import Colours, colour_map, from_toml, layer_switch
+from hexmend_app.picture import colour_map, from_toml, layer_switch
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.layers import optional_layer
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.palette.palette_entries import command_entries
-from tests.app.driving import named, open_and_wait
-from tests.app.features.structure.layers import count, pixels
+from tests.app.driving import named
+from tests.app.features.structure.layers import count
 from tests.examples import example
 
 BOX = "#cc0066"
@@ -75,20 +75,6 @@ def test_panel_menu_palette_and_map_box_have_them(window):
     assert window.session.view.look.structure == Structure.of("bounding-box")
     maps = named(window, QComboBox, "Colour map")
     assert maps.itemData(maps.findData("slate"), Qt.ItemDataRole.ToolTipRole) == "From dark blue over grey to cream."
-
-
-@pytest.mark.slow
-def test_a_session_keeps_them(window, qtbot, mesh_file, tmp_path):
-    show_both(window)
-    look = window.session.view.look
-    assert count(pixels(window), BOX) > 100
-    assert window.features["session"].save_and_wait(tmp_path / "both.hexmend")
-    window.session.view.change(structure=Structure(), colours=Colours())
-    window.refresh()
-    assert count(pixels(window), BOX) == 0
-    open_and_wait(qtbot, window, tmp_path / "both.hexmend")
-    assert window.session.view.look == look
-    assert count(pixels(window), BOX) > 100
 
 
 @pytest.mark.slow

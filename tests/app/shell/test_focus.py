@@ -6,7 +6,6 @@ from collections import Counter
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QAccessible
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QAbstractScrollArea,
@@ -18,13 +17,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.theme.palette import BLUE
 from hexmend_app.widgets.section import Section
-from tests.app.driving import LEFT, choose_by_keys, key, named
+from tests.app.driving import choose_by_keys, named
 
 pytestmark = pytest.mark.slow
-
-SHIFT = Qt.KeyboardModifier.ShiftModifier
 
 
 def tab(window, key=Qt.Key.Key_Tab):
@@ -147,15 +143,6 @@ def test_tab_in_the_view_hides_and_shows_all_panels(window):
     assert not window.docks.hidden
 
 
-def test_the_panels_are_hidden_by_key_from_anywhere(window):
-    window.show_panel("histogram")
-    window.features["histogram"].panel.head.metric_box.setFocus()
-    for hidden in (True, False):
-        key(window, Qt.Key.Key_Tab, Qt.KeyboardModifier.ControlModifier)
-        assert window.docks.hidden is hidden
-        assert window.action("panels").isChecked() is hidden
-
-
 def test_tab_goes_in_reading_order(everything_on):
     window = everything_on
     bring(window, ("run", "histogram", "worst"))
@@ -206,58 +193,3 @@ def assert_read_from_the_top(window, reached):
         ):
             assert next_y > y - 8
             assert next_x > x or next_y > y + 8
-
-
-def test_the_focus_alone_changes_nothing(window):
-    bring(window, ("run", "histogram", "worst"))
-    look, chosen = window.session.view.look, window.session.selection.hex
-    walk(window)
-    assert (window.session.view.look, window.session.selection.hex) == (look, chosen)
-
-
-@pytest.mark.parametrize("panels", FRONTS, ids=" ".join)
-def test_every_control_has_a_name(everything_on, panels):
-    window = everything_on
-    bring(window, panels)
-    nameless = []
-    for one in controls(window):
-        accessible = QAccessible.queryAccessibleInterface(one)
-        if accessible is None or not accessible.text(QAccessible.Text.Name).strip():
-            nameless.append(one)
-    assert nameless == []
-
-
-@pytest.mark.parametrize("panels", FRONTS, ids=" ".join)
-def test_focused_widgets_look_different(everything_on, panels):
-    window = everything_on
-    bring(window, panels)
-    plain = {one: one.grab().toImage() for one in controls(window)}
-    reached = walk(window)[:-1]
-    reached[0].setFocus(Qt.FocusReason.TabFocusReason)
-    unmarked = []
-    for one in reached:
-        while QApplication.focusWidget() is not one:  # still at a link of the one before
-            tab(window)
-        if isinstance(one, QLabel):
-            tab(window)  # Qt comes to the text, and then to its first link
-        if one.grab().toImage() == plain[one]:
-            unmarked.append(one.accessibleName())
-    assert unmarked == []
-
-
-def test_the_view_is_marked_when_focused_by_keys(window):
-    canvas = window.canvas
-    last = walk(window)[-2]
-
-    def edge():
-        return canvas.grab().toImage().pixelColor(canvas.interactor.x() - 1, canvas.height() // 3).name()
-
-    last.setFocus()
-    assert edge() != str(BLUE)
-    assert tab(window) is canvas.interactor
-    assert edge() == str(BLUE)
-    tab(window, Qt.Key.Key_Backtab)
-    assert edge() != str(BLUE)
-    QTest.mouseClick(canvas.interactor, LEFT, pos=QPoint(5, 5))
-    assert QApplication.focusWidget() is canvas.interactor
-    assert edge() != str(BLUE)

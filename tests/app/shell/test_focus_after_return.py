@@ -4,11 +4,10 @@ import gc
 
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QDockWidget, QLineEdit, QMainWindow, QSpinBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QLineEdit, QSpinBox, QVBoxLayout, QWidget
 
 from hexmend_app.shell.focus_after_return import FocusAfterReturn
 from tests.app.driving import named
-from tests.patience import PATIENCE
 
 
 class Fields(QWidget):
@@ -44,25 +43,6 @@ def test_letters_cut_after_a_number_was_typed(window):
     QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_C)
     window.refresh()
     assert window.session.view.look.cut.active
-
-
-def test_return_in_a_floating_panel_ends_typing(shown, qtbot):
-    window, view, field, dock = QMainWindow(), QWidget(), QLineEdit(), QDockWidget()
-    view.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-    window.setCentralWidget(view)
-    dock.setWidget(field)
-    window.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, dock)
-    FocusAfterReturn(window, lambda: view)
-    shown(window, 300, 200)
-    dock.setFloating(True)
-    dock.activateWindow()
-    field.setFocus()
-    qtbot.waitUntil(lambda: QApplication.focusWidget() is field, timeout=PATIENCE)
-    QTest.keyClicks(field, "7")
-    QTest.keyClick(field, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: QApplication.focusWidget() is view, timeout=PATIENCE)
-    assert field.text() == "7"
-    dock.setFloating(False)
 
 
 def test_a_window_that_is_collected_hears_of_no_focus(qtbot):

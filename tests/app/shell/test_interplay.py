@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QTableWidget
+from PySide6.QtWidgets import QTableWidget
 
 from benchmarks.window.windows import end_run
 from hexmend import io
@@ -21,10 +21,12 @@ from hexmend_app.picture.cut_shapes import Box, Plane
 from hexmend_app.scene.layers import mesh as mesh_layer
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, choose, click, key, move, named, open_and_wait, phase, pixels
+from tests.app.driving import LEFT, choose, click, key, move, open_and_wait, phase, pixels
 from tests.app.features.cut.test_cut import seen_at
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
+
+pytestmark = pytest.mark.slow
 
 
 def middle(window):
@@ -53,25 +55,6 @@ def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path)
     assert window.features["smooth"].panel.isEnabled()
 
 
-def test_a_hex_is_tagged_only_under_a_name_and_only_if_there_is_one(window):
-    window.show_panel("tags")
-    name = named(window.features["tags"].panel, QComboBox, "Tag as")
-    window.session.selection.choose(7)
-    name.setCurrentText("")
-    window.canvas.interactor.setFocus()
-    key(window, Qt.Key.Key_T)
-    assert "Enter a tag name" in window.messages.messages()[-1][1]
-    name.setCurrentText("bad")
-    window.session.selection.choose(None)
-    key(window, Qt.Key.Key_T)
-    assert "No hex selected" in window.messages.messages()[-1][1]
-    assert not window.session.document.now.mesh.hex_sets
-    window.session.selection.choose(7)
-    key(window, Qt.Key.Key_T)
-    assert window.session.document.now.mesh.hex_sets["bad"].tolist() == [7]
-
-
-@pytest.mark.slow
 def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
     window.session.commands.tag("one", [1])
     choose(window, "laplacian")
@@ -105,7 +88,6 @@ def test_hexes_removed_by_a_smooth_cut_are_not_tagged_as_shown(window, notch):
     assert mesh.hex_sets["shown"].tolist() == np.flatnonzero(~gone).tolist()
 
 
-@pytest.mark.slow
 def test_the_box_can_be_dragged_again_after_an_interrupted_drag(window, qtbot):
     size = np.ptp(window.session.document.now.mesh.points, axis=0)
     low = window.session.document.now.mesh.points.min(axis=0)
@@ -155,7 +137,6 @@ def test_a_mesh_in_other_units_opens_after_a_cut(window, qtbot, tmp_path):
         assert 0 < window.canvas.viewport.shown < mesh.n_hexes
 
 
-@pytest.mark.slow
 def test_a_cut_begins_in_the_mesh_however_far_unused_nodes_are(window, qtbot, tmp_path):
     mesh = scrambled(grid(3), 0.3)
     stray = Mesh(np.concatenate([mesh.points, [[1e4, 1e4, 1e4]]]), mesh.hexes)
@@ -165,7 +146,6 @@ def test_a_cut_begins_in_the_mesh_however_far_unused_nodes_are(window, qtbot, tm
     assert 0 < window.canvas.viewport.shown < mesh.n_hexes
 
 
-@pytest.mark.slow
 def test_a_picture_has_the_hexes_of_the_view_after_nodes_moved(window, tmp_path):
     window.session.view.set_cut(Cut.at((1, 0, 0), middle(window)))
     window.refresh()
@@ -188,7 +168,6 @@ def _found(view, place):
     return hit and (hit.hex, hit.node)
 
 
-@pytest.mark.slow
 def test_a_click_with_a_small_movement_selects_the_hex_under_it(window, qtbot, monkeypatch):
     monkeypatch.setattr(mesh_layer, "MANY", 10)
     view = window.canvas.viewport

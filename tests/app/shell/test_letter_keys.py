@@ -7,20 +7,16 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
-    QApplication,
     QComboBox,
     QDockWidget,
     QListWidget,
     QMainWindow,
     QSpinBox,
-    QTableView,
     QVBoxLayout,
     QWidget,
 )
 
 from hexmend_app.shell.letter_keys import LetterKeys
-from tests.app.driving import LEFT, named
-from tests.patience import PATIENCE
 
 WORDS = ["Laplacian", "Mend", "Steepest descent", "Truss"]
 
@@ -78,17 +74,6 @@ def test_arrows_and_space_work_in_lists(lists):
     assert lists.list.currentRow() == 1
 
 
-def test_an_open_list_finds_entries_by_letters(lists, qtbot):
-    QTest.mouseClick(lists.box, LEFT)
-    qtbot.waitUntil(lists.box.view().isVisible, timeout=PATIENCE)
-    QTest.keyClicks(QApplication.focusWidget(), "t")
-    QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Return)
-    assert lists.box.currentText() == "Truss"
-    assert lists.pressed == []
-    QTest.keyClicks(lists.box, "s")
-    assert (lists.box.currentText(), lists.pressed) == ("Truss", ["S"])
-
-
 def test_text_fields_receive_letters_and_numbers(lists):
     lists.editable.setFocus()
     lists.editable.lineEdit().selectAll()
@@ -97,30 +82,3 @@ def test_text_fields_receive_letters_and_numbers(lists):
     lists.number.selectAll()
     QTest.keyClicks(lists.number, "11")
     assert (lists.editable.currentText(), lists.number.value(), lists.pressed) == ("slm", 11, [])
-
-
-def test_letters_change_nothing_in_a_floating_panel(lists, qtbot):
-    lists.dock.setFloating(True)
-    lists.dock.activateWindow()
-    lists.docked.setFocus()
-    qtbot.waitUntil(lambda: QApplication.focusWidget() is lists.docked, timeout=PATIENCE)
-    QTest.keyClicks(lists.docked, "stn")
-    assert lists.docked.currentIndex() == 0
-    lists.dock.setFloating(False)
-
-
-@pytest.mark.slow
-def test_letters_are_shortcuts_in_the_panels_of_the_window(window):
-    box = named(window.features["smooth"].panel, QComboBox, "Method")
-    box.setFocus(Qt.FocusReason.TabFocusReason)
-    method = window.session.run_setup.method
-    QTest.keyClicks(box, "c")
-    window.refresh()
-    assert window.session.view.look.cut.active
-    assert window.session.run_setup.method == method
-    window.show_panel("worst")
-    table = window.features["hex_inspector"].worst_list.findChild(QTableView)
-    table.setFocus()
-    table.setCurrentIndex(table.model().index(0, 0))
-    QTest.keyClick(table, Qt.Key.Key_N)
-    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.hexes[1]

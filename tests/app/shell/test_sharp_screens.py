@@ -10,8 +10,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-pytestmark = pytest.mark.slow
-
 _SCALED = """
 import sys
 import numpy as np
@@ -61,6 +59,7 @@ window.close()
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", ["1.5", "2"])
 def test_clicks_select_the_hex_under_the_pointer(tmp_path, scale):
     environment = os.environ | {"QT_SCALE_FACTOR": scale}

@@ -89,14 +89,6 @@ def test_closing_waits_for_all_threads_together(kept, gate, waits, windows):
     assert list(windows.iterdir()) == []  # although the session is still being written
 
 
-def test_a_session_that_is_being_written_is_removed_when_the_window_has_closed(kept, gate, qtbot, windows):
-    own = kept.features["session"].recovery
-    own.end()
-    assert len(list(windows.iterdir())) == 1  # a thread writes there
-    gate.set()
-    qtbot.waitUntil(lambda: list(windows.iterdir()) == [], timeout=PATIENCE)
-
-
 def test_another_mesh_is_opened_while_the_session_of_the_first_is_being_written(
     kept, gate, qtbot, windows, mesh_file, monkeypatch
 ):

@@ -5,18 +5,15 @@ from __future__ import annotations
 import sys
 
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QScrollArea, QSlider, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.picture.colours import Range
 from hexmend_app.shell.start.program import report_unexpected_errors
-from hexmend_app.widgets.section import Section
-from tests.app.driving import drag, key, named, pixels
+from tests.app.driving import key, named, pixels
 from tests.patience import PATIENCE
-
-pytestmark = pytest.mark.slow
 
 
 def test_an_opened_mesh_is_shown_with_its_figures(window):
@@ -31,36 +28,7 @@ def test_an_opened_mesh_is_shown_with_its_figures(window):
     assert (image.max(axis=2) - image.min(axis=2) > 60).mean() > 0.05
 
 
-def test_the_slider_and_the_view_keep_their_places_while_a_task_is_shown(window, qtbot):
-    slider = named(window.features["timeline"].panel, QSlider, "Iteration")
-
-    def places():
-        for _ in range(5):
-            QApplication.processEvents()
-        return slider.mapTo(window, slider.rect().topLeft()), slider.size(), window.canvas.size()
-
-    before = places()
-    window.busy.show_work("test", "Drawing the film…", "Cancel", "End it.", share=0.3)
-    assert places() == before
-    assert window.busy.isVisible()
-    window.busy.done("test")
-    window.session.selection.choose(7)  # the counts name it
-    window.refresh()
-    assert places() == before
-
-
-def test_the_status_bar_shows_the_selected_hex(window):
-    counts = named(window, QLabel, "Counts")
-    q = window.session.document.now.figures.q
-    chosen = int(q.argmax())
-    window.session.selection.choose(chosen)
-    window.refresh()
-    assert counts.text().endswith(f"hex {chosen:,}: q {q[chosen]:.3f}")
-    window.session.selection.choose(None)
-    window.refresh()
-    assert "hex " not in counts.text()
-
-
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
 def test_nothing_is_cut_off(window, qtbot, size):
     window.resize(*size)
@@ -79,27 +47,6 @@ def test_nothing_is_cut_off(window, qtbot, size):
         QApplication.processEvents()
         assert cut_off(window) == [], metric
         assert (window.width(), window.height(), window.docks.centre.width()) == (*size, width)
-
-
-def test_expanded_sections_fit_the_width_of_the_column(window, qtbot):
-    window.resize(1100, 700)
-    qtbot.waitUntil(lambda: window.width() == 1100, timeout=PATIENCE)
-    for panel in ("run", "recipe", "look", "cut", "inside", "show"):
-        window.show_panel(panel)
-        for section in window.findChildren(Section):
-            if section.isVisible():
-                section.expand()
-        window.refresh()
-        qtbot.waitUntil(lambda: columns_overflowing(window) == [], timeout=PATIENCE)
-
-
-def columns_overflowing(window):
-    """Return the scroll areas whose content is wider than they are."""
-    return [
-        area
-        for area in window.findChildren(QScrollArea)
-        if area.isVisible() and area.widget() and area.widget().width() > area.viewport().width()
-    ]
 
 
 def cut_off(window):
@@ -124,6 +71,7 @@ def test_unexpected_errors_are_shown(window, monkeypatch):
     assert "ZeroDivisionError: one over nothing" in window.messages.messages()[-1][2]
 
 
+@pytest.mark.slow
 def test_messages_and_the_colour_bar_do_not_change_the_layout(window, qtbot):
     canvas, bar = window.canvas, window.canvas.colour_bar
     before = canvas.interactor.geometry(), bar.geometry()
@@ -140,14 +88,7 @@ def test_messages_and_the_colour_bar_do_not_change_the_layout(window, qtbot):
     assert not window.messages.isVisible()
 
 
-def test_dragging_the_colour_bar_does_not_rotate_the_mesh(window):
-    bar, camera = window.canvas.colour_bar, window.canvas.viewport.camera
-    before, place = camera.position, bar.pos()
-    drag(bar, QPoint(20, 15), QPoint(-80, 60))
-    assert bar.pos() != place
-    assert camera.position == before
-
-
+@pytest.mark.slow
 def test_the_view_has_the_focus_when_a_mesh_is_shown(fresh_window):
     view = fresh_window.canvas.interactor
     fresh_window.canvas.hide()
@@ -159,17 +100,7 @@ def test_the_view_has_the_focus_when_a_mesh_is_shown(fresh_window):
     assert not fresh_window.docks.hidden
 
 
-def test_the_status_bar_shows_isolated_hexes_until_esc(window):
-    counts = named(window, QLabel, "Counts")
-    window.action("next_worst").trigger()
-    window.refresh()
-    assert "1 isolated (Esc)" in counts.text()
-    for _ in range(2):  # the second one clears the selection
-        key(window, Qt.Key.Key_Escape)
-        window.refresh()
-    assert "isolated" not in counts.text()
-
-
+@pytest.mark.slow
 def test_a_failing_refresh_is_reported_once_and_other_features_are_refreshed(fresh_window, qtbot, monkeypatch):
     window = fresh_window
     monkeypatch.setattr(sys, "excepthook", sys.excepthook)

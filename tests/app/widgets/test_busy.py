@@ -35,11 +35,6 @@ def test_the_newest_of_several_tasks_is_shown_and_ended(busy, ended):
     assert busy.isHidden()
 
 
-def test_an_owner_without_a_task_ends_nothing(busy):
-    busy.done("run")
-    assert busy.text() == "Drawing…"
-
-
 def test_escape_ends_the_task_of_its_owner(busy, ended):
     busy.take_escape("open")
     QTest.keyClick(busy, Qt.Key.Key_Escape)

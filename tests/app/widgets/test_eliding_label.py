@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -40,10 +39,3 @@ def test_it_keeps_its_text_and_paints_within_its_width(label):
     begin, end = slice(len(half) // 2), slice(len(half) * 2 // 3, len(half))
     np.testing.assert_array_equal(half[begin], whole[begin])
     assert (half[end] != whole[end]).any()  # an ellipsis
-
-
-def test_it_is_aligned(label):
-    label.resize(3 * label.sizeHint().width(), label.sizeHint().height())
-    label.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-    ink = np.flatnonzero(inked(label))
-    assert ink.min() > label.width() / 2

@@ -29,13 +29,6 @@ def bar(window):
     return window.bar
 
 
-def test_it_is_hidden_without_messages(bar):
-    assert not bar.isVisible()
-    bar.show_error("five.vtk cannot be read", "cell 12 is a VTK_WEDGE")
-    assert bar.isVisible()
-    assert (bar.title.text(), bar.text.text()) == ("five.vtk cannot be read", "cell 12 is a VTK_WEDGE")
-
-
 def test_the_newest_error_is_shown_before_older_ones(bar):
     bar.show_error("first")
     bar.show_error("second")
@@ -80,30 +73,12 @@ def test_a_repeated_message_is_counted(bar):
     assert "1000" in bar.title.text()
 
 
-def test_the_newest_of_many_messages_are_stored(bar):
-    for k in range(500):
-        bar.show_error(f"error {k}")
-    titles = [title for _, title, _ in bar.messages()]
-    assert titles[-1] == bar.title.text() == "error 499"
-    assert titles == [f"error {k}" for k in range(500 - len(titles), 500)]
-    assert 50 < len(titles) < 200
-
-
 def test_results_disappear_after_a_while_and_errors_stay(bar, qtbot):
     bar.show_info("Saved.", timeout_ms=30)
     qtbot.waitUntil(lambda: not bar.isVisible(), timeout=PATIENCE)
     bar.show_error("stays")
     assert bar.isVisible()
     assert not any(timer.isActive() for timer in bar.findChildren(QTimer))
-
-
-def test_an_error_is_shown_before_a_result(bar):
-    bar.show_info("Saved.", timeout_ms=0)
-    bar.show_error("broken")
-    assert bar.title.text() == "broken"
-    bar.show_info("Saved again.")
-    assert bar.title.text() == "broken"
-    assert ("info", "Saved again.", "") in bar.messages()
 
 
 def test_copy_copies_the_full_text_of_a_long_message(bar):

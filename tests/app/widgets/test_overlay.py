@@ -1,7 +1,7 @@
 """Overlays."""
 
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QRect, QSettings, QSize, Qt
+from PySide6.QtCore import QPoint, QPointF, QSettings, QSize, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
@@ -85,16 +85,6 @@ def moved(card, by):
     QTest.mouseRelease(window, _LEFT, pos=start + by)
 
 
-def test_a_drag_does_not_reach_the_widget_below(over):
-    card, place = laid(over)
-    moved(card, QPoint(-200, 60))
-    assert (card.x(), card.y()) == (292, 160)
-    assert over.heard == []
-    moved(card, QPoint(5000, -5000))
-    assert (card.x(), card.y()) == (492, 8)
-    assert place.place == (1.0, 0.0)
-
-
 def test_its_position_is_stored_as_shares_and_reset_by_a_double_click(over):
     card, place = laid(over)
     moved(card, QPoint(-242, 0))
@@ -107,20 +97,6 @@ def test_its_position_is_stored_as_shares_and_reset_by_a_double_click(over):
     QTest.mouseDClick(card.window().windowHandle(), _LEFT, pos=card.geometry().center())
     assert place.place == (1.0, 0.5)
     assert laid(over)[1].place == (1.0, 0.5)
-
-
-@pytest.mark.parametrize("kept", ["", "nonsense", "2 0.5", "nan nan", "0.5"])
-def test_an_invalid_stored_position_is_ignored(over, kept):
-    QSettings().setValue("overlay/card", kept)
-    assert laid(over)[1].place == (1.0, 0.5)
-
-
-def test_without_a_key_it_cannot_be_dragged(over):
-    card, _ = laid(over, key=None)
-    before = card.geometry()
-    moved(card, QPoint(-100, 20))
-    assert card.geometry() == before
-    assert over.heard == []
 
 
 @pytest.fixture
@@ -148,45 +124,9 @@ def test_it_avoids_another_overlay_while_that_is_visible(over, row):
     assert card.geometry().getRect() == (492, 92, 100, 300)  # as far away as it has to be
 
 
-def test_it_avoids_several_overlapping_widgets_and_areas(over, row):
-    card, place = laid(over)
-    inner = QWidget(over)
-    inner.setGeometry(550, 245, 10, 5)
-    inner.show()
-    for part in (row, inner):
-        place.keep_off(part)
-    assert not card.geometry().intersects(row.geometry())
-    row.setGeometry(490, 0, 100, 500)
-    inner.hide()
-    place.keep_off(row, lambda: QRect(0, 300, 100, 20))
-    assert card.geometry().getRect() == (492, 8, 100, 284)
-
-
-def test_a_drag_moves_it_past_another_overlay(over, row):
-    card, place = laid(over)
-    place.keep_off(row)
-    below = card.y()
-    moved(card, QPoint(-100, -250))
-    assert card.y() < 230 < below
-    assert not card.geometry().intersects(row.geometry())
-
-
 def test_the_wheel_reaches_the_widget_below_and_so_do_clicks_outside(over):
     card, _ = laid(over)
     QTest.wheelEvent(card.window().windowHandle(), QPointF(card.geometry().center()), QPoint(0, 120))
     assert "wheel" in over.heard
     QTest.mouseClick(over, _LEFT, pos=QPoint(200, 250))
     assert "press" in over.heard
-
-
-def test_a_wrapped_text_has_the_height_for_its_width(over):
-    text = QLabel("word " * 60)
-    text.setWordWrap(True)
-    Overlay(text, over, (0.5, 0.0), width=400)
-    text.show()
-    assert text.width() == 400
-    assert text.height() == text.heightForWidth(400)
-    over.resize(300, 500)
-    turn()
-    assert text.width() == 284
-    assert text.height() == text.heightForWidth(284)

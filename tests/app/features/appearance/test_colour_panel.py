@@ -1,6 +1,5 @@
 """The colour panel by mouse and keys."""
 
-import dataclasses
 from html import escape
 
 import pytest
@@ -8,10 +7,8 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel
 
-from hexmend.errors import ParameterError
 from hexmend.quality import METRICS, Metric
 from hexmend_app.features.appearance.colour_panel import ColourPanel
-from hexmend_app.picture.colour_map import value_maps
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -103,11 +100,6 @@ def test_every_metric_is_listed_with_its_description(panel):
     assert "Lower is better" in tip
 
 
-def test_every_map_is_listed_with_a_swatch(panel):
-    assert [maps(panel).itemData(k) for k in range(maps(panel).count())] == list(value_maps())
-    assert all(not maps(panel).itemIcon(k).isNull() for k in range(maps(panel).count()))
-
-
 def test_each_choice_emits_one_signal(panel, emitted):
     choose(metrics(panel), "scaled-jacobian")
     choose(maps(panel), "cividis")
@@ -119,18 +111,6 @@ def test_each_choice_emits_one_signal(panel, emitted):
         Colours(metric="scaled-jacobian", map="cividis", range=Range.ACCEPTABLE),
         Colours(metric="scaled-jacobian", map="cividis", range=Range.ACCEPTABLE, reverse=True),
     ]
-
-
-def test_unbounded_ranges_are_disabled(panel, emitted):
-    choose(metrics(panel), "long")
-    assert emitted[-1].range is Range.FITTED
-    for mode in ("full", "acceptable"):
-        assert not ranges(panel).button(mode).isEnabled()
-        assert "unbounded" in ranges(panel).button(mode).toolTip()
-        press(panel, mode)
-    assert panel.colours().range is Range.FITTED
-    choose(metrics(panel), "q")
-    assert ranges(panel).button("full").isEnabled()
 
 
 def test_pinning_fixes_the_current_range(panel, emitted):
@@ -169,13 +149,6 @@ def test_invalid_limits_show_an_error_and_stay_as_typed(panel, emitted):
     assert problem(panel) == ""
 
 
-def test_arrow_keys_step_a_pinned_end(panel, emitted):
-    press(panel, "pinned")
-    high(panel).lineEdit().setFocus()
-    QTest.keyClick(high(panel), Qt.Key.Key_Down)
-    assert emitted[-1].range == (0, 0.9)
-
-
 def test_typed_limits_are_remembered_for_their_metric(panel, emitted):
     press(panel, "pinned")
     type_in(low(panel), "0.25")
@@ -185,23 +158,3 @@ def test_typed_limits_are_remembered_for_their_metric(panel, emitted):
     press(panel, "full")
     press(panel, "pinned")
     assert emitted[-1].range == (0.25, 1)
-
-
-def test_colours_are_shown_without_a_signal(panel, emitted):
-    colours = Colours(metric="scaled-jacobian", map="inferno", range=(-0.5, 0.5), reverse=True)
-    panel.set_colours(colours)
-    assert emitted == []
-    assert panel.colours() == colours
-    assert metrics(panel).currentData() == "scaled-jacobian"
-    assert maps(panel).currentData() == "inferno"
-    assert ranges(panel).value() == "pinned"
-    assert (low(panel).value(), high(panel).value()) == (-0.5, 0.5)
-    assert reverse(panel).isChecked()
-
-
-def test_colours_check_their_range():
-    for ends in ((1, 1), (2, 1), (0, float("inf")), (float("nan"), 1)):
-        with pytest.raises(ParameterError, match="range = "):
-            Colours(range=ends)
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        Colours().map = "plasma"

@@ -1,4 +1,4 @@
-"""Appearance in the window: colours, ranges, and when the mesh is redrawn."""
+"""Appearance in the window: colours and their ranges."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox
 
-from hexmend_app.state.mesh.document import State
 from tests.app.driving import key, named, pixels, press, walk_to
 from tests.patience import PATIENCE
 
@@ -26,7 +25,6 @@ def differ(before, after):
     return (np.abs(after - before).sum(axis=2) > 60).mean()
 
 
-@pytest.mark.slow
 def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     whole, bar = pixels(window), window.canvas.colour_bar
     walk_to(window, named(panel, QComboBox, "Metric"), "scaled-jacobian")
@@ -51,36 +49,3 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     assert (low.value(), high.value()) == pytest.approx((values.min(), values.max()), abs=0.01)
     press(named(panel, QAbstractButton, "Range: Pinned"))
     assert window.session.view.look.colours.range == (low.value(), high.value())
-
-
-def test_faces_within_a_range_are_rebuilt_only_if_they_change(window, monkeypatch):
-    viewport, now = window.canvas.viewport, window.session.document.now
-    rebuilt = []
-    rebuild = viewport.mesh_layer.rebuild
-    monkeypatch.setattr(viewport.mesh_layer, "rebuild", lambda *arguments: (rebuilt.append(1), rebuild(*arguments)))
-    window.session.view.change(show={"quality": (0.4, 1)})
-    window.refresh()
-    moved = State.of(now.mesh.with_points(now.mesh.points * 1.01))  # of the same shape
-    window.session.document.preview(moved)
-    window.refresh()
-    assert len(rebuilt) == 1
-    np.testing.assert_allclose(
-        viewport.mesh_layer.whole.points, viewport.mesh_layer.faces.places(moved.mesh.points), rtol=1e-6
-    )
-    shaken = now.mesh.points + 0.3 * now.mesh.mean_edge_length * np.random.default_rng(0).random(now.mesh.points.shape)
-    window.session.document.preview(State.of(now.mesh.with_points(shaken)))
-    window.refresh()
-    assert len(rebuilt) == 2
-    figures = window.session.document.now.figures
-    assert viewport.shown == np.count_nonzero((figures.q >= 0.4) & ~figures.inverted)
-
-
-def test_the_mesh_is_drawn_once_for_all_changes_of_one_turn(window, qtbot, monkeypatch):
-    drawn, draw = [], window.canvas.draw
-    monkeypatch.setattr(window.canvas, "draw", lambda *arguments: (drawn.append(1), draw(*arguments)))
-    for edges in (False, True, False):
-        window.session.view.change(lines={"edges": None if edges else 0.0})
-    assert drawn == []
-    qtbot.waitUntil(lambda: len(drawn) > 0, timeout=PATIENCE)
-    window.refresh()
-    assert len(drawn) == 1

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMenu, QMessageBox, QPushButton
+from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMessageBox, QPushButton
 
-from hexmend.cli.main import main
-from hexmend_app.features.camera.cameras_dialog import CamerasDialog
-from hexmend_app.picture import Camera, Scene, read_scene, write_scene
+from hexmend_app.picture import Camera, Scene, write_scene
 from hexmend_app.picture.picture_metadata import read_metadata
 from tests.app.driving import open_and_wait
 from tests.patience import PATIENCE
@@ -45,11 +42,6 @@ def button(dialog, text):
     return next(one for one in dialog.findChildren(QPushButton) if one.text() == text)
 
 
-def menu_of(window):
-    (menu,) = (one for one in window.findChildren(QMenu) if one.title().replace("&", "") == "Go to camera")
-    return menu
-
-
 def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, monkeypatch):
     cameras, proposed = window.session.saved_cameras, []
     monkeypatch.setattr(QInputDialog, "getText", lambda *arguments: proposed.append(arguments[4]) or (" front ", True))
@@ -72,23 +64,7 @@ def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, mo
     assert window.messages.messages()[-1][1] == "Camera not saved"
 
 
-def test_the_menu_applies_a_camera(window, saved):
-    menu = menu_of(window)
-    assert menu.menuAction().isEnabled()
-    menu.aboutToShow.emit()
-    first, second = menu.actions()
-    second.trigger()
-    assert window.canvas.pose == saved["top"]
-    first.trigger()
-    assert window.canvas.pose == saved["front & side"]
-
-
-def test_the_menu_is_disabled_without_cameras(window):
-    window.refresh()
-    assert not menu_of(window).menuAction().isEnabled()
-    assert not window.action("cameras").isEnabled()
-
-
+@pytest.mark.slow
 def test_the_dialog_applies_and_deletes_cameras(window, saved, dialog, qtbot):
     assert names(dialog) == list(saved)
     dialog.list.setCurrentRow(1)
@@ -111,6 +87,7 @@ def type_name(dialog, row, text):
     QTest.keyClick(editor, Qt.Key.Key_Return)
 
 
+@pytest.mark.slow
 def test_the_dialog_renames(window, saved, dialog, qtbot):
     camera = window.session.saved_cameras.all["top"]
     type_name(dialog, 1, "from above")
@@ -143,40 +120,3 @@ def test_scenes_and_pictures_contain_the_cameras(window, saved, tmp_path, qtbot,
     assert cameras.all == before
     open_and_wait(qtbot, window, mesh_file)
     assert cameras.all == before
-
-
-def test_render_uses_a_camera_of_a_session(window, saved, tmp_path, capsys):
-    path = tmp_path / "work.hexmend"
-    assert window.features["session"].save_and_wait(path)
-    scene = tmp_path / "scene.toml"
-    arguments = ["render", str(path), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--save-scene", str(scene)]
-    assert main([*arguments, "--camera", "front & side"]) == 0
-    assert read_scene(scene).camera.pose == saved["front & side"]
-    with Image.open(tmp_path / "p.png") as image:
-        assert image.size == (200, 150)
-    assert main([*arguments, "--camera", "camera 9"]) == 2
-    assert "in the scene or the session (known: front & side, top)" in capsys.readouterr().err
-
-
-def test_closing_asks_about_unsaved_cameras_of_a_session(window, saved, tmp_path, monkeypatch):
-    questions = []
-    monkeypatch.setattr(
-        QMessageBox, "exec", lambda self: questions.append(self.text()) or QMessageBox.StandardButton.Cancel
-    )
-    assert window.may_leave()
-    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
-    window.refresh()
-    assert window.may_leave()
-    assert not window.isWindowModified()
-    window.features["camera"].keep("another")
-    window.refresh()
-    assert window.isWindowModified()
-    assert not window.may_leave()
-    assert questions == ["work.hexmend has unsaved cameras."]
-
-
-def test_the_dialog_is_deleted_when_closed(window, saved, qtbot, monkeypatch):
-    monkeypatch.setattr(CamerasDialog, "exec", lambda self: True)
-    for _ in range(3):
-        window.action("cameras").trigger()
-    qtbot.waitUntil(lambda: not window.findChildren(CamerasDialog), timeout=PATIENCE)

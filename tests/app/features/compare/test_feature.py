@@ -7,34 +7,24 @@ from threading import Event
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QColor
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
-from hexmend import io
-from hexmend.gallery import make
-from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
 from hexmend_app.features.compare.comparison_table import VIEW, ComparisonModel, ComparisonRow
-from hexmend_app.state.mesh.document import State
-from hexmend_app.theme.style import WORSE
-from tests.app.driving import LEFT, choose, key, named, open_and_wait, press
+from tests.app.driving import LEFT, choose, key, named, press
 from tests.app.features.compare.table import (
     COLUMN,
     ENDLESS,
     SHORT,
     button,
-    captions,
     choose_methods,
     model,
-    prepared,
     row,
     table_of,
-    tick,
 )
-from tests.core.grids import grid
 from tests.patience import PATIENCE
 
 
@@ -57,49 +47,6 @@ def test_the_table_has_the_values_of_the_core_and_the_mesh_does_not_change(compa
 
 
 @pytest.mark.slow
-def test_regressions_are_highlighted(comparing, qtbot, tmp_path):
-    io.write(tmp_path / "sound.vtu", make("bridge-sharp", size=864))
-    open_and_wait(qtbot, comparing, tmp_path / "sound.vtu")
-    choose(comparing, "laplacian", StoppingCriteria(keep_last=True))
-    choose_methods(comparing, "laplacian", "smart-laplacian")
-    press(button(comparing, "Run comparison"))
-    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
-
-    def cell(name, figure):
-        return model(comparing).index(row(comparing, name), COLUMN[figure])
-
-    for figure in ("inverted", "q_min", "scaled_jacobian_min"):
-        assert cell("laplacian", figure).data(Qt.ItemDataRole.AccessibleTextRole).endswith("worse than initial")
-        assert cell("laplacian", figure).data(Qt.ItemDataRole.ForegroundRole).color() == QColor(str(WORSE))
-    assert "worse" not in (cell("laplacian", "q_mean").data(Qt.ItemDataRole.AccessibleTextRole) or "")
-    assert "worse" not in (cell("smart-laplacian", "inverted").data(Qt.ItemDataRole.AccessibleTextRole) or "")
-
-
-def test_the_key_brings_the_table_to_the_front(comparing, qtbot):
-    choose_methods(comparing, "laplacian")
-    comparing.show_panel("outcome")
-    key(comparing, Qt.Key.Key_F6)
-    assert comparing.in_front("compare")
-    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
-    assert model(comparing).entries[row(comparing, "laplacian")].record["iterations"] == 4
-
-
-def test_a_click_on_a_header_sorts_with_the_initial_mesh_first(compared):
-    header = table_of(compared).horizontalHeader()
-    column = COLUMN["q_mean"]
-    table_of(compared).scrollTo(model(compared).index(0, column))
-    place = QPoint(header.sectionViewportPosition(column) + 12, header.height() // 2)
-    orders = []
-    for _ in range(2):
-        QTest.mouseClick(header.viewport(), LEFT, pos=place)
-        entries = model(compared).entries
-        assert entries[0].name == "initial"
-        assert not any(one.record for one in entries[4:])
-        orders.append([one.record["q_mean"] for one in entries[1:4]])
-    assert orders[0] == sorted(orders[0], reverse=orders[0][0] > orders[0][-1])
-    assert orders[1] == orders[0][::-1]
-
-
 def test_cancel_stops_after_the_current_iteration_and_keeps_the_results(comparing, qtbot, monkeypatch):
     reached, resume = Event(), Event()
     steps = METHODS["local-sd"].steps
@@ -135,6 +82,7 @@ def test_cancel_stops_after_the_current_iteration_and_keeps_the_results(comparin
     assert comparing.window_actions["compare"].isEnabled()
 
 
+@pytest.mark.slow
 def test_a_failed_method_has_a_row_and_the_others_continue(comparing, qtbot, monkeypatch):
     def broken(self, mesh):
         raise RuntimeError("no memory")
@@ -152,31 +100,6 @@ def test_a_failed_method_has_a_row_and_the_others_continue(comparing, qtbot, mon
     assert well.record["iterations"] == 4
 
 
-@pytest.mark.slow
-def test_another_mesh_cancels_the_comparison_and_clears_the_results(compared, qtbot, mesh_file):
-    tick(compared, "getme", VIEW)
-    choose(compared, "mend", ENDLESS)
-    choose_methods(compared, "local-sd")
-    press(button(compared, "Run comparison"))
-    open_and_wait(qtbot, compared, mesh_file)
-    assert not compared.session.comparison.busy
-    assert not any(one.record for one in model(compared).entries)
-    assert compared.session.side_views.all == ()
-    assert captions(compared) == []
-    assert len(compared.canvas.panes.all) == 1
-
-
-@pytest.mark.slow
-def test_the_window_closes_while_methods_run(fresh_window, qtbot):
-    comparing = prepared(fresh_window, qtbot)
-    choose(comparing, "mend", ENDLESS)
-    choose_methods(comparing, "local-sd")
-    press(button(comparing, "Run comparison"))
-    qtbot.waitUntil(lambda: comparing.session.comparison.progress.iteration > 0, timeout=PATIENCE)
-    comparing.close()
-    assert not comparing.session.comparison.busy
-
-
 def test_a_result_replaces_the_mesh_and_can_be_undone(compared):
     before = compared.session.document.now.mesh
     assert not button(compared, "Use result").isEnabled()
@@ -191,15 +114,7 @@ def test_a_result_replaces_the_mesh_and_can_be_undone(compared):
     assert compared.session.document.now.mesh is before
 
 
-def test_methods_run_with_their_parameters(comparing, qtbot):
-    choose(comparing, "getme", SHORT, relaxation=0.25)
-    choose(comparing, "laplacian", SHORT)
-    choose_methods(comparing, "getme")
-    press(button(comparing, "Run comparison"))
-    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
-    assert comparing.session.comparison.of("getme").row.parameters["relaxation"] == 0.25
-
-
+@pytest.mark.slow
 def test_the_table_is_saved_in_four_formats_and_others_are_refused(compared, tmp_path):
     for suffix in (".csv", ".md", ".tex", ".json"):
         path = tmp_path / f"table{suffix}"
@@ -212,21 +127,6 @@ def test_the_table_is_saved_in_four_formats_and_others_are_refused(compared, tmp
     assert kind == "error"
     assert not (tmp_path / "table.doc").exists()
     assert text
-
-
-def test_a_result_equal_to_the_start_says_so(comparing, qtbot):
-    window = comparing
-    window.session.document.commit("Grid", State.of(grid(3)))  # a grid of cubes cannot be improved
-    choose_methods(window, "laplacian", "local-sd")
-    press(button(window, "Run comparison"))
-    qtbot.waitUntil(lambda: not window.session.comparison.busy, timeout=PATIENCE)
-    table, kept = model(window), []
-    for name in ("laplacian", "local-sd"):
-        result = window.session.comparison.of(name)
-        if result.row.iterations:
-            kept.append(table.index(row(window, name), COLUMN["outcome"]).data())
-    assert kept
-    assert set(kept) == {"initial mesh kept: no iteration was better"}
 
 
 def test_a_column_has_one_number_of_decimals_and_equal_texts_are_marked_alike():

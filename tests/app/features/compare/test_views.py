@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PIL import Image
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton
 
 from hexmend_app.features.compare.comparison_table import VIEW, title_of
-from hexmend_app.picture.colours import Range
 from hexmend_app.picture.cut import Cut
-from hexmend_app.state.mesh.document import State
-from tests.app.driving import LEFT, click, drag, key, pixels, press, seen_at
-from tests.app.features.compare.table import button, captions, model, row, tick
-from tests.patience import PATIENCE
+from tests.app.driving import LEFT, drag, key, pixels, press, seen_at
+from tests.app.features.compare.table import captions, model, row, tick
 
 
 def test_results_are_shown_next_to_the_mesh_and_named_in_the_histogram(compared):
@@ -57,31 +53,6 @@ def test_one_view_is_closed_by_its_button_and_all_by_a_key(compared):
     assert compared.session.snapshots.all == ()
 
 
-def test_a_state_shown_under_a_name_in_use_replaces_the_view(compared):
-    first, second = (compared.session.comparison.of(name).state for name in ("getme", "laplacian"))
-    compared.session.side_views.show("iteration 7", first)
-    compared.refresh()
-    assert captions(compared) == ["now", "iteration 7"]
-    compared.session.side_views.show("iteration 7", second)
-    compared.refresh()
-    assert captions(compared) == ["now", "iteration 7"]
-    assert compared.canvas.panes.all[1].frame.mesh.points is second.mesh.points
-    assert [one.points for one in compared.session.snapshots.all] == [second.mesh.points]
-
-
-@pytest.mark.slow
-def test_another_comparison_closes_only_the_views_of_the_previous_one(compared, qtbot):
-    mesh = compared.session.document.now.mesh
-    compared.session.side_views.show("mine", State.of(mesh.with_points(mesh.points)))
-    tick(compared, "getme", VIEW)
-    tick(compared, "initial", VIEW)
-    assert captions(compared) == ["now", "mine", title_of("getme"), "initial"]
-    press(button(compared, "Run comparison"))
-    assert captions(compared) == ["now", "mine"]
-    qtbot.waitUntil(lambda: not compared.session.comparison.busy, timeout=PATIENCE)
-    assert not any(one.shown for one in model(compared).entries)
-
-
 @pytest.mark.slow
 def test_a_drag_rotates_all_views_and_a_click_selects_a_hex_in_all(compared, qtbot):
     tick(compared, "getme", VIEW)
@@ -111,42 +82,6 @@ def test_a_drag_rotates_all_views_and_a_click_selects_a_hex_in_all(compared, qtb
     assert canvas.panes.all[2].overlay_layers.selection.hex == chosen
 
 
-def test_all_views_have_the_same_cut_and_colours(compared):
-    tick(compared, "getme", VIEW)
-    tick(compared, "laplacian", VIEW)
-    key(compared, Qt.Key.Key_C)
-    compared.session.view.change(colours={"range": Range.FITTED})
-    compared.refresh()
-    first, *others = compared.canvas.panes.all
-    assert 0 < first.shown < first.frame.mesh.n_hexes
-    for view in others:
-        np.testing.assert_array_equal(view.kept(), first.kept())
-        assert (view.colouring.low, view.colouring.high) == (first.colouring.low, first.colouring.high)
-    states = [compared.session.document.now, *(one.state for one in compared.session.side_views.all)]
-    q = [one.figures.q[~one.figures.inverted] for one in states]
-    assert (first.colouring.low, first.colouring.high) == (min(map(np.min, q)), max(map(np.max, q)))
-    bar = compared.canvas.colour_bar
-    assert bar.range == (first.colouring.low, first.colouring.high)
-
-
-def test_the_plane_is_shown_in_the_first_view_wherever_the_mouse_is(compared, qtbot):
-    tick(compared, "getme", VIEW)
-    view = compared.canvas.interactor
-    for _ in range(2):
-        key(compared, Qt.Key.Key_C)
-    compared.session.view.set_handles(False)
-    QTest.mouseMove(view, QPoint(view.width() * 3 // 4, view.height() // 2))
-    QApplication.processEvents()
-    key(compared, Qt.Key.Key_C)
-    without = pixels(compared)
-    compared.session.view.set_handles(True)
-    changed = np.abs(pixels(compared) - without).max(axis=2) > 5
-    half = changed.shape[1] // 2
-    left, right = changed[:, :half].mean(), changed[:, half:].mean()
-    assert left > 0.01  # the plane is a faint one
-    assert right < left / 4  # edges may differ slightly: the depth buffer has another range
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("arranged", ["side by side", "wipe", "wipe, the mesh at the right"])
 def test_a_plane_dragged_in_the_first_view_cuts_all_views(compared, qtbot, arranged):
@@ -169,35 +104,3 @@ def test_a_plane_dragged_in_the_first_view_cuts_all_views(compared, qtbot, arran
     compared.refresh()
     first, second = compared.canvas.panes.all
     assert second.shown == first.shown != before
-
-
-@pytest.mark.slow
-def test_the_mesh_can_be_smoothed_while_results_are_shown(compared, qtbot):
-    tick(compared, "getme", VIEW)
-    with qtbot.waitSignal(compared.session.run.ended, timeout=PATIENCE):
-        click(compared, "Run")
-    compared.refresh()
-    first, second = compared.canvas.panes.all
-    np.testing.assert_array_equal(first.frame.mesh.points, compared.session.document.now.mesh.points)
-    np.testing.assert_array_equal(second.frame.mesh.points, compared.session.comparison.of("getme").state.mesh.points)
-    caption = compared.canvas.frame.captions[0]
-    assert (caption.q_min, caption.inverted) == (
-        compared.session.document.now.summary.q_min, compared.session.document.now.summary.inverted
-    )  # fmt: skip
-
-
-@pytest.mark.slow
-def test_a_picture_shows_all_views_with_their_captions(compared, tmp_path):
-    for name in ("getme", "laplacian"):
-        tick(compared, name, VIEW)
-    assert compared.features["save"].picture(tmp_path / "three.png", (900, 420))
-    three = np.asarray(Image.open(tmp_path / "three.png").convert("RGB")).astype(int)
-    assert three.shape == (420, 900, 3)
-    for k in range(3):
-        part = three[:, 300 * k : 300 * (k + 1)]
-        assert ((part.max(axis=2) - part.min(axis=2)) > 60).mean() > 0.1
-        assert (part[:24].max(axis=2) < 90).sum() > 50  # letters
-    key(compared, Qt.Key.Key_W)
-    assert compared.features["save"].picture(tmp_path / "wiped.png", (900, 420))
-    wiped = np.asarray(Image.open(tmp_path / "wiped.png").convert("RGB")).astype(int)
-    assert (wiped[40:360, 449:452].max(axis=2) < 60).all(axis=0).any()  # the edge

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox
 
-from hexmend_app.canvas.view_captions import WipeRow
 from hexmend_app.canvas.wipe_handle import WipeHandle
 from hexmend_app.features.compare.comparison_table import VIEW, title_of
 from hexmend_app.features.side_views.feature import STEP
-from tests.app.driving import drag, key, press
-from tests.app.features.compare.table import button, captions, tick
+from tests.app.driving import drag, key
+from tests.app.features.compare.table import captions, tick
 
 pytestmark = pytest.mark.slow
 
@@ -47,19 +44,3 @@ def test_the_wipe_is_switched_and_moved_by_mouse_and_keys(compared, qtbot):
     key(compared, Qt.Key.Key_W)
     assert captions(compared) == ["now", title_of("getme"), title_of("laplacian")]
     assert not handle.isVisible()
-
-
-def test_both_sides_of_the_wipe_are_selected_by_name(compared):
-    tick(compared, "getme", VIEW)
-    tick(compared, "laplacian", VIEW)
-    press(button(compared, "Wipe"))
-    left, right = compared.findChild(WipeRow).findChildren(QComboBox)
-    assert [right.itemText(k) for k in range(right.count())] == ["now", title_of("getme"), title_of("laplacian")]
-    for _ in range(2):
-        QTest.keyClick(left, Qt.Key.Key_Down)  # selects the right mesh: the two change places
-        compared.refresh()
-    assert (left.currentText(), right.currentText()) == (title_of("laplacian"), title_of("getme"))
-    seen = compared.canvas.panes.visible
-    np.testing.assert_array_equal(
-        seen[0].frame.mesh.points, compared.session.comparison.of("laplacian").state.mesh.points
-    )

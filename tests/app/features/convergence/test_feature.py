@@ -14,8 +14,6 @@ from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, choose, click, phase, press
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
-
 
 @pytest.fixture
 def panel(window, qtbot):
@@ -51,6 +49,7 @@ def test_a_click_in_a_chart_selects_the_iteration_and_moves_the_marker(window, q
     assert panel.plots["objective"].marker.value() == 6
 
 
+@pytest.mark.slow
 def test_branches_start_where_they_left_or_at_zero_and_are_deleted(window, qtbot, panel):
     first = run(window, qtbot)
     window.session.timeline.go(first, 4)
@@ -88,22 +87,6 @@ def test_charts_are_redrawn_during_a_run_by_a_timer(window, qtbot, panel):
     assert drawn[-1] > drawn[0]
     end_run(window.session)
     qtbot.waitUntil(lambda: drawn[-1] == window.session.run.record.newest + 1, timeout=PATIENCE)
-
-
-@pytest.mark.slow
-def test_hidden_charts_are_drawn_once_they_are_visible(window, qtbot):
-    panel, record = window.features["convergence"].panel, run(window, qtbot)
-    assert record not in [one.record for one in panel.curves]
-    window.show_panel("convergence")
-    qtbot.waitUntil(lambda: [one.record for one in panel.curves] == [record], timeout=PATIENCE)
-
-
-@pytest.mark.slow
-def test_another_mesh_has_no_curves(window, qtbot, panel, mesh_file):
-    run(window, qtbot)
-    window.session.document.replace(window.session.document.start, mesh_file)
-    window.refresh()
-    assert panel.curves == []
 
 
 @pytest.mark.slow

@@ -23,13 +23,6 @@ def test_charts_report_an_infinite_objective(inverted, text):
     assert titled(OBJECTIVE, [of(inverted)], "") == "objective: infinite for laplacian while hexes are inverted"
 
 
-def test_a_chart_with_a_curve_gives_no_reason():
-    both = [of(3), of(0, "mend")]
-    assert reason_if_blank(OBJECTIVE, both) == ""
-    assert titled(OBJECTIVE, both, "") == "objective: infinite for laplacian while hexes are inverted"
-    assert titled(OBJECTIVE, both[1:], "") == "objective"
-
-
 def test_reasons_are_unreported_quantities_and_deselected_runs():
     assert reason_if_blank(DELTA, [of(0)]) == "The method does not report its delta."
     assert reason_if_blank(DELTA, [of(0), of(0)]) == "No run reports its delta."

@@ -61,6 +61,7 @@ def test_edges_between_two_selected_nodes_are_marked_and_shown_among_the_kinds_o
     qtbot.waitUntil(on_the_curve, timeout=PATIENCE)
 
 
+@pytest.mark.slow
 def test_marks_are_undone_redone_and_removed(window, ends):
     assert not window.action("unmark_curve").isEnabled()
     mark(window, ends)
@@ -78,23 +79,7 @@ def test_marks_are_undone_redone_and_removed(window, ends):
     assert not len(marked(window))
 
 
-def test_the_same_node_twice_marks_nothing(window, ends):
-    select(window, ends[0])
-    assert window.action("mark_curve").text() == "&Mark curve from this node"
-    mark(window, [ends[0], ends[0]])
-    assert not len(marked(window))
-    assert window.session.document.undo_title is None
-
-
-def test_a_saved_mesh_and_a_session_have_the_marks(window, qtbot, ends, tmp_path):
-    mark(window, ends)
-    expected = marked(window)
-    for name in ("marked.mesh", "marked.hexmend"):
-        assert window.features["open"].save_and_wait(tmp_path / name)
-        open_and_wait(qtbot, window, tmp_path / name)
-        np.testing.assert_array_equal(marked(window), expected)
-
-
+@pytest.mark.slow
 def test_iterations_and_results_of_runs_have_the_marks(window, qtbot, ends):
     window.session.run.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=2, keep_last=True))
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
@@ -106,6 +91,7 @@ def test_iterations_and_results_of_runs_have_the_marks(window, qtbot, ends):
         np.testing.assert_array_equal(marked(window), expected)
 
 
+@pytest.mark.slow
 def test_the_script_marks_the_same_edges(window, ends):
     mark(window, ends)
     text = window.features["script"].text

@@ -9,7 +9,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
 from hexmend import io
-from hexmend_app.picture import Cut, Plane
+from hexmend_app.picture import Cut
+from hexmend_app.picture.cut import CutStyle
 from tests.app.driving import LEFT, drag, key, move, named, open_and_wait, pixels, press, seen_at, tick
 from tests.core.grids import grid
 
@@ -25,18 +26,17 @@ def choose(window, text):
     press(next(b for b in window.features["cut"].panel.findChildren(QPushButton) if b.text() == text))
 
 
-@pytest.mark.parametrize("cut", ["crinkle", "smooth"])
-def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
+def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot):
     whole = moving(window)
     panel = window.features["cut"].panel
     tick(next(b for b in panel.findChildren(QCheckBox) if b.text() == "Cut"))
     assert window.session.view.look.cut.active
     assert window.window_actions["cut"].isChecked()
-    for text in ("Y", "Smooth cut" if cut == "smooth" else "Whole hexes"):
+    for text in ("Y", "Smooth cut"):
         choose(window, text)
     clip = window.session.view.look.cut
     assert np.abs(clip.planes[0].normal).tolist() == [0, 1, 0]
-    assert clip.style.value == cut
+    assert clip.style is CutStyle.SMOOTH
     halved = moving(window)
     assert (np.abs(halved - whole).sum(axis=2) > 60).mean() > 0.02
     slider = named(panel, QSlider, "Position")
@@ -64,25 +64,6 @@ def test_the_plane_is_dragged_in_the_view(window, qtbot):
 
 
 @pytest.mark.slow
-def test_a_rotated_plane_snaps_to_a_nearby_axis(window, qtbot):
-    key(window, Qt.Key.Key_C)
-    choose(window, "X")
-    window.canvas.draw_still()
-    view, straight = window.canvas.interactor, window.session.view.look.cut
-    arrow = seen_at(window, np.array(straight.planes[0].point) + (1.35, 0, 0))
-    drag(view, arrow, arrow + QPoint(10, 2))
-    assert window.session.view.look.cut == straight
-    drag(view, arrow, arrow + QPoint(60, 30))
-    turned = window.session.view.look.cut.planes[0].normal
-    assert 0.1 < np.degrees(np.arccos(turned[0])) < 80
-    assert np.degrees(np.arccos(turned[0])) > 8
-    choose(window, "X")
-    tick(next(b for b in window.features["cut"].panel.findChildren(QCheckBox) if b.text() == "Snap"))
-    drag(view, arrow, arrow + QPoint(10, 2))
-    assert window.session.view.look.cut != straight
-
-
-@pytest.mark.slow
 def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     whole = moving(window)
     key(window, Qt.Key.Key_C)
@@ -106,20 +87,7 @@ def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 
-def test_two_planes_cut_a_corner_out(window, qtbot):
-    key(window, Qt.Key.Key_C)
-    one = window.canvas.viewport.shown
-    press(named(window.features["cut"].panel, QPushButton, "Add plane"))
-    assert len(window.session.view.look.cut.planes) == 2
-    both = window.canvas.viewport.shown
-    choose(window, "All planes")
-    corner = window.canvas.viewport.shown
-    assert 0 < both < one < corner < window.session.document.now.mesh.n_hexes
-    press(named(window.features["cut"].panel, QPushButton, "Remove plane"))
-    assert window.session.view.look.cut.planes
-    assert window.canvas.viewport.shown == one
-
-
+@pytest.mark.slow
 def test_a_cut_switched_off_and_on_between_two_refreshes_is_shown_as_on(window):
     window.window_actions["cut"].trigger()
     window.refresh()
@@ -153,28 +121,7 @@ def test_the_sphere_is_moved_and_resized_in_the_view(window, qtbot):
     assert moved.radius == pytest.approx(smaller.radius)
 
 
-def test_the_sphere_is_centred_on_the_selected_hex(window):
-    key(window, Qt.Key.Key_C)
-    choose(window, "Sphere")
-    button = named(window.features["cut"].panel, QPushButton, "Centre on hex")
-    assert not button.isEnabled()
-    window.session.selection.choose(17)
-    window.refresh()
-    press(button)
-    mesh = window.session.document.now.mesh
-    assert window.session.view.look.cut.sphere.centre == pytest.approx(mesh.points[mesh.hexes[17]].mean(axis=0))
-
-
-@pytest.mark.parametrize(("kind", "handles"), [("Slab", "plane"), ("Sphere", "sphere"), ("Box", "box")])
-def test_only_the_handles_of_the_cut_are_in_the_view(window, kind, handles):
-    key(window, Qt.Key.Key_C)
-    choose(window, kind)
-    on = {name for name in ("plane", "sphere", "box") if getattr(window.canvas, name).widget.GetEnabled()}
-    assert on == {handles}
-    tick(named(window, QCheckBox, "Handles"))
-    assert not getattr(window.canvas, handles).widget.GetEnabled()
-
-
+@pytest.mark.slow
 def test_handles_are_hidden_while_a_small_part_of_the_mesh_is_isolated(window, qtbot, tmp_path):
     io.write(tmp_path / "bar.vtu", grid(9, 1, 1))
     open_and_wait(qtbot, window, tmp_path / "bar.vtu")
@@ -189,15 +136,7 @@ def test_handles_are_hidden_while_a_small_part_of_the_mesh_is_isolated(window, q
     assert window.canvas.plane.widget.GetEnabled()
 
 
-def test_the_slab_is_dragged_by_its_middle(window):
-    key(window, Qt.Key.Key_C)
-    choose(window, "Slab")
-    slab = window.session.view.look.cut.slab
-    turned = Plane((0.0, 0.05, 1.0), point=(1, 2, 3))
-    window.canvas.plane_dragged.emit(turned)
-    assert window.session.view.look.cut.slab == slab.moved_to(Plane((0, 0, 1), point=(1, 2, 3)))
-
-
+@pytest.mark.slow
 def test_a_dragged_plane_is_released_where_the_pointer_leaves_the_view(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "Z")

@@ -18,6 +18,8 @@ from tests.app.driving import open_and_wait
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 CUT = Cut.at((1, 0.3, 0), (2.1, 2.0, 2.0))
 
 
@@ -44,7 +46,6 @@ def rendered(tmp_path, scene, *meshes):
     return np.asarray(Image.open(out)).astype(int)
 
 
-@pytest.mark.slow
 def test_the_command_line_draws_the_same_hexes_as_the_window(window, moved, tmp_path):
     scene = window.canvas.scene(Page(pixels=(400, 300)))
     assert window.features["save"].picture(tmp_path / "p.png", (400, 300))
@@ -55,7 +56,6 @@ def test_the_command_line_draws_the_same_hexes_as_the_window(window, moved, tmp_
     assert np.abs(anew - seen).mean() > 1
 
 
-@pytest.mark.slow
 def test_pictures_and_sessions_restore_the_cut_hexes(window, moved, qtbot, tmp_path):
     assert window.features["save"].picture(tmp_path / "p.png", (200, 150))
     assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")
@@ -70,17 +70,3 @@ def test_pictures_and_sessions_restore_the_cut_hexes(window, moved, qtbot, tmp_p
     window.session.view.set_cut(CUT)  # a new cut
     window.refresh()
     assert (window.canvas.viewport.kept() != moved).any()
-
-
-def test_a_preview_of_another_cut_does_not_change_the_view(window, moved):
-    scene = window.canvas.scene(Page(pixels=(100, 80)))
-    window.canvas.draw_page(replace(scene, cut=Cut.at((0, 0, 1), (2.0, 2.0, 2.0))))
-    window.session.view.change(show={"shrink": 0.1})
-    window.refresh()
-    np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)
-
-
-def test_a_scene_of_an_unmoved_mesh_lists_no_hexes(window, qtbot):
-    window.session.view.set_cut(CUT)
-    window.refresh()
-    assert window.canvas.scene(Page()).cut.hexes == ""

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton, QSlider, QStyle, Q
 from superqt import QRangeSlider
 
 from hexmend_app.features.cut.cut_panel import CutPanel
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab, Sphere
+from hexmend_app.picture.cut import Cut
+from hexmend_app.picture.cut_shapes import Box, Plane, Slab, Sphere
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
@@ -80,19 +80,6 @@ def handle(slider):
     )
 
 
-def test_the_panel_is_disabled_without_a_mesh(shown):
-    panel = shown(CutPanel())
-    assert not on(panel).isEnabled()
-    assert panel.cut() == Cut()
-
-
-def test_switching_on_cuts_across_the_middle_and_off_again(panel, emitted):
-    switch_on(panel)
-    assert emitted == [Cut.at((1, 0, 0), (1, 15, 3))]
-    switch_on(panel)
-    assert emitted[1:] == [Cut()]
-
-
 @pytest.mark.parametrize(("key", "normal"), [("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))])
 def test_axis_buttons_align_the_plane_and_centre_it(panel, emitted, key, normal):
     panel.set_cut(Cut.at((1, 2, 3), (0, 0, 2)))
@@ -115,60 +102,6 @@ def test_dragging_the_slider_moves_the_plane_with_the_mouse(panel, emitted):
     assert places[-1] > 17
     assert all(plane.normal == (0, 1, 0) for plane in planes)
     assert named(panel, QLabel, "Position in mesh units").text() == f"{places[-1]:.4g}"
-
-
-def test_keys_move_the_plane_by_a_thousandth_and_to_the_ends(panel, emitted):
-    switch_on(panel)
-    QTest.keyClick(slider(panel), Qt.Key.Key_Right)
-    assert emitted[-1].planes[0].point[0] == pytest.approx(1 + 4 / 1000)
-    QTest.keyClick(slider(panel), Qt.Key.Key_End)
-    assert emitted[-1].planes[0].point[0] == pytest.approx(3)
-    QTest.keyClick(slider(panel), Qt.Key.Key_Home)
-    assert emitted[-1].planes[0].point[0] == pytest.approx(-1)
-
-
-@pytest.mark.parametrize(("place", "text"), [(-1.356e-5, "0"), (1e-6, "0"), (-0.02, "−0.02"), (1.356, "1.356")])
-def test_a_position_next_to_zero_reads_zero(panel, place, text):
-    panel.set_cut(Cut.at((1, 0, 0), (place, 0, 0)))
-    assert named(panel, QLabel, "Position in mesh units").text() == text
-
-
-def test_flipping_hides_the_other_side_in_the_same_place(panel, emitted):
-    plane = Cut.at((0, 1, 0), (1, 7, 3))
-    panel.set_cut(plane)
-    before = slider(panel).value()
-    QTest.mouseClick(named(panel, QPushButton, "Flip"), _LEFT)
-    assert emitted == [plane.with_plane(0, plane.planes[0].flipped())]
-    assert slider(panel).value() == before
-    assert axis(panel).value() == "y"
-    QTest.mouseClick(named(panel, QPushButton, "Flip"), _LEFT)
-    assert emitted[-1] == plane
-
-
-def test_the_cut_is_whole_or_smooth(panel, emitted):
-    switch_on(panel)
-    QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
-    assert emitted[-1].smooth
-    QTest.keyClick(cut(panel).button("smooth"), Qt.Key.Key_Left)
-    assert cut(panel).value() == "crinkle"
-    assert emitted[-1].crinkled
-
-
-def test_the_handles_check_box_emits_a_signal(panel, qtbot):
-    switch_on(panel)
-    with qtbot.waitSignal(panel.handles_changed, timeout=PATIENCE) as caught:
-        QTest.mouseClick(named(panel, QCheckBox, "Handles"), _LEFT, pos=_BOX)
-    assert caught.args == [False]
-
-
-def test_a_rotated_plane_is_shown_as_free_without_a_signal(panel, emitted):
-    panel.set_cut(Cut.at((1, 1, 0), (1, 15, 3), CutStyle.SMOOTH))
-    assert axis(panel).value() == "free"
-    assert cut(panel).value() == "smooth"
-    panel.set_cut(Cut())
-    panel.set_handles(False)
-    panel.set_bounds(None)
-    assert emitted == []
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -216,14 +149,6 @@ def test_planes_are_added_selected_and_removed(panel, emitted, qtbot):
     assert texts(panel) == ["1"]
 
 
-def test_at_most_six_planes_can_be_added(panel, emitted):
-    switch_on(panel)
-    for _ in range(7):
-        QTest.mouseClick(add(panel), _LEFT)
-    assert len(emitted[-1].planes) == 6
-    assert not add(panel).isEnabled()
-
-
 def test_a_box_is_moved_by_its_sliders_and_inverted(panel, emitted):
     switch_on(panel)
     QTest.mouseClick(kind(panel).button("box"), _LEFT)
@@ -240,14 +165,6 @@ def test_a_box_is_moved_by_its_sliders_and_inverted(panel, emitted):
     assert emitted[-1] == Cut.at((1, 0, 0), (1, 15, 3))
     QTest.mouseClick(kind(panel).button("box"), _LEFT)
     assert emitted[-1] == box
-
-
-def test_a_box_dragged_in_the_view_is_not_rounded_to_the_sliders(panel, emitted):
-    box = Cut(box=Box((0.12345, 1, 2), (2, 20.54321, 3)))
-    panel.set_cut(box)
-    QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
-    assert emitted[-1].box == box.box
-    assert emitted[-1].smooth
 
 
 def choose_kind(panel, key):
@@ -314,17 +231,3 @@ def test_numbers_that_are_dragged_are_shown_rounded_and_kept(panel, emitted):
     type_into(panel, "Radius", "0.123456")
     assert emitted[-1].sphere == Sphere((1 / 3, 2 / 3, 3), 0.123456)
     assert named(panel, NumberBox, "Radius").lineEdit().text() == "0.123456"
-
-
-def test_the_ends_of_a_depth_may_be_typed_in_any_order(panel, emitted):
-    panel.set_bounds(_BOUNDS, layers=5)
-    choose_kind(panel, "depth")
-    assert emitted[-1] == Cut(depth=Depth(2, 5))
-    assert not named(panel, QCheckBox, "Handles").isVisible()
-    type_into(panel, "Minimum depth", "7")
-    assert emitted[-1].depth == Depth(5, 7)
-    type_into(panel, "Maximum depth", "12")
-    assert emitted[-1].depth == Depth(7, 12)
-    assert named(panel, NumberBox, "Maximum depth").lineEdit().text() == "12"
-    QTest.mouseClick(named(panel, Segmented, "Unit of depth").button("edges"), _LEFT)
-    assert emitted[-1].depth == Depth(7, 12, DepthUnit.EDGES)

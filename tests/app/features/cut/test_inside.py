@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QWheelEvent
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QCheckBox, QLabel, QPushButton, QSlider, QSpinBox
+from PySide6.QtWidgets import QPushButton, QSlider, QSpinBox
 
 from hexmend import gallery, io
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_shapes import Plane
+from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.shell.start.program import application
-from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.widgets.inputs.slider_box import SliderBox
-from tests.app.driving import LEFT, choose, click, named, open_and_wait, press, tick
+from tests.app.driving import LEFT, named, open_and_wait
 from tests.patience import PATIENCE
 
 PEEL, SHRINK, RINGS = "Peel layers", "Shrink hexes", "Rings around isolated hexes"
@@ -92,28 +89,6 @@ def test_peeling_is_disabled_if_all_hexes_are_on_the_boundary(panel):
     assert "Hide the outer layers" in named(panel, SliderBox, PEEL).toolTip()
 
 
-@pytest.mark.parametrize("part", [QSlider, QSpinBox])
-def test_scrolling_past_changes_nothing(panel, part):
-    widget = named(panel, part, SHRINK)
-    named(panel, QSpinBox, RINGS).setFocus()
-    centre = QPointF(widget.rect().center())
-    turn = QWheelEvent(
-        centre, widget.mapToGlobal(centre), QPoint(), QPoint(0, 120),
-        Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False,
-    )  # fmt: skip
-    QApplication.sendEvent(widget, turn)
-    assert named(panel, SliderBox, SHRINK).value() == 0
-
-
-def test_a_smooth_cut_and_shrinking_exclude_each_other(panel):
-    panel.set_look(Look(cut=Cut((Plane(point=(0, 0, 0)),), style=CutStyle.SMOOTH), show=Show(shrink=0.2)), 1)
-    assert not named(panel, SliderBox, SHRINK).isEnabled()
-    assert "Whole hexes" in named(panel, SliderBox, SHRINK).toolTip()
-    panel.set_look(Look(cut=Cut((Plane(point=(0, 0, 0)),)), show=Show(shrink=0.2)), 1)
-    assert named(panel, SliderBox, SHRINK).isEnabled()
-    assert named(panel, SliderBox, SHRINK).value() == 20
-
-
 def test_buttons_are_enabled_if_hexes_are_isolated_or_dug_away(panel):
     buttons = [named(panel, QPushButton, name) for name in BUTTONS]
     assert not any(button.isEnabled() for button in buttons)
@@ -131,56 +106,7 @@ def test_buttons_are_enabled_if_hexes_are_isolated_or_dug_away(panel):
     assert emitted == ["all", "undo", "restore"]
 
 
-@pytest.mark.parametrize(
-    ("numbers", "text"),
-    [((0, 0), ""), ((5, 1000), "5 of 1,000 hexes shown"), ((0, 8), "0 of 8 hexes shown")],
-)
-def test_the_panel_shows_the_number_of_visible_hexes(panel, numbers, text):
-    panel.set_shown(*numbers)
-    assert panel.shown.text() == text
-
-
 # The window
-
-
-def test_peeling_hides_layer_after_layer(window):
-    layers = named(window.features["cut"].inside, QSpinBox, PEEL)
-    type_into(layers, "2")
-    assert window.session.view.look.show.peel == 2
-    assert set(faces(window)) == set(np.flatnonzero(window.session.document.now.mesh.topology.layers == 2))
-    assert shown(window) == "216 of 1,000 hexes shown"
-    assert layers.maximum() == 4
-
-
-def test_isolating_with_rings_and_back(window):
-    view, panel = window.session.view, window.features["cut"].inside
-    view.isolate([555], 0)
-    assert set(faces(window)) == {555}
-    type_into(named(panel, QSpinBox, RINGS), "1")
-    assert view.look.show.isolate == Isolate((555,), 1)
-    assert shown(window) == "1 of 1,000 hexes shown"
-    assert window.canvas.viewport.filters.ghosts(window.canvas.viewport.frame).sum() == 26
-    press(named(panel, QPushButton, "Show all"))
-    assert view.look.show.isolate is None
-    view.isolate([3])
-    assert view.look.show.isolate == Isolate((3,), 1)
-
-
-def test_hexes_are_dug_away_and_restored(window):
-    view, panel = window.session.view, window.features["cut"].inside
-    for h in (0, 1, 1, 2):
-        view.dig(h)
-    window.refresh()
-    assert [label for label in panel.findChildren(QLabel) if label.text() == "3 hexes hidden"]
-    assert not {0, 1, 2} & set(faces(window))
-    press(named(panel, QPushButton, "Show last"))
-    assert view.look.show.hidden == {0, 1}
-    press(named(panel, QPushButton, "Show hidden"))
-    assert not view.look.show.hidden
-    view.dig(7)
-    view.undig_last()
-    view.undig_last()
-    assert not view.look.show.hidden
 
 
 def test_everything_combines(window):
@@ -205,28 +131,7 @@ def test_everything_combines(window):
     )
 
 
-def test_shrunk_hexes_follow_moving_nodes(window, qtbot):
-    slider = named(window.features["cut"].inside, QSlider, SHRINK)
-    slider.setFocus()
-    for _ in range(5):
-        QTest.keyClick(slider, Qt.Key.Key_PageUp)
-    assert window.session.view.look.show.shrink == 0.3
-    window.session.view.change(show={"peel": 3})
-    window.refresh()
-    chosen = np.flatnonzero(window.session.document.now.mesh.topology.layers >= 3)
-    before = window.canvas.viewport.mesh_layer.faces
-    choose(window, "laplacian")
-    click(window, "Step")
-    qtbot.waitUntil(lambda: window.session.run.phase is Phase.PAUSED, timeout=PATIENCE)
-    window.refresh()
-    drawn = window.canvas.viewport
-    assert drawn.mesh_layer.faces is before  # nothing depends on quality, so the faces are reused
-    corners = drawn.frame.mesh.points[drawn.frame.mesh.hexes[chosen]]
-    assert not np.array_equal(drawn.frame.mesh.points, window.session.document.start.mesh.points)
-    expected = corners + 0.3 * (corners.mean(axis=1, keepdims=True) - corners)
-    np.testing.assert_allclose(drawn.mesh_layer.whole.points, expected.reshape(-1, 3), atol=1e-12)
-
-
+@pytest.mark.slow
 def test_in_large_meshes_only_visible_hexes_are_shrunk(window, qtbot, monkeypatch):
     monkeypatch.setattr("hexmend_app.scene.geometry.skin.WHOLE", 500)
     window.session.view.change(show={"shrink": 0.3})
@@ -237,57 +142,3 @@ def test_in_large_meshes_only_visible_hexes_are_shrunk(window, qtbot, monkeypatc
     qtbot.waitUntil(lambda: len(faces(window)) == 6 * np.count_nonzero(layers == 0), timeout=PATIENCE)
     window.session.view.change(show={"peel": 2})
     assert set(faces(window)) <= set(np.flatnonzero(layers >= 2))
-
-
-def test_a_smooth_cut_is_not_shrunk(window):
-    window.session.view.change(cut=Cut.at((1, 0, 0), (0.1, 0.1, 0.1), CutStyle.SMOOTH), show={"shrink": 0.3})
-    window.refresh()
-    assert window.canvas.viewport.mesh_layer.faces.shrink == 0
-    assert shown(window) == "1,000 of 1,000 hexes shown (before the cut)"
-
-
-def test_the_outline_is_drawn_if_it_is_on_and_hexes_are_hidden(window):
-    actor = window.canvas.viewport.overlay_layers.outline.actor
-    box = named(window.features["cut"].inside, QCheckBox, "Sharp edges and outline")
-    assert not actor.GetVisibility()
-    window.session.view.change(show={"peel": 1})
-    window.refresh()
-    assert actor.GetVisibility()
-    tick(box)
-    assert not window.session.view.look.show.outline
-    assert not actor.GetVisibility()
-    tick(box)
-    window.session.view.change(show={"peel": 0})
-    window.refresh()
-    assert not actor.GetVisibility()
-
-
-def test_another_mesh_is_shown_whole(window, qtbot, tmp_path):
-    window.session.view.isolate([999], 1)
-    window.session.view.dig(998)
-    window.session.view.change(show={"peel": 4})
-    io.write(tmp_path / "small.vtu", gallery.make("cube", size=8))
-    open_and_wait(qtbot, window, tmp_path / "small.vtu")
-    assert window.session.view.look == Look()
-    assert shown(window) == "8 of 8 hexes shown"
-    assert not named(window.features["cut"].inside, QSlider, PEEL).isEnabled()
-
-
-@pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
-def test_no_text_is_truncated(window, qtbot, size):
-    window.resize(*size)
-    window.session.view.isolate(range(500), 12)
-    for h in range(12):
-        window.session.view.dig(h)
-    window.refresh()
-    panel = window.features["cut"].inside
-    parts = [panel.isolated, panel.dug, panel.shown, named(panel, QCheckBox, "Sharp edges and outline")]
-    parts += [named(panel, QPushButton, name) for name in BUTTONS]
-    for part in parts:
-        # The hint of a button is at least 80 pixels.
-        button = isinstance(part, QPushButton)
-        need = part.fontMetrics().horizontalAdvance(part.text()) + 10 if button else part.sizeHint().width()
-        assert part.width() >= need, part.text()
-        assert panel.rect().contains(part.geometry())
-    for box in (named(panel, QSpinBox, PEEL), named(panel, QSpinBox, SHRINK), named(panel, QSpinBox, RINGS)):
-        assert box.width() >= box.sizeHint().width() - 2

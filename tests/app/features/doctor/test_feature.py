@@ -4,14 +4,9 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QLabel, QPushButton
 
-from benchmarks.window.windows import end_run
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import press
 from tests.patience import PATIENCE
 
@@ -49,11 +44,6 @@ def test_findings_are_listed_with_their_locations(window, panel):
     assert "Hexes 27, 28, 29" in texts(panel)
 
 
-def test_a_finding_is_shown_in_the_view(window, panel):
-    press(buttons(panel, "Show")[0])
-    assert set(range(27, 54)) == set(window.session.view.look.show.isolate.hexes)
-
-
 def repair(qtbot, session, button):
     """Press a button that repairs, and wait until the mesh is repaired."""
     with qtbot.waitSignal(session.repairer.ended, timeout=PATIENCE):
@@ -78,29 +68,6 @@ def test_each_finding_is_repaired_by_a_click_and_undone(window, panel, qtbot):
 
 
 @pytest.mark.slow
-def test_all_is_repaired_at_once_and_methods_run_on_the_repaired_mesh(window, panel, qtbot):
-    press(buttons(panel, "Repair all")[0])
-    window.refresh()
-    qtbot.waitUntil(lambda: "No problems found" in texts(panel), timeout=PATIENCE)
-    session = window.session
-    assert session.document.start.mesh is session.document.now.mesh
-    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
-        session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
-    session.commands.reset()
-    assert session.document.now.mesh.n_nodes == 112
-
-
-def test_a_finding_is_shown_while_a_run_is_paused_too(window, panel, qtbot):
-    session = window.session
-    repair(qtbot, session, buttons(panel, "Repair")[0])  # a run refuses left-handed hexes
-    qtbot.waitUntil(lambda: len(buttons(panel, "Repair")) == 1, timeout=PATIENCE)
-    session.commands.step(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=30, tolerance=0)), 1)
-    qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED, timeout=PATIENCE)
-    press(buttons(panel, "Show")[-1])
-    assert set(range(27, 54)) == set(session.view.look.show.isolate.hexes)
-    end_run(session)
-
-
 def test_changes_on_reading_are_remembered(window, panel):
     mesh = unmerged().replace(notes=("8 hexes were renumbered.",))
     window.session.document.replace(State.of(mesh), None)

@@ -24,19 +24,3 @@ def test_keys_undo_and_redo_a_run(window, qtbot):
     np.testing.assert_array_equal(window.session.document.now.mesh.points, start.mesh.points)
     key(window, Qt.Key.Key_Z, CONTROL, SHIFT)
     assert window.session.document.now is after
-
-
-def test_the_menu_names_the_change_that_is_undone(window):
-    undo, redo = window.action("undo"), window.action("redo")
-    assert not undo.isEnabled()
-    assert not redo.isEnabled()
-    window.session.commands.tag("bad", [7])
-    window.refresh()
-    assert undo.isEnabled()
-    assert undo.text() == "&Undo tag"
-    undo.trigger()
-    window.refresh()
-    assert not undo.isEnabled()
-    assert redo.text() == "&Redo tag"
-    redo.trigger()
-    assert list(window.session.document.now.mesh.hex_sets) == ["bad"]

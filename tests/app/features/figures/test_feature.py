@@ -1,7 +1,6 @@
 """Figure sets exported from the window."""
 
 import argparse
-import hashlib
 import json
 import shlex
 
@@ -74,35 +73,11 @@ def test_the_export_can_be_cancelled(window, qtbot, folder):
     assert not (folder / "captions.md").exists()
 
 
-def test_a_folder_that_cannot_be_created_is_reported(window, folder):
-    folder.write_text("a file")
-    window.window_actions["figure_set"].trigger()
-    assert not window.features["figures"].going_on
-    assert "is a file" in " ".join(window.messages.messages()[-1])
-
-
 @pytest.fixture
 def page(tmp_path, monkeypatch):
     path = tmp_path / "report.html"
     monkeypatch.setattr("hexmend_app.features.figures.feature.ask_report", lambda parent, stem: str(path))
     return path
-
-
-@pytest.mark.slow
-def test_the_report_shows_the_opened_and_the_current_mesh(window, qtbot, page):
-    stepped(window, qtbot, 4)
-    end_run(window.session)
-    window.refresh()
-    window.window_actions["report"].trigger()
-    qtbot.waitUntil(lambda: not window.features["figures"].going_on, timeout=PATIENCE)
-    assert f"Report saved to {page}" in " ".join(window.messages.messages()[-1])
-    text = page.read_text()
-    now = window.session.document.now.summary
-    assert f"Local steepest descent: {now.inverted:,} inverted, q min {now.q_min:.4f}." in text
-    assert text.count("<figure") >= 5
-    assert hashlib.sha256(window.session.document.path.read_bytes()).hexdigest() in text
-    assert "Commands to reproduce" not in text
-    assert "Limits of each run" not in text
 
 
 @pytest.mark.slow
@@ -124,10 +99,3 @@ def test_each_step_of_a_report_is_named_and_the_report_can_be_cancelled(window, 
     drawing = [f"Drawing figure {number} of 4: {part}…" for number, part in enumerate(parts, 1)]
     assert texts == [*drawing, f"Writing {page.name}…"]
     assert page.exists()
-
-
-def test_a_report_in_an_unknown_format_is_refused(window, page, monkeypatch):
-    window.features["figures"].write_report(page.with_suffix(".docx"))
-    assert not window.features["figures"].going_on
-    assert ".html" in " ".join(window.messages.messages()[-1])
-    assert not page.with_suffix(".docx").exists()

@@ -6,9 +6,7 @@ from PIL import Image
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.gallery import make
 from hexmend.run import memory
-from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED
 from tests.core.boundary.solids import ball, slid
 from tests.core.smoothers.test_sliding_on_surface import skin_of, write_stl
 
@@ -115,20 +113,6 @@ def test_the_mesh_before_the_run_stays_next_to_it(mesh_file, tmp_path):
     assert abs(left[-1] - right[-1]).max() > 100
 
 
-@pytest.mark.parametrize(("size", "options"), [("640x200", ["--histogram"]), ("400x200", [])])
-def test_captions_of_two_pictures_do_not_overlap(mesh_file, tmp_path, size, options):
-    path = tmp_path / "run.png"
-    run = ["--method", "laplacian", "--max-iterations", "12", "--frames", "2", "--before"]
-    assert main(["film", str(mesh_file), "-o", str(path), *run, "--size", size, *options]) == 0
-    width = int(size[:3])
-    column = width // 2 if not options else (width - round(0.32 * width)) // 2
-    captions = np.ptp(_frames(path)[0][-1][:30], axis=0).max(axis=1) > 60
-    for edge in (column, width):
-        assert not captions[edge - 2 : edge + 6].any()
-    for left in (0, column):
-        assert captions[left + 8 : left + 60].any()
-
-
 def test_a_film_can_begin_with_its_result(mesh_file, tmp_path, capsys):
     path = tmp_path / "run.gif"
     run = ["--method", "laplacian", "--max-iterations", "3", "--size", "640x300", "--rate", "10"]
@@ -138,24 +122,6 @@ def test_a_film_can_begin_with_its_result(mesh_file, tmp_path, capsys):
     assert durations == [100, 800, 100, 100, 800]
     assert (frames[0] == frames[-1]).all()
     assert (frames[0] != frames[1]).any()
-
-
-def test_the_swatches_of_invalid_hexes_have_their_colours_also_if_there_are_none(tmp_path):
-    io.write(tmp_path / "cube.vtu", make("cube", size=27))
-    run = ["--method", "laplacian", "--max-iterations", "2", "--size", "640x300", "--frames", "2"]
-    assert main(["film", str(tmp_path / "cube.vtu"), "-o", str(tmp_path / "run.gif"), *run]) == 0
-    last = _frames(tmp_path / "run.gif")[0][-1]
-    for colour in (INVERTED, INVALID_INSIDE):
-        assert np.count_nonzero((last == colour).all(axis=2)) > 10
-
-
-def test_a_colour_bar_has_no_bands(mesh_file, tmp_path):
-    path = tmp_path / "run.gif"
-    options = ["--method", "laplacian", "--max-iterations", "2", "--size", "960x600"]
-    assert main(["film", str(mesh_file), "-o", str(path), *options]) == 0
-    with Image.open(path) as film:
-        bar = np.asarray(film.convert("RGB"))[-34, 100:600].astype(int)
-    assert abs(np.diff(bar, axis=0)).max() <= 8
 
 
 def test_the_boundary_slides_on_the_surface_of_an_option(tmp_path, capsys):

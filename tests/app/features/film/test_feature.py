@@ -5,9 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from PIL import Image
-from PySide6.QtCore import QPoint
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QComboBox, QPushButton, QSpinBox
+from PySide6.QtWidgets import QComboBox, QPushButton, QSpinBox
 
 from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
 from hexmend_app.picture.appearance import Look
@@ -28,20 +27,6 @@ def accepted(monkeypatch):
         return True
 
     monkeypatch.setattr(FilmDialog, "exec", accept)
-
-
-def test_the_dialog_shows_and_returns_options(shown):
-    choice = FilmChoice(1280, 25, 100, True, True)
-    dialog = shown(FilmDialog(choice, (1000, 600), 40))
-    assert dialog.choice() == choice
-    assert named(dialog, QComboBox, "Size").currentText() == "1280 × 322 pixels"
-    tick = named(dialog, QCheckBox, "Histogram")
-    QTest.mouseClick(tick, LEFT, pos=QPoint(8, tick.height() // 2))
-    assert not dialog.choice().histogram
-    tick = named(dialog, QCheckBox, "Before")
-    QTest.mouseClick(tick, LEFT, pos=QPoint(8, tick.height() // 2))
-    assert not dialog.choice().before
-    assert named(dialog, QComboBox, "Size").currentText() == "1280 × 768 pixels"
 
 
 @pytest.mark.parametrize("histogram", [False, True])

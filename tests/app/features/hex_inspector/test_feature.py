@@ -2,23 +2,14 @@
 
 from __future__ import annotations
 
-import csv
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit
+from PySide6.QtWidgets import QCheckBox, QLabel
 
 from benchmarks.window.windows import save_and_wait
 from hexmend import io
-from hexmend.boundary import NodeClass
-from hexmend.quality import METRICS
-from hexmend.run import StoppingCriteria
-from hexmend_app.shell.palette.command_palette import CommandPalette
-from hexmend_app.state.mesh.document import State
-from hexmend_app.state.tasks.boundary_classifier import node_classes
-from hexmend_app.theme.palette import KEPT
 from tests.app.driving import LEFT, choose, click, drag, key, open_and_wait
 from tests.core.boundary.solids import slid
 from tests.core.grids import grid
@@ -49,16 +40,6 @@ def test_a_click_in_the_view_selects_a_hex_and_a_drag_does_not(window, qtbot):
     assert window.session.selection.hex is None
 
 
-def test_a_click_in_the_view_does_not_open_the_drawer(window):
-    size = window.canvas.size()
-    click_view(window)
-    assert window.session.selection.hex is not None
-    assert not window.in_front("hex")
-    assert window.canvas.size() == size
-    window.docks.set_folded(False)
-    assert window.in_front("hex")
-
-
 @pytest.mark.slow
 def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot):
     camera = window.canvas.viewport.camera
@@ -78,64 +59,6 @@ def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot)
     assert window.session.selection.hex == worst
     key(window, Qt.Key.Key_Escape)
     assert window.session.selection.hex is None
-
-
-def test_the_worst_hex_is_isolated_and_its_neighbours_are_ghosts(window):
-    key(window, Qt.Key.Key_N)
-    drawn, worst = window.canvas.viewport, window.session.selection.hex
-    assert set(drawn.mesh_layer.faces.hexes) == {worst}
-    around = window.session.document.now.mesh.topology.hexes_around([worst], 1)
-    assert drawn.filters.ghosts(drawn.frame).sum() == around.sum() - 1
-
-
-@pytest.mark.slow
-def test_a_hex_stays_selected_during_a_run(window, qtbot):
-    key(window, Qt.Key.Key_N)
-    worst = window.session.selection.hex
-    choose(window, window.session.run_setup.method, StoppingCriteria(tolerance=1e-2))
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
-    window.show_panel("worst")
-    window.refresh()
-    assert window.session.selection.hex == worst
-    assert not window.session.document.now.figures.inverted[worst]
-    assert window.features["hex_inspector"].worst_list.hexes[0] == window.session.document.now.figures.q.argmin()
-
-
-def test_the_list_of_the_worst_is_saved_or_an_error_is_shown(window, tmp_path):
-    assert window.features["hex_inspector"].save(tmp_path / "worst.csv")
-    lines = (tmp_path / "worst.csv").read_text().splitlines()
-    assert len(lines) == 1 + len(window.features["hex_inspector"].worst_list.hexes)
-    assert not window.features["hex_inspector"].save(tmp_path / "nowhere" / "worst.csv")
-    assert window.messages.messages()[-1][0] == "error"
-
-
-@pytest.mark.slow
-def test_a_pinned_node_does_not_move_and_undo_unpins_it(window, qtbot):
-    mesh = window.session.document.now.mesh
-    inner = int(np.flatnonzero(mesh.free)[50])
-    h = int(np.flatnonzero((mesh.hexes == inner).any(axis=1))[0])
-    window.session.selection.choose(h)
-    window.features["hex_inspector"].panel.node_chosen.emit(inner)
-    assert window.session.selection.node == inner
-    window.show_panel("hex")
-    window.refresh()
-    pin = next(b for b in window.features["hex_inspector"].panel.findChildren(QCheckBox) if b.text() == "Pinned")
-    assert not pin.isChecked()
-    QTest.mouseClick(pin, LEFT, pos=QPoint(8, pin.height() // 2))
-    assert window.session.document.now.mesh.pinned[inner]
-    assert window.session.document.undo_title == "pin"
-    choose(window, "laplacian")
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
-    np.testing.assert_array_equal(window.session.document.now.mesh.points[inner], mesh.points[inner])
-    window.session.commands.undo()
-    window.refresh()
-    assert pin.isChecked()
-    window.session.commands.undo()
-    assert window.session.document.now.mesh.free[inner]
-    window.refresh()
-    assert not pin.isChecked()
 
 
 @pytest.mark.slow
@@ -172,112 +95,6 @@ def test_a_boundary_node_pinned_by_key_does_not_slide(window, qtbot, tmp_path):
     assert not pin.isChecked()
 
 
-def test_the_class_of_a_boundary_node_is_shown(window, qtbot):
-    mesh = window.session.document.now.mesh
-    window.show_panel("show")
-    window.refresh()
-    qtbot.waitUntil(lambda: window.session.boundary_classifier.of(mesh) is not None, timeout=PATIENCE)
-    node = int(np.flatnonzero(window.session.boundary_classifier.classes.kinds == NodeClass.CORNER)[0])
-    window.session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
-    window.refresh()
-    labels = window.features["hex_inspector"].panel.findChildren(QLabel)
-    assert any(f"Node {node:,}: boundary, a corner, " in label.text() for label in labels)
-
-
-def test_the_distance_of_a_node_that_was_moved_off_its_corner_is_shown(window, qtbot):
-    session = window.session
-    mesh = session.document.now.mesh
-    node = int(np.flatnonzero(node_classes(mesh, "auto") == NodeClass.CORNER)[0])
-    points = mesh.points.copy()
-    points[node] += 0.01 * mesh.mean_edge_length
-    session.commands.adopt_positions("move", State.of(mesh.with_points(points)))
-    window.show_panel("show")
-    window.refresh()
-    moved = session.document.now.mesh
-    qtbot.waitUntil(lambda: getattr(session.boundary_classifier.classes, "mesh", None) is moved, timeout=PATIENCE)
-    window.refresh()
-    kinds = window.features["structure"].panel.layers["kinds"].entries
-    legend = [label.text() for label in kinds.findChildren(QLabel)]
-    assert "1 moved off" in legend
-    assert "up to 0.017 edge lengths" in legend
-    session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
-    window.refresh()
-    labels = window.features["hex_inspector"].panel.findChildren(QLabel)
-    assert any(
-        f"Node {node:,}: boundary, 0.017 mean edge lengths from its corner, " in label.text() for label in labels
-    )
-    window.show_panel("histogram")
-    window.refresh()
-    session.commands.reset()  # the classes are not wanted and stay those of the moved node
-    window.refresh()
-    assert not any("off its corner" in label.text() for label in labels)
-
-
-def test_commands_are_found_by_name_in_the_palette(window, qtbot):
-    key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
-    palette = window.findChild(CommandPalette)
-    qtbot.waitUntil(palette.isVisible, timeout=PATIENCE)
-    assert any("Isometric" in text for text in palette.titles())
-    QTest.keyClicks(palette.findChild(QLineEdit), "next worst")
-    QTest.keyClick(palette.findChild(QLineEdit), Qt.Key.Key_Return)
-    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.hexes[0]
-
-
-@pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])
-def test_the_histogram_is_saved_as_picture_or_as_counts(window, tmp_path, suffix):
-    path = tmp_path / f"histogram{suffix}"
-    assert window.features["histogram"].save(path)
-    starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"q from,q to,at the start,now"}
-    assert path.read_bytes().startswith(starts[suffix])
-    if suffix == ".csv":
-        rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
-        assert sum(int(row[3]) for row in rows) == window.session.document.now.mesh.n_hexes
-        assert int(rows[0][3]) == window.session.document.now.summary.inverted
-
-
-def test_the_saved_histogram_equals_the_drawn_one(window, tmp_path):
-    histogram, now = window.features["histogram"].panel, window.session.document.now
-    histogram.metric_chosen.emit("condition")
-    window.refresh()
-    histogram.keep_requested.emit()
-    histogram.renamed.emit(0, "as it was, before")
-    histogram.head.bins.setValue(20)
-    histogram.head.cumulative.setChecked(True)
-    histogram.head.scale.button("log").click()
-    window.refresh()
-    for suffix in (".csv", ".svg"):
-        assert window.features["histogram"].save(tmp_path / f"drawn{suffix}")
-    with open(tmp_path / "drawn.csv", newline="") as file:
-        head, inverted, *rows = csv.reader(file)
-    assert head == ["condition from", "condition to"] + [
-        f"% of hexes up to: {name}" for name in ("at the start", "now", "as it was, before")
-    ]
-    assert len(rows) == 21  # the last bin is beyond the end of the axis
-    assert rows[-1][1:] == ["inf", "100", "100", "100"]
-    assert float(inverted[3]) == pytest.approx(100 * now.summary.inverted / 4000, rel=1e-5)
-    shares = [float(row[3]) for row in rows]
-    assert shares == sorted(shares)
-    values = METRICS["condition"].of(now.mesh.points, now.mesh.hexes, now.figures)
-    up_to = np.count_nonzero(now.figures.inverted | (values < float(rows[4][1])))
-    assert shares[4] == pytest.approx(100 * up_to / 4000, rel=1e-5)
-    drawing = (tmp_path / "drawn.svg").read_text()
-    for text in ("Condition number", "as it was, before (", "inverted", "% of hexes up to x, inverted first"):
-        assert f">{text}" in drawing
-    assert all(colour in drawing for colour in (KEPT[0].of(dark=False), "#0072b2"))
-    histogram.head.scale.button("linear").click()
-    window.refresh()
-    assert window.features["histogram"].save(tmp_path / "linear.svg")
-    assert (tmp_path / "linear.svg").read_text() != drawing
-
-
-def test_an_error_is_shown_if_a_histogram_cannot_be_saved(window, tmp_path):
-    assert not window.features["histogram"].save(tmp_path / "histogram.txt")
-    kind, title, text = window.messages.messages()[-1]
-    assert (kind, title) == ("error", "Histogram not saved")
-    assert ".svg, .pdf, .png" in text
-    assert list(tmp_path.glob("histogram*")) == []
-
-
 def test_ctrl_click_hides_a_hex_and_backspace_shows_it(window, qtbot):
     click_view(window)
     first = window.session.selection.hex
@@ -294,27 +111,3 @@ def test_ctrl_click_hides_a_hex_and_backspace_shows_it(window, qtbot):
     assert window.session.view.look.show.hidden == {first}
     key(window, Qt.Key.Key_Backspace)
     assert not window.session.view.look.show.hidden
-
-
-def test_the_selected_hex_is_isolated_by_key(window):
-    click_view(window)
-    key(window, Qt.Key.Key_I)
-    assert window.session.view.look.show.isolate.hexes == (window.session.selection.hex,)
-    key(window, Qt.Key.Key_Escape)
-    assert window.session.view.look.show.isolate is None
-
-
-def test_next_worst_begins_with_the_worst_hex(window):
-    worst_list = window.features["hex_inspector"].worst_list
-    worst = list(worst_list.hexes[:3])
-    window.session.selection.choose(int(worst[2]))  # as by a click in the view
-    for expected in worst:
-        key(window, Qt.Key.Key_N)
-        assert window.session.selection.hex == expected
-    window.session.commands.tag("bad", [int(worst[0])])  # tags do not change the order: the walk goes on
-    key(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
-    assert window.session.selection.hex == worst[1]
-    mesh = window.session.document.now.mesh
-    window.session.document.commit("Scale", State.of(mesh.with_points(mesh.points * 2.0)))
-    key(window, Qt.Key.Key_N)
-    assert window.session.selection.hex == worst_list.hexes[0]

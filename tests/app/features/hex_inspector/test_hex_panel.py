@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QTextDocumentFragment
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
+from PySide6.QtWidgets import QLabel
 
 from hexmend.quality import measure
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
@@ -87,32 +86,3 @@ def test_neighbours_are_links_for_keys(panel, qtbot):
     with qtbot.waitSignal(panel.chosen, timeout=PATIENCE) as chosen:
         QTest.keyClick(links, Qt.Key.Key_Return)
     assert chosen.args[0] == next(h for h in details.neighbours if h >= 0)
-
-
-def test_neighbours_are_links_for_the_mouse(panel, qtbot):
-    details = describe_hex(MESH, WORST)
-    panel.show_hex(details)
-    links = neighbours(panel)
-    first = int(min(np.flatnonzero(details.neighbours >= 0)))
-    text = QTextDocumentFragment.fromHtml(links.text()).toPlainText()
-    number = f"{details.neighbours[first]:,}"
-    before = text[: text.index(number)]
-    x = links.fontMetrics().horizontalAdvance(before) + links.fontMetrics().horizontalAdvance(number) // 2
-    with qtbot.waitSignal(panel.chosen, timeout=PATIENCE) as chosen:
-        QTest.mouseClick(links, Qt.MouseButton.LeftButton, pos=QPoint(x, links.fontMetrics().height() // 2))
-    assert chosen.args[0] == details.neighbours[first]
-
-
-def test_a_low_and_wide_panel_needs_no_scrolling(panel):
-    panel.show_hex(describe_hex(MESH, WORST))
-    assert panel.heightForWidth(1000) <= 230
-    assert panel.minimumSizeHint().width() <= 340
-
-
-def test_buttons_emit_signals(panel, qtbot):
-    panel.show_hex(describe_hex(MESH, WORST))
-    with qtbot.waitSignal(panel.zoom_requested, timeout=PATIENCE):
-        QTest.mouseClick(panel.findChild(QPushButton), Qt.MouseButton.LeftButton)
-    with qtbot.waitSignal(panel.corners_toggled, timeout=PATIENCE):
-        panel.findChild(QCheckBox).click()
-    assert panel.corners_in_view

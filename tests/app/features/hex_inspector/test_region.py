@@ -1,8 +1,10 @@
 """Pinning all nodes outside the isolated hexes and the rings around them."""
 
 import numpy as np
+import pytest
 
 
+@pytest.mark.slow
 def test_only_the_isolated_region_is_free_until_undo(window):
     session = window.session
     mesh = session.document.now.mesh

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QComboBox, QLabel, QPushButton, QTableView
+from PySide6.QtWidgets import QAbstractButton, QComboBox, QTableView
 
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.hex_inspector.worst_file import write_worst
@@ -82,16 +82,6 @@ def test_invalid_hexes_are_listed_before_valid_ones_of_lower_quality(worst_list)
     assert inside[hexes[inverted:invalid]].all()
 
 
-def test_the_list_states_the_order_of_ties(worst_list):
-    def text():
-        return " ".join(label.text() for label in worst_list.findChildren(QLabel))
-
-    assert "Ties are sorted by scaled Jacobian." in text()
-    metric = worst_list.findChild(QComboBox)
-    metric.setCurrentIndex(metric.findData("scaled-jacobian"))
-    assert "Ties" not in text()
-
-
 def test_a_click_on_a_row_selects_its_hex(worst_list, qtbot):
     viewport, place = row_at(worst_list, 2)
     with qtbot.waitSignal(worst_list.chosen, timeout=PATIENCE) as chosen:
@@ -119,15 +109,6 @@ def test_the_selected_row_follows_its_hex_when_the_mesh_changes(worst_list):
     assert (listed[row] == hex) if hex in listed else row == -1
 
 
-def test_a_hidden_list_is_filled_when_it_is_shown(qtbot):
-    widget = WorstList()
-    qtbot.addWidget(widget)
-    widget.set_figures(MESH, FIGURES)
-    assert widget.findChild(QTableView).model().rowCount() == 0
-    widget.show()
-    assert widget.findChild(QTableView).model().rowCount() == min(MAX_LISTED, MESH.n_hexes)
-
-
 def test_the_saved_list_reads_back(worst_list, tmp_path):
     write_worst(tmp_path / "worst.csv", MESH, worst_list.chosen_metric)
     lines = (tmp_path / "worst.csv").read_text().splitlines()
@@ -137,26 +118,6 @@ def test_the_saved_list_reads_back(worst_list, tmp_path):
     assert float(q) == FIGURES.q[int(number)]
     assert float(jacobian) == FIGURES.scaled_jacobian[int(number)]
     assert state == "inverted"
-
-
-def test_without_a_mesh_nothing_can_be_saved_or_gone_to(qtbot):
-    widget = WorstList()
-    qtbot.addWidget(widget)
-    assert not any(b.isEnabled() for b in widget.findChildren(QPushButton))
-    widget.next()  # must not fail
-    assert not len(widget.hexes)
-
-
-def test_enter_and_a_double_click_select_the_row_again(worst_list):
-    viewport, place = row_at(worst_list, 1)
-    QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
-    selected = []
-    worst_list.chosen.connect(selected.append)
-    hex = worst_list.hexes[1]
-    QTest.keyClick(worst_list.findChild(QTableView), Qt.Key.Key_Return)
-    assert selected == [hex]
-    QTest.mouseDClick(viewport, Qt.MouseButton.LeftButton, pos=place)
-    assert selected == [hex, hex]
 
 
 def test_keyboard_focus_alone_selects_nothing(worst_list, qtbot):

@@ -1,6 +1,7 @@
 """Axis of the histogram, for every metric."""
 
 import math
+from itertools import cycle
 
 import numpy as np
 import pytest
@@ -19,8 +20,7 @@ MESHES = {"cubes": grid(3), "bent": scrambled(grid(4), 0.2), "inverted": scrambl
 MESHES["flat"] = grid(2).with_points(grid(2).points * 0)
 
 
-@pytest.mark.parametrize("mesh", MESHES)
-@pytest.mark.parametrize("name", METRICS)
+@pytest.mark.parametrize(("name", "mesh"), list(zip(METRICS, cycle(MESHES), strict=False)))
 def test_every_metric_has_an_axis_on_which_every_hex_is_counted_once(name, mesh):
     mesh = MESHES[mesh]
     figures = measure(mesh.points, mesh.hexes)

@@ -37,11 +37,6 @@ def test_a_quality_that_exceeds_one_by_rounding_is_counted_and_within_the_range(
     assert counted.within(Show((0.9, 0.99), "q")) == 0
 
 
-def test_lengths_must_agree():
-    with pytest.raises(ValueError, match="same length"):
-        distribute(np.zeros(3), np.zeros(2, bool), Q)
-
-
 def test_values_beyond_open_ends_are_counted_in_separate_bars():
     axis = Axis("volume", 1.0, 2.0, open_low=True, open_high=True)
     values = np.array([-np.inf, 0.999999, 1.0, 1.999999, 2.0, np.inf, np.nan])

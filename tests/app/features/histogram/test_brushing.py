@@ -7,7 +7,7 @@ from PySide6.QtTest import QTest
 
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
-from tests.app.driving import LEFT, move, turn
+from tests.app.driving import LEFT, move
 from tests.app.features.histogram.mouse import ends, point_at
 from tests.patience import PATIENCE
 
@@ -20,14 +20,6 @@ def test_dragging_over_the_plot_brushes_the_range_under_it(histogram, announced,
     now = data[0] ** 0.5
     inside = np.count_nonzero((now >= low) & (now <= high))
     assert histogram.summary.text() == f"{inside} of 2,000 hexes from {low:.2f} to {high:.2f}"
-
-
-def test_a_drag_beyond_the_ends_stays_within_zero_and_one(histogram, announced, drag):
-    drag(0.5, -0.05)
-    assert ends(announced[-1]) == (0, pytest.approx(0.5, abs=0.011))
-    histogram.set_range(None)
-    drag(0.7, 1.015)
-    assert ends(announced[-1]) == (pytest.approx(0.7, abs=0.011), 1)
 
 
 def test_dragging_over_the_bar_of_inverted_hexes_includes_them(histogram, announced, drag, data):
@@ -60,29 +52,6 @@ def test_a_click_on_the_bar_of_inverted_hexes_requests_them(histogram, announced
     assert (requests, announced) == ([True], [])
 
 
-def test_a_button_shows_or_hides_inverted_hexes(histogram, announced, qtbot):
-    QTest.mouseClick(histogram.range_row.inverted, LEFT)
-    assert announced == [Show((0.0, 1.0), "q")]
-    histogram.set_range(Show((0.2, 0.5), "q"))
-    QTest.mouseClick(histogram.range_row.inverted, LEFT)
-    qtbot.waitUntil(lambda: announced[-1] == Show((0.2, 0.5), "q", inverted=True), timeout=PATIENCE)
-    histogram.set_range(None)
-    assert histogram.range_row.inverted.isChecked()
-
-
-def test_typing_one_end_keeps_the_other_brushed_end(histogram, announced, qtbot):
-    histogram.head.bins.setValue(200)
-    histogram.plot.view.brushed.emit((0.3049, 0.6))
-    brushed = announced[-1]
-    assert histogram.range_row.low.text() == "0.305"
-    box = histogram.range_row.high
-    box.setFocus()
-    box.selectAll()
-    QTest.keyClicks(box, "0.7")
-    QTest.keyClick(box, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: announced[-1] == Show((brushed.low, 0.7), "q"), timeout=PATIENCE)
-
-
 def test_a_drag_moves_an_end_or_the_whole_range(histogram, announced, drag):
     histogram.set_range(Show((0.3, 0.5), "q"))
     drag(0.5, 0.7)
@@ -91,50 +60,6 @@ def test_a_drag_moves_an_end_or_the_whole_range(histogram, announced, drag):
     assert ends(announced[-1]) == pytest.approx((0.4, 0.8), abs=0.021)
     drag(0.6, 1.0)
     assert ends(announced[-1]) == (pytest.approx(0.6, abs=0.021), 1)  # keeps its width at the limit
-
-
-def test_a_double_click_shows_all_hexes(histogram, announced, qtbot):
-    histogram.set_range(Show((0.3, 0.5), "q"))
-    # Through the window, which handles the second press like that of a mouse.
-    position = histogram.plot.plot.viewport().mapTo(histogram, point_at(histogram, 0.8))
-    QTest.mouseDClick(histogram.windowHandle(), LEFT, pos=position)
-    qtbot.waitUntil(lambda: announced == [None], timeout=PATIENCE)
-    assert histogram.range() is None
-
-
-def test_the_button_shows_all_hexes(histogram, announced):
-    histogram.set_range(Show((0.3, 0.5), "q"))
-    QTest.mouseClick(histogram.range_row.all, LEFT)
-    assert announced == [None]
-    assert not histogram.range_row.all.isEnabled()
-
-
-def test_a_range_is_set_by_keys(histogram, announced, qtbot):
-    box = histogram.range_row.low.lineEdit()
-    box.setFocus()
-    box.selectAll()
-    QTest.keyClicks(box, "0.4")
-    QTest.keyClick(box, Qt.Key.Key_Return)
-    assert announced == [Show((0.4, 1.0), "q")]
-    QTest.keyClick(histogram.range_row.high, Qt.Key.Key_Down)
-    qtbot.waitUntil(lambda: announced[-1] == Show((0.4, 0.99), "q"), timeout=PATIENCE)
-
-
-def test_setters_emit_no_signal(histogram, announced, data, qtbot):
-    histogram.set_range(Show((0.1, 0.2), "q"))
-    histogram.set_current(*data)
-    histogram.set_range(None)
-    histogram.set_metric("scaled-jacobian")
-    assert announced == []
-    assert histogram.summary.text() == "No mesh is open."
-
-
-def test_the_summary_includes_inverted_hexes(histogram, data):
-    histogram.set_current(*data)
-    histogram.set_range(Show((0.1, 0.9), "q"))
-    assert histogram.summary.text().endswith(" from 0.10 to 0.90")
-    histogram.set_range(Show((0.1, 0.9), "q", inverted=True))
-    assert histogram.summary.text().endswith(f" from 0.10 to 0.90, and the {data[1].sum()} inverted")
 
 
 def test_a_range_of_an_unbounded_metric_extends_to_infinity(histogram, announced, drag, condition):
@@ -167,12 +92,6 @@ def test_numbers_are_typed_in_any_notation(histogram, announced, condition, qtbo
     QTest.keyClicks(box, "1e-")
     QTest.keyClick(box, Qt.Key.Key_Return)
     assert histogram.range().low == 2.5  # incomplete: dropped
-
-
-def test_a_range_of_another_metric_is_ignored(histogram, announced, condition):
-    histogram.set_range(Show((0.1, 0.2), "q"))
-    assert histogram.range() is None
-    assert not histogram.range_row.all.isEnabled()
 
 
 def test_a_click_on_a_bar_shows_only_its_hexes(histogram, announced, data, qtbot):
@@ -210,28 +129,3 @@ def test_an_end_of_the_range_of_colours_is_dragged(histogram, announced, qtbot):
     assert announced == []  # the hexes shown stay the same
     histogram.set_colour_range(None)
     assert not histogram.plot.colour_range.shown
-
-
-@pytest.mark.parametrize("ends", [(1.5, 2.0), (-2.0, -1.0), (0.3, 0.3005)])
-@pytest.mark.parametrize("end", [0, 1])
-def test_the_range_of_colours_is_never_empty(histogram, ends, end):
-    ranges = []
-    histogram.colours_dragged.connect(lambda low, high: ranges.append((low, high)))
-    for position in (0.0, 0.3, 1.0):
-        histogram.set_colour_range(ends)
-        histogram.plot.colour_range.drag(end, position)
-    assert len(ranges) == 3
-    assert all(low < high for low, high in ranges)
-    assert all(pair[1 - end] == ends[1 - end] for pair in ranges)
-
-
-@pytest.mark.parametrize("width", [240, 600])
-def test_the_handles_end_below_the_legend(histogram, width):
-    histogram.resize(width, 300)
-    histogram.set_colour_range((0.2, 1.0))
-    turn()
-    plot = histogram.plot
-    bottom = plot.mapFromGlobal(histogram.legend.mapToGlobal(histogram.legend.rect().bottomLeft())).y()
-    for line in plot.colour_range.lines:
-        top = plot.plot.mapFromScene(line.mapRectToScene(line.boundingRect()).topLeft()).y()
-        assert bottom - 2 <= top < bottom + 30

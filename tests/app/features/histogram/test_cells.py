@@ -13,7 +13,6 @@ from hexmend_app.features.histogram.bins import distribute
 from hexmend_app.features.histogram.cells import Cells
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.visibility import Show
-from hexmend_app.scene.colour.value_range import within
 from hexmend_app.scene.geometry.filters import Filters
 from hexmend_app.scene.views.frame import Frame
 from tests.core.grids import grid, scrambled
@@ -62,16 +61,6 @@ def test_a_range_contains_as_many_hexes_as_its_cells_count(case):
         assert counted.within(range) == sum(counts[first : last + 1])
 
 
-@given(cases())
-def test_adjacent_ranges_share_no_hex(case):
-    counted, first, last = case
-    if first == last:
-        return
-    halves = [counted.cells.range(first, first), counted.cells.range(first + 1, last)]
-    shown = [within(counted.values, counted.is_inverted, half) for half in halves]
-    assert not (shown[0] & shown[1]).any()
-
-
 @pytest.mark.parametrize("name", METRICS)
 def test_the_view_shows_as_many_hexes_as_the_cells_count(name):
     mesh = scrambled(grid(6), 0.7, 1)
@@ -84,24 +73,6 @@ def test_the_view_shows_as_many_hexes_as_the_cells_count(name):
         look = Look(show=counted.cells.range(first, last) or Show())
         shown = filters.kept(Frame(mesh, figures, None, look))
         assert np.count_nonzero(shown) == sum(counts[first : last + 1])
-
-
-@given(st.sampled_from(AXES), st.integers(10, 200), st.data())
-def test_the_cells_nearest_to_their_ends_are_the_cells_themselves(axis, bins, data):
-    cells = Cells(axis, bins)
-    first, last = sorted(data.draw(st.tuples(*[st.integers(0, len(cells) - 1)] * 2)))
-    assert cells.nearest(cells.span(first)[0], cells.span(last)[1]) == (first, last)
-    middle = sum(cells.span(first)) / 2
-    assert cells.nearest(middle, middle) == (first, first)  # a short drag selects the cell that it is in
-
-
-def test_the_span_of_a_range_is_that_of_its_cells():
-    for axis in AXES:
-        cells = Cells(axis, 20)
-        for first, last in ((0, 0), (0, 7), (1, 4), (5, len(cells) - 1)):
-            left, right = axis.span(cells.range(first, last))
-            assert left == pytest.approx(cells.span(first)[0], abs=1e-6)
-            assert right == pytest.approx(cells.span(last)[1], abs=1e-6)
 
 
 def test_all_cells_are_no_range_and_invalid_cells_are_rejected():

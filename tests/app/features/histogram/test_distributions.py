@@ -45,15 +45,6 @@ def test_all_distributions_are_counted_again(change):
     assert counts(snapshot) == counts(distribute(LONG / 2, VALID, distributions.axis, bins))
 
 
-def test_a_known_snapshot_is_not_counted_again():
-    distributions = Distributions()
-    distributions.set_snapshots([(0, "one", Q, VALID)])
-    ((_, _, counted),) = distributions.snapshots
-    distributions.set_snapshots([(0, "renamed", Q, VALID), (1, "other", Q, VALID)])
-    assert [(slot, name) for slot, name, _ in distributions.snapshots] == [(0, "renamed"), (1, "other")]
-    assert distributions.snapshots[0][2] is counted
-
-
 def test_another_metric_removes_all_distributions():
     distributions = Distributions()
     distributions.set_initial(Q, VALID)
@@ -62,8 +53,3 @@ def test_another_metric_removes_all_distributions():
     distributions.reset("scaled-jacobian")
     assert distributions.axis.metric == "scaled-jacobian"
     assert distributions.series() == distributions.snapshots == []
-
-
-def test_lengths_must_agree():
-    with pytest.raises(ValueError, match="same length"):
-        Distributions().set_initial(Q, VALID[1:])

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QPushButton
+from PySide6.QtWidgets import QApplication, QComboBox
 
 from hexmend.quality import METRICS
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, choose, click, drag, key, named, open_and_wait, phase, pixels, press, walk_to
+from tests.app.driving import LEFT, choose, click, drag, key, named, open_and_wait, phase, press, walk_to
 from tests.patience import PATIENCE
 
 
@@ -43,17 +43,6 @@ def colour_by(window, metric):
     """Select the metric of the colours."""
     window.show_panel("look")
     walk_to(window, named(window.features["appearance"].panel, QComboBox, "Metric"), metric)
-
-
-@pytest.mark.slow
-def test_brushing_shows_only_the_hexes_of_a_range(window, qtbot, histogram):
-    before = pixels(window)
-    range = brush(window, qtbot, 0.2, 0.6)
-    assert range.metric == "q"
-    assert (range.low, range.high) == pytest.approx((0.2, 0.6), abs=0.03)
-    assert (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.01
-    press(named(histogram, QPushButton, "Show all"))
-    qtbot.waitUntil(lambda: window.session.view.look.show.by_quality is None, timeout=PATIENCE)
 
 
 @pytest.mark.slow
@@ -153,15 +142,7 @@ def test_a_click_on_the_bar_of_inverted_hexes_shows_only_them(window, histogram)
     assert window.canvas.viewport.shown == 4000
 
 
-def test_a_refresh_during_a_drag_does_not_reset_the_range(window, qtbot, histogram):
-    view = histogram.plot.view
-    view.brushed.emit((0.2, 0.4))
-    view.brushed.emit((0.2, 0.5))  # pending
-    window.refresh()
-    qtbot.waitUntil(lambda: window.session.view.look.show.by_quality == histogram.range(), timeout=PATIENCE)
-    assert histogram.range().high == pytest.approx(0.5, abs=1e-9)
-
-
+@pytest.mark.slow
 def test_the_bars_have_the_colours_of_the_view(window, qtbot, histogram):
     window.refresh()
     gradient, colouring = histogram.series()[0].gradient, window.canvas.colouring

@@ -53,12 +53,6 @@ def test_the_csv_has_a_line_for_each_cell(mesh, tmp_path):
     assert sum(int(row[2]) for row in lines[1:]) == mesh.n_hexes
 
 
-def test_shares_rise_to_100_percent(mesh, tmp_path):
-    shares = [float(row[2]) for row in counted(mesh, tmp_path, cumulative=True)[1:]]
-    assert shares == sorted(shares)
-    assert shares[-1] == 100
-
-
 def test_the_axis_fits_the_first_mesh(mesh, tmp_path):
     path = tmp_path / "volume.csv"
     flat = mesh.with_points(mesh.points * [1, 1, 0.01])

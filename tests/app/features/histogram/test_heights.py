@@ -20,48 +20,6 @@ def test_the_largest_count_is_visible_on_both_scales(histogram, scale):
         assert (height - low) / (high - low) > 0.35
 
 
-@pytest.mark.parametrize("scale", ["linear", "log"])
-def test_the_axis_fits_the_bins_and_a_taller_bar_is_broken(histogram, scale):
-    QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
-    q = np.full(3000, 0.5)
-    inverted, repaired = np.arange(3000) >= 100, np.arange(3000) >= 2990
-    histogram.set_initial(q, inverted)
-    histogram.set_current(q, inverted)
-    plot = histogram.plot
-    top = 10**plot.heights.top if scale == "log" else plot.heights.top
-    assert 100 <= top <= 150
-    now, start = (plot.numbers[key][0] for key in ("now", "start"))
-    assert now.toPlainText() == "2,900"
-    assert now.isVisible()
-    assert not start.isVisible()  # the same number again
-    bar = plot.outlines["now"].bar.path()
-    assert len(bar.toSubpathPolygons()) == 2  # with a gap between them
-    assert plot.heights.top < bar.boundingRect().bottom() < plot.plot.viewRange()[1][1]
-    lower, upper = (piece.boundingRect() for piece in bar.toSubpathPolygons())
-    assert lower.top() == plot.heights.floor
-    assert lower.bottom() < upper.bottom()
-    histogram.set_current(np.append(q, q[:500]), np.append(inverted, inverted[100:600]))
-    assert (now.toPlainText(), start.toPlainText()) == ("3,400", "2,900")
-    assert start.isVisible()
-    middles = [number.mapRectToScene(number.boundingRect()).center() for number in (start, now)]
-    assert all(map(plot.view.sceneBoundingRect().contains, middles))
-    assert middles[0].y() < middles[1].y() - 8
-    histogram.set_current(q, repaired)
-    assert now.toPlainText() == "10"
-    if scale == "linear":
-        assert not start.isVisible()  # its bar fits the axis again
-    assert len(plot.outlines["now"].bar.path().toSubpathPolygons()) == 1
-
-
-def test_the_scale_changes_with_the_same_counts(histogram):
-    q = np.full(5000, 0.5)
-    histogram.set_initial(q, np.zeros(5000, bool))
-    for scale in ("log", "linear", "log"):
-        QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
-        assert histogram.plot.heights.log == (scale == "log")
-    assert 5000 <= 10**histogram.plot.heights.top <= 7000
-
-
 def test_there_is_an_axis_if_all_hexes_are_inverted(histogram):
     histogram.set_initial(np.zeros(50), np.ones(50, bool))
     histogram.set_current(np.zeros(50), np.ones(50, bool))
@@ -80,11 +38,5 @@ def test_cumulative_shares_begin_with_inverted_hexes_and_end_at_100_percent(hist
     assert text.startswith("inverted, or q(H) up to 0.52\n")
     assert f"now: {share:.4g} %, " in text
     assert "now: 100 %, 2,000 hexes" in histogram.describe_at(0.99)
-    curve = histogram.plot.outlines["now"].curve.yData
-    assert curve[-1] == (2.0 if scale == "log" else 100)
-    assert np.diff(curve).min() >= 0
-    assert histogram.plot.numbers["now"][0].toPlainText() == f"{inverted.mean() * 100:.3g} %"
-    low, high = histogram.plot.plot.viewRange()[1]
-    assert low <= curve[0] < curve[-1] < high
     histogram.head.cumulative.trigger()
-    assert histogram.plot.outlines["now"].curve.yData.max() < (3 if scale == "log" else 200)
+    assert not histogram.describe_at(0.511).startswith("inverted, or")

@@ -65,22 +65,3 @@ def test_two_clicks_measure_a_distance_a_third_an_angle_and_escape_ends(window, 
     assert window.session.view.look.measurement == Measurement()
     click_at(window, ends[0][1])
     assert window.session.selection.hex is not None
-
-
-def test_a_click_next_to_the_mesh_measures_nothing(window):
-    window.session.view.start_measuring()
-    window.refresh()
-    click_at(window, QPoint(3, 3))
-    assert window.session.view.look.measurement == Measurement()
-
-
-def test_clear_keeps_measuring_and_another_mesh_ends_it(window, panel):
-    view = window.session.view
-    view.start_measuring()
-    view.measure((0.0, 0.0, 0.0))
-    window.refresh()
-    press(named(panel, QPushButton, "Clear measurement"))
-    assert (view.measuring, view.look.measurement) == (True, Measurement())
-    view.measure((0.0, 0.0, 0.0))
-    window.session.document.mesh_replaced.emit()
-    assert (view.measuring, view.look.measurement) == (False, Measurement())

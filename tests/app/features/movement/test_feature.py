@@ -4,21 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLabel
+from PySide6.QtWidgets import QLabel
 
-from benchmarks.window.windows import end_run
 from hexmend import gallery, io
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
-from hexmend_app.picture.appearance import Arrows, Since
+from hexmend_app.picture.appearance import Since
 from hexmend_app.picture.colours import Range
 from hexmend_app.picture.cut import Cut
-from hexmend_app.scene.film.film import pictures
-from hexmend_app.scene.film.film_frames import film_frames
-from hexmend_app.state.mesh.run_record import RecordedIteration
 from tests.app.driving import open_and_wait, pixels
 from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
@@ -76,40 +71,7 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
     assert window.session.view.look.colours.range is Range.FULL
 
 
-def test_the_histogram_continues_to_show_quality(window, record, panel):
-    press(panel.colours, "moved-most")
-    assert window.features["histogram"].metric == "q"
-    assert window.features["histogram"].panel.head.metric_box.currentText() == "q(H)"
-    go(window, record, 2)
-    press(panel.colours, "")
-    assert window.features["histogram"].panel.head.metric_box.currentText() == "q(H) (as colours)"
-
-
-def test_displacements_are_among_the_metrics_of_the_colours(window, record, qtbot):
-    colours = window.features["appearance"].panel
-    combo, maps = (
-        next(box for box in colours.findChildren(QComboBox) if box.accessibleName() == name)
-        for name in ("Metric", "Colour map")
-    )
-    window.show_panel("look")
-    qtbot.waitUntil(combo.isVisible, timeout=PATIENCE)
-    combo.setFocus()
-    while combo.currentData() != "moved-mean":
-        QTest.keyClick(combo, Qt.Key.Key_Down)
-    window.refresh()
-    assert window.session.view.look.colours.metric == "moved-mean"
-    window.refresh()
-    assert window.features["movement"].panel.colours.value() == "moved-most"
-    QTest.keyClick(combo, Qt.Key.Key_Down)
-    window.refresh()
-    assert window.session.view.look.colours.metric == "q-change"
-    assert maps.currentText() == "brown – teal"
-    QTest.keyClick(combo, Qt.Key.Key_Home)
-    window.refresh()
-    assert [maps.itemText(k) for k in range(4)] == ["viridis", "cividis", "plasma", "inferno"]
-    assert window.session.view.look.colours.map == "viridis"
-
-
+@pytest.mark.slow
 def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     free = window.session.document.now.summary.free_nodes
     press(panel.arrows, "all")
@@ -132,19 +94,6 @@ def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     assert (pixels(window) != before).any()
     go(window, record, 0)
     assert text_of(panel, "Number of arrows") == "No visible node has moved."
-
-
-def test_the_displacement_is_shown_in_figures(window, record, panel):
-    start, now = window.session.document.start, window.session.document.now
-    change = now.figures.q - start.figures.q
-    free = window.session.document.now.summary.free_nodes
-    assert text_of(panel, "Nodes") == f"{free:,} of {free:,} free nodes moved since the file was opened"
-    assert text_of(panel, "Hexes") == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
-    newly = np.count_nonzero(now.figures.invalid & ~start.figures.invalid)
-    repaired = np.count_nonzero(start.figures.invalid & ~now.figures.invalid)
-    assert text_of(panel, "Invalid") == f"{newly:,} newly invalid, {repaired:,} repaired"
-    go(window, record, 0)
-    assert text_of(panel, "Distance") == "–"
 
 
 @pytest.fixture
@@ -170,54 +119,3 @@ def test_newly_invalid_hexes_are_isolated(window, mesh_to_invert, record, panel,
     isolated = window.session.view.look.show.isolate.hexes
     assert window.session.document.now.figures.invalid[list(isolated)].all()
     assert len(isolated) == movement.counts.newly_invalid
-
-
-@pytest.mark.slow
-def test_a_picture_shows_the_displacement(window, record, panel, tmp_path):
-    window.features["save"].picture(tmp_path / "plain.png", (500, 320))
-    press(panel.colours, "q-change")
-    window.session.view.change(movement=window.session.view.look.movement.__class__(arrows=Arrows.ALL))
-    window.refresh()
-    window.features["save"].picture(tmp_path / "changed.png", (500, 320))
-    plain, changed = (np.asarray(Image.open(tmp_path / f"{name}.png")) for name in ("plain", "changed"))
-    assert (plain != changed).any(axis=2).mean() > 0.2
-
-
-def test_another_mesh_is_opened_while_a_displacement_is_shown(window, record, panel, qtbot, tmp_path):
-    press(panel.colours, "moved-most")
-    press(panel.arrows, "all")
-    io.write(tmp_path / "other.vtu", gallery.make("cube", size=64, scramble=0.3))
-    open_and_wait(qtbot, window, tmp_path / "other.vtu")
-    window.refresh()
-    layer = window.canvas.viewport.overlay_layers.arrows
-    assert (layer.drawn, layer.moved) == (0, 0)
-    assert not window.canvas.viewport.colours.values.any()
-    assert text_of(panel, "Nodes").startswith("0 of ")
-
-
-@pytest.mark.slow
-def test_the_displacement_is_shown_during_a_run(window, panel, qtbot):
-    press(panel.colours, "moved-most")
-    press(panel.since, "iteration")
-    titles = set()
-    window.session.document.points_moved.connect(lambda: titles.add(window.canvas.viewport.colouring.title))
-    window.session.run.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=100_000, tolerance=0))
-    qtbot.waitUntil(lambda: len(titles) > 3, timeout=PATIENCE)
-    end_run(window.session)
-    assert all(title.startswith("mean edge lengths moved since") for title in titles)
-
-
-@pytest.mark.slow
-def test_a_film_compares_each_frame_with_the_previous_one(window, record, panel):
-    history, mesh = window.session.history, window.session.document.now.mesh
-    press(panel.colours, "q-change")
-    press(panel.since, "iteration")
-    states = list(film_frames(record, [0, 2, 5], lambda number: history.state(RecordedIteration(record, number), mesh)))
-    look, movement = window.session.view.look, window.canvas.viewport.frame.movement
-    frames = [np.asarray(picture) for picture in pictures(states, look, (400, 300), movement=movement)]
-    assert len(frames) == 3
-    assert (frames[0] != frames[1]).any()
-    still = list(pictures([states[2], states[2]], look, (400, 300), movement=movement))
-    np.testing.assert_array_equal(
-        np.asarray(still[0])[30:], np.asarray(still[1])[30:]
-    )  # nothing moves between equal frames

@@ -6,7 +6,6 @@ from html import unescape
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QAbstractButton, QCheckBox, QLabel
 
 from tests.app.driving import named
@@ -50,12 +49,6 @@ def count_pixels(image, role, dark=False):
     """Count the pixels of a picture, (h, w, 3), that have the colour of a role."""
     colour = [int(role.of(dark)[k : k + 2], 16) for k in (1, 3, 5)]
     return int((np.abs(image[..., :3].astype(int) - colour).max(axis=2) < 12).sum())
-
-
-def grab(widget):
-    """Return the picture of a widget as RGBA, (h, w, 4) uint8."""
-    image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGBA8888)
-    return np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine() // 4, 4)
 
 
 def texts(window):

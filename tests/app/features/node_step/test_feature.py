@@ -5,37 +5,27 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from PIL import Image
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QLabel, QTabBar
+from PySide6.QtWidgets import QLabel
 
-from hexmend.io import write
-from hexmend.mesh.second_order import MID_EDGES
 from hexmend.smoothers import METHODS
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Isolate
 from hexmend_app.state.node_step import explain
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.tasks.task import running
-from hexmend_app.theme import theme_choice
 from hexmend_app.theme.palette import DESCENT, SEARCH
-from hexmend_app.theme.theme_choice import ThemeChoice
-from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, open_and_wait, phase, pixels, press, tick
+from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, phase, pixels, tick
 from tests.app.features.node_step.step_display import (
     button,
     count_pixels,
-    drawn_trials,
-    grab,
     patch_box,
     shown_step,
     texts,
     wait_for_step,
     wait_for_text,
 )
-from tests.core.grids import grid, scrambled, with_edge_midpoints
 from tests.patience import PATIENCE
-
-pytestmark = pytest.mark.slow
 
 # One node
 
@@ -55,18 +45,7 @@ def test_a_key_explains_a_free_node_of_the_worst_hex(node_window):
     assert window.session.document.now is window.session.document.start  # nothing has moved
 
 
-def test_the_trials_are_numbered_in_the_plot(node_window):
-    step = shown_step(node_window)
-    drawn = drawn_trials(node_window.features["node_step"].panel.plot)
-    assert drawn
-    for number, alpha, height in drawn:
-        trial = step.trials[number - 1]
-        assert alpha == trial.alpha
-        if number == len(step.trials):
-            assert height == pytest.approx(trial.energy - step.energy)
-    assert drawn[-1][0] == len(step.trials)  # the accepted one is never left out
-
-
+@pytest.mark.slow
 def test_links_select_nodes_and_a_change_of_method_updates_the_step(node_window, qtbot):
     window = node_window
     label = named(window.features["node_step"].panel, QLabel, "Free nodes")
@@ -92,17 +71,6 @@ def test_links_select_nodes_and_a_change_of_method_updates_the_step(node_window,
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", list(METHODS))
-def test_every_method_is_explained(node_window, qtbot, name):
-    choose_by_keys(node_window, name)
-    wait_for_step(node_window, qtbot, "getme" if name == "general" else name)
-    assert node_window.features["node_step"].panel.plot.isVisible() == bool(len(shown_step(node_window).curve))
-    words = texts(node_window)
-    assert "Energy" in words
-    assert ("Armijo" in words) == (name.split("-")[-1] in ("sd", "nr", "mnr"))
-    assert ("Target" in words) == (name in ("laplacian", "smart-laplacian", "getme", "general"))
-
-
 def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
     choose_by_keys(window, "local-sd")
     window.show_panel("node")
@@ -122,35 +90,6 @@ def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
     window.session.commands.pin(inner, True)
     wait_for_text(window, qtbot, "is pinned: no method moves it")
     assert shown_step(window) is None
-
-
-def test_a_node_that_a_pinned_higher_order_node_fixes_is_not_called_pinned(node_window, qtbot, tmp_path):
-    window, mesh = node_window, with_edge_midpoints(scrambled(grid(3), 0.1))
-    write(tmp_path / "quadratic.vtu", mesh)
-    open_and_wait(qtbot, window, tmp_path / "quadratic.vtu")
-    mesh = window.session.document.now.mesh
-    inner = int(np.flatnonzero(mesh.free)[0])
-    row, corner = np.argwhere(mesh.hexes == inner)[0]
-    window.session.commands.pin(int(mesh.mid_nodes[row, np.flatnonzero((corner == MID_EDGES).any(axis=1))[0]]), True)
-    window.session.selection.choose(int(row), inner)
-    wait_for_text(window, qtbot, "is fixed, by a rule of motion or by a fixed node of higher order")
-    assert shown_step(window) is None
-
-
-def test_an_invalid_parameter_is_reported(node_window, qtbot):
-    window = node_window
-    if not window.features["smooth"].panel.stage.parameters.isVisible():
-        press(named(window.features["smooth"].panel, QAbstractButton, "Parameters"))
-    editor = window.features["smooth"].panel.stage.parameters.editor("p")
-    target = editor.widget if hasattr(editor, "widget") else editor
-    target.setFocus()
-    line = target.lineEdit() if hasattr(target, "lineEdit") else target
-    line.selectAll()
-    QTest.keyClicks(line, "0.1")
-    wait_for_text(window, qtbot, "Correct the marked parameter")
-    assert shown_step(window) is None
-    assert not button(window, "Next node").isEnabled()
-    assert not window.window_actions["next_node"].isEnabled()
 
 
 @pytest.mark.slow
@@ -174,16 +113,6 @@ def test_no_step_is_shown_during_a_run_and_none_is_made_while_it_is_paused(node_
     if window.session.run.phase in (Phase.RUNNING, Phase.PREPARING):
         assert "A run is in progress" in texts(window)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-
-
-def test_nothing_is_computed_while_another_panel_is_in_front(node_window, qtbot):
-    window = node_window
-    window.show_panel("convergence")
-    qtbot.waitUntil(lambda: shown_step(window) is None, timeout=PATIENCE)
-    choose_by_keys(window, "getme")
-    assert not window.session.node_step_task.busy
-    window.show_panel("node")
-    wait_for_step(window, qtbot, "getme")
 
 
 # Display
@@ -215,46 +144,3 @@ def test_the_patch_is_isolated_and_its_marks_are_visible_with_any_cut_and_in_pic
     window.session.selection.choose(None)
     qtbot.waitUntil(lambda: shown_step(window) is None, timeout=PATIENCE)
     assert count_pixels(pixels(window), DESCENT) == 0
-
-
-def test_the_marks_and_the_plot_follow_the_theme(node_window, qtbot):
-    try:
-        assert count_pixels(pixels(node_window), DESCENT, dark=True) < 20
-        assert count_pixels(grab(node_window.features["node_step"].panel.plot), SEARCH, dark=True) < 20
-        theme_choice.choose(ThemeChoice.DARK)
-        node_window.refresh()
-        assert count_pixels(pixels(node_window), DESCENT, dark=True) > 20
-        assert count_pixels(grab(node_window.features["node_step"].panel.plot), SEARCH, dark=True) > 20
-    finally:
-        theme_choice.choose(ThemeChoice.LIGHT)
-
-
-def test_closing_while_a_step_is_computed_leaves_no_thread(fresh_window, qtbot, monkeypatch):
-    window, others = fresh_window, running()  # those of windows that tests share
-    choose_by_keys(window, "global-nr")
-    key(window, Qt.Key.Key_D)
-    qtbot.waitUntil(lambda: window.session.node_step_task.busy, timeout=PATIENCE)
-    window.close()
-    assert [one.name for one in running() if one not in others] == []
-
-
-@pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
-def test_no_text_is_cut_off(node_window, qtbot, size):
-    window = node_window
-    key(window, Qt.Key.Key_F11)
-    window.resize(*size)
-    panel = window.features["node_step"].panel
-    tools = named(window, QTabBar, "Tools")
-    qtbot.waitUntil(
-        lambda: panel.mapTo(window, panel.rect().bottomRight()).x() < tools.mapTo(window, QPoint()).x(),
-        timeout=PATIENCE,
-    )
-    assert window.width() == size[0]
-    labels = [named(panel, QLabel, name) for name in ("Node", "Progress of the sweep")]
-    for part in [*panel.findChildren(QAbstractButton), patch_box(window), *labels]:
-        assert part.width() >= part.fontMetrics().horizontalAdvance(part.text()) + 12 * isinstance(
-            part, QAbstractButton
-        )
-        assert panel.rect().contains(part.mapTo(panel, part.rect().bottomRight())), part.text()
-    assert panel.figures.document().idealWidth() <= panel.figures.viewport().width()
-    assert min(panel.figures.height(), panel.plot.height()) > 100

@@ -3,7 +3,6 @@
 import dataclasses
 
 import numpy as np
-import pyqtgraph as pg
 import pytest
 from PySide6.QtWidgets import QLabel
 
@@ -121,18 +120,9 @@ def test_trials_above_the_plot_are_drawn_at_its_upper_edge(shown):
     assert plot.numbers == []
 
 
-def test_the_power_of_ten_of_large_changes_is_in_the_label(shown):
-    step = step_of("local-sd")
-    curve = step.curve.copy()
-    curve[:, 1] = step.energy + 1e6 * (curve[:, 1] - step.energy)
-    plot = shown(NodePlot(), 260, 180)
-    plot.show_step(dataclasses.replace(step, curve=curve))
-    axis = named(plot, pg.PlotWidget, "Energy along the direction").getAxis("left")
-    assert "[10" in axis.labelText
-    assert 0.1 <= max(abs(v) for v in axis.range) * axis.scale < 20
-
-
-def test_the_sweep_shows_its_progress(shown):
-    panel = shown(NodePanel(), 500, 260)
-    panel.set_sweep(3, 10)
-    assert named(panel, QLabel, "Progress of the sweep").text() == "3 of 10 steps"
+@pytest.mark.parametrize("name", METHODS)
+def test_every_method_is_explained(name):
+    texts = " ".join(f"{row.name} {row.meaning}" for row in rows(step_of(name)))
+    assert "Energy" in texts
+    assert ("Armijo" in texts) == (name.split("-")[-1] in ("sd", "nr", "mnr"))
+    assert ("Target" in texts) == (name in ("laplacian", "smart-laplacian", "getme", "general"))

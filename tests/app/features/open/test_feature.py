@@ -12,22 +12,20 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 
 from hexmend import gallery, io
-from hexmend.io.storage import file_progress
 from hexmend.io.storage.file_progress import FileAction, file_operation, report
-from hexmend.run import StoppingCriteria
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.resources import demo_mesh
-from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.settings.recent_files import MAX_RECENT_FILES
 from hexmend_app.state.tasks import file_watcher, mesh_opener
 from hexmend_app.state.tasks.task import running
-from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
+from tests.app.driving import LEFT, key, named, open_and_wait, press
 from tests.patience import PATIENCE
 
 
 @pytest.fixture
-def recent(window):
-    """Return the recent files."""
+def recent(window, qtbot, mesh_file):
+    """Return the recent files: that of the mesh."""
+    open_and_wait(qtbot, window, mesh_file)
     return window.features["open"].recent
 
 
@@ -61,6 +59,7 @@ def test_recent_files_are_listed_once_each_newest_first(window, qtbot, recent, m
     assert menu.isHidden()
 
 
+@pytest.mark.slow
 def test_a_missing_file_is_disabled_and_the_list_can_be_cleared(recent, menu, tmp_path):
     for k in range(MAX_RECENT_FILES + 2):
         recent.add(tmp_path / f"mesh{k}.vtu")
@@ -74,20 +73,8 @@ def test_a_missing_file_is_disabled_and_the_list_can_be_cleared(recent, menu, tm
     assert not menu.menuAction().isEnabled()
 
 
-def test_a_long_name_is_elided_and_its_tooltip_is_the_whole_path(recent, menu, tmp_path):
-    path = tmp_path / f"{'long' * 40}.vtu"
-    path.touch()
-    recent.add(path)
-    menu.popup(QPoint(50, 50))
-    entry = menu.actions()[0]
-    assert "…" in entry.text()
-    assert entry.text().startswith("&1  long")
-    assert entry.toolTip() == str(path)
-    assert menu.width() < 600
-    menu.close()
-
-
-def test_the_welcome_page_opens_recent_files(window, qtbot, mesh_file):
+@pytest.mark.slow
+def test_the_welcome_page_opens_recent_files(window, recent, qtbot, mesh_file):
     welcome = window.features["open"].welcome
     assert not welcome.isVisible()
     welcome.show()
@@ -110,6 +97,7 @@ def test_a_dropped_file_is_opened(window, qtbot, tmp_path):
     assert window.windowTitle().startswith("five.mesh")
 
 
+@pytest.mark.slow
 def test_a_dropped_folder_of_a_case_is_opened_and_saved(window, qtbot, tmp_path):
     mesh = gallery.make("five-side", size=500)
     io.write(tmp_path / "case" / "case.foam", mesh)
@@ -147,15 +135,6 @@ def test_an_unreadable_file_shows_an_error_and_the_open_mesh_stays(window, qtbot
     assert not window.messages.isVisible()
 
 
-def test_opening_another_mesh_ends_the_run(window, qtbot, mesh_file):
-    choose(window, "local-sd", StoppingCriteria(tolerance=0.0))
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
-    open_and_wait(qtbot, window, mesh_file)
-    assert not window.session.run.busy
-    assert window.session.document.undo_title is None
-
-
 # Cancelling
 
 
@@ -179,8 +158,9 @@ def finish_reading(qtbot, slow_read):
     qtbot.waitUntil(lambda: not any(task.name.startswith("reading") for task in running()), timeout=PATIENCE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("by", ["button", "Esc"])
-def test_opening_shows_its_progress_and_is_cancelled(window, qtbot, slow_read, recent, mesh_file, tmp_path, by):
+def test_opening_shows_its_progress_and_is_cancelled(window, qtbot, recent, slow_read, mesh_file, tmp_path, by):
     other = tmp_path / "slow.vtu"
     shutil.copy(mesh_file, other)
     before = window.session.document.now
@@ -203,6 +183,7 @@ def test_opening_shows_its_progress_and_is_cancelled(window, qtbot, slow_read, r
     assert window.session.document.name == "slow.vtu"
 
 
+@pytest.mark.slow
 def test_another_mesh_is_opened_while_a_cancelled_file_is_still_read(window, qtbot, slow_read, mesh_file, tmp_path):
     other = tmp_path / "slow.vtu"
     shutil.copy(mesh_file, other)
@@ -216,20 +197,7 @@ def test_another_mesh_is_opened_while_a_cancelled_file_is_still_read(window, qtb
     assert window.session.document.name == mesh_file.name
 
 
-def test_opening_shows_the_share_of_the_file_and_what_is_left(window, qtbot, monkeypatch, tmp_path):
-    monkeypatch.setattr(file_watcher, "INTERVAL", 0.0)
-    monkeypatch.setattr(file_progress, "_INTERVAL", 0.0)
-    io.write(tmp_path / "part.vtu", gallery.make("cube", size=3000))
-    shown = []
-    window.session.opener.progressed.connect(lambda _: shown.append((window.busy.text(), window.busy.share)))
-    open_and_wait(qtbot, window, tmp_path / "part.vtu")
-    shares = [share for text, share in shown if text.startswith("Reading part.vtu: ")]
-    assert len(shares) > 3
-    assert shares == sorted(shares)
-    assert any("%" in text and "s left" in text for text, _ in shown)
-    assert shown[-1][1] is None  # the later stages have no share
-
-
+@pytest.mark.slow
 def test_a_cancelled_file_is_read_no_further(window, qtbot, monkeypatch, mesh_file, tmp_path):
     """The thread ends although the file would take for ever."""
     monkeypatch.setattr(file_watcher, "INTERVAL", 0.0)

@@ -8,7 +8,6 @@ from PIL import Image
 from PySide6.QtWidgets import QFileDialog, QPushButton
 
 from hexmend import io
-from hexmend.cli.main import main
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
@@ -44,7 +43,6 @@ def mesh(tmp_path):
     return tmp_path / "mesh.vtu"
 
 
-@pytest.mark.slow
 def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     look, pose = change_appearance(window, qtbot)
@@ -62,23 +60,6 @@ def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_
     assert np.abs(first.astype(int) - second).mean() < 0.2
 
 
-def test_the_selected_hex_is_marked_in_a_picture_which_restores_it(window, qtbot, mesh, tmp_path):
-    open_and_wait(qtbot, window, mesh)
-    window.refresh()
-    images = []
-    for selected in (None, 63):
-        window.session.selection.choose(selected)
-        window.refresh()
-        path = tmp_path / f"{selected}.png"
-        assert window.features["save"].picture(path, (300, 200))
-        images.append(np.asarray(Image.open(path).convert("RGB")).astype(int))
-    assert (np.abs(images[0] - images[1]).max(axis=2) > 60).sum() > 100
-    window.session.selection.choose(None)
-    open_and_wait(qtbot, window, tmp_path / "63.png")
-    assert window.session.selection.hex == 63
-    assert not window.session.view.look.show.marked
-
-
 @pytest.mark.slow
 def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
@@ -93,14 +74,7 @@ def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp
     assert window.session.recipe_draft.stages == (stage,)
 
 
-def test_a_picture_of_the_command_line_is_opened(window, qtbot, mesh, tmp_path):
-    assert main(["render", str(mesh), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--view", "-y"]) == 0
-    open_and_wait(qtbot, window, tmp_path / "p.png")
-    window.refresh()
-    pose = window.canvas.pose
-    assert pose.position[1] < pose.focal[1]
-
-
+@pytest.mark.slow
 def test_a_changed_mesh_file_is_reported(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
@@ -128,15 +102,7 @@ def test_a_missing_mesh_is_located_by_the_user(window, qtbot, mesh, tmp_path, mo
     assert window.session.view.look == look
 
 
-def test_a_picture_without_a_scene_is_rejected(window, qtbot, tmp_path):
-    Image.new("RGB", (4, 4)).save(tmp_path / "p.png")
-    before = window.session.document.now
-    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
-        window.features["open"].open(tmp_path / "p.png")
-    assert "p.png cannot be opened this picture contains no scene" in messages(window)[-1]
-    assert window.session.document.now is before
-
-
+@pytest.mark.slow
 def test_a_picture_with_hexes_that_the_mesh_does_not_have_is_rejected(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     window.session.view.change(show={"hidden": frozenset({60})})

@@ -53,6 +53,7 @@ def test_other_meshes_are_shown_next_to_the_first(window, qtbot, files, tmp_path
     assert [view.name for view in window.session.side_views.all] == ["two", "three"]
 
 
+@pytest.mark.slow
 def test_a_wipe_is_restored_with_its_edge(window, qtbot, files, tmp_path):
     scene = Scene(panels=(PicturePanel(mesh=3, wipe=WipeLayout(1, 0.3, "now")),))
     open_and_wait(qtbot, window, render(tmp_path, *files.values(), scene=scene))
@@ -135,6 +136,7 @@ def damaged(path):
     path.write_text("<VTKFile")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("change", "shown", "expected"), [
     (deleted, ["three"], "“two” is not shown: two.vtu was not found."),
     (other_hexes, ["three"], "“two” is not shown: two.vtu has other hexes"),
@@ -150,10 +152,3 @@ def test_a_mesh_that_differs_from_the_picture_is_reported(window, qtbot, files, 
     kind, title, text = message(window)
     assert (kind, title) == ("warning", "Part of p.png was not restored")
     assert expected in text
-
-
-def test_the_number_of_views_is_limited(window, qtbot, files, tmp_path):
-    path = render(tmp_path, *[files["one"]] * 2, *[files["two"]] * 2, files["three"])
-    open_and_wait(qtbot, window, path)
-    assert [view.name for view in window.session.side_views.all] == ["one (2)", "two", "two (2)"]
-    assert "“three” is not shown: the window shows at most 4 views." in message(window)[1]

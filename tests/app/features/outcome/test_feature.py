@@ -11,8 +11,6 @@ from hexmend.iteration import StoppingCriteria
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, click, key, open_and_wait, phase
 from tests.app.driving import press as press_button
-from tests.core.boundary.solids import slid, wavy
-from tests.core.grids import grid, scrambled
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 from tests.patience import PATIENCE
 
@@ -54,12 +52,6 @@ def locked(window, qtbot, tmp_path):
     return int(mesh.topology.node_corners.items[0] // 8)
 
 
-def test_a_hint_is_shown_before_the_first_run(window, qtbot):
-    window.show_panel("outcome")
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
-    assert "No run has finished yet" in texts(window)
-
-
 def test_the_key_shows_why_the_run_stopped(window, qtbot):
     assert not window.features["outcome"].panel.isVisible()
     choose(window, "laplacian", StoppingCriteria(keep_last=True))
@@ -91,40 +83,6 @@ def test_a_suggestion_is_selected_without_a_run_and_improves_the_mesh(window, qt
     assert "Why Mend stopped" in texts(window)
 
 
-def test_a_message_is_shown_during_a_run(window, qtbot):
-    window.show_panel("outcome")
-    choose(window, "laplacian", StoppingCriteria(tolerance=0, max_iterations=1_000_000))
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    assert "A run is in progress" in texts(window)
-    click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert "Stopped by you after 1 iteration" in texts(window)
-
-
-@pytest.mark.slow
-def test_the_run_of_the_timeline_is_explained(window, qtbot):
-    run(window, qtbot, "laplacian", max_iterations=3)
-    run(window, qtbot, "mend", max_iterations=2)
-    assert "Why Mend stopped" in texts(window)
-    first = window.session.history.records[0]
-    window.session.timeline.choose(first)
-    assert "Why Laplacian stopped" in texts(window)
-    press(window, "Select: Mend")  # starts at the end of that run
-    assert window.session.timeline.shown_iteration.record is first
-
-
-@pytest.mark.parametrize("back", ["undo", "reset"])
-def test_after_undo_a_note_says_that_the_mesh_is_not_the_result(window, qtbot, back):
-    run(window, qtbot, "laplacian", max_iterations=3)
-    assert "The view shows" not in texts(window)
-    window.action(back).trigger()
-    assert "Why Laplacian stopped" in texts(window)
-    assert "The view shows the mesh before the run." in texts(window)
-    window.action("redo" if back == "undo" else "undo").trigger()
-    assert "The view shows" not in texts(window)
-
-
 @pytest.mark.slow
 def test_a_suggestion_that_undoes_the_run_restores_the_mesh_before_it(window, qtbot, tmp_path):
     io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=864))
@@ -141,19 +99,6 @@ def test_a_suggestion_that_undoes_the_run_restores_the_mesh_before_it(window, qt
     assert window.session.document.now.summary.inverted == 0
 
 
-def test_the_kept_iteration_is_shown_and_reported(window, qtbot, tmp_path):
-    io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=864))
-    open_and_wait(qtbot, window, tmp_path / "sound.vtu")
-    run(window, qtbot, "laplacian")
-    assert window.session.document.now.summary.inverted == 0
-    assert window.session.timeline.shown_iteration.number == 3
-    kept = "Iteration 3 was kept: later ones were worse."
-    assert kept in texts(window)
-    assert "Worse than" not in texts(window)
-    panel = window.features["smooth"].panel
-    assert any(kept in label.text() for label in panel.findChildren(QLabel))
-
-
 @pytest.mark.slow
 def test_locked_hexes_are_listed_and_isolated(window, qtbot, locked):
     run(window, qtbot, "mend")
@@ -166,79 +111,3 @@ def test_locked_hexes_are_listed_and_isolated(window, qtbot, locked):
     button(window, "Show the locked hexes").setFocus()
     QTest.keyClick(button(window, "Show the locked hexes"), Qt.Key.Key_Space)
     assert window.session.view.look.show.isolate is not None
-
-
-@pytest.mark.slow
-def test_the_camera_moves_to_the_hexes_that_limit_the_least_scaled_jacobian(window, qtbot, tmp_path):
-    io.write(tmp_path / "wavy.vtu", wavy(scrambled(grid(3), 0.3, 1), 0.2, 2))
-    open_and_wait(qtbot, window, tmp_path / "wavy.vtu")
-    ended = []
-    window.session.run.ended.connect(ended.append)
-    choose(window, "mend", goal="scaled-jacobian")
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    window.show_panel("outcome")
-    limiting = np.unique(ended[0].limits.hexes).tolist()
-    assert "Limiting: " in texts(window)
-    assert f'<a href="{limiting[0]}">{limiting[0]}</a>' in texts(window)
-    assert f"the minimum scaled Jacobian is {ended[0].after.scaled_jacobian_min:.4f}" in texts(window)
-    with qtbot.waitSignal(window.session.selection.visited, timeout=PATIENCE) as visited:
-        press(window, "Show the limiting hexes")
-    assert visited.args == [tuple(limiting)]
-    assert window.session.view.look.show.isolate.hexes == tuple(limiting)
-    key(window, Qt.Key.Key_Escape)
-    assert window.session.view.look.show.isolate is None
-    assert "The boundary slid" not in texts(window)
-
-
-@pytest.mark.slow
-def test_the_displacement_of_the_boundary_is_reported(window, qtbot, tmp_path):
-    io.write(tmp_path / "slid.vtu", slid(grid(4), 0.3, seed=3))
-    open_and_wait(qtbot, window, tmp_path / "slid.vtu")
-    choose(window, "mend", boundary="slide")
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    window.show_panel("outcome")
-    assert "The boundary slid: " in texts(window)
-    assert "it has kept its shape" in texts(window)
-    assert "48 of 48 sharp edges are kept." in texts(window)
-    assert "Limiting" not in texts(window)
-
-
-@pytest.mark.slow
-def test_a_suggestion_unpins_nodes_that_keep_hexes_inverted(window, qtbot, tmp_path):
-    from tests.core.advice.test_advice import pinned_tangle
-
-    mesh = pinned_tangle()
-    io.write(tmp_path / "pinned.vtu", mesh.replace(pinned=None))
-    open_and_wait(qtbot, window, tmp_path / "pinned.vtu")
-    window.session.commands.pin(int(np.flatnonzero(mesh.pinned)[0]), True)
-    run(window, qtbot, "mend")
-    assert window.session.document.now.summary.inverted > 0
-    press(window, "Select: Unpin, then Mend")
-    assert window.session.document.undo_title == "unpin"
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert window.session.document.now.summary.inverted == 0
-
-
-@pytest.mark.slow
-def test_a_run_without_iterations_is_explained(window, qtbot, tmp_path):
-    run(window, qtbot, "laplacian", max_iterations=1)
-    io.write(tmp_path / "one.vtu", grid(1))
-    window.session.document.mark_saved(tmp_path / "one.vtu")
-    open_and_wait(qtbot, window, tmp_path / "one.vtu")
-    run(window, qtbot, "mend")
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
-    assert "Why Mend stopped Nothing to do: every node is fixed." in texts(window)
-    run(window, qtbot, "laplacian")
-    assert "Why Laplacian stopped" in texts(window)
-
-
-def test_the_explanation_is_cleared_for_another_mesh(window, qtbot, mesh_file):
-    run(window, qtbot, "laplacian", max_iterations=1)
-    window.session.document.mark_saved(mesh_file)
-    open_and_wait(qtbot, window, mesh_file)
-    window.show_panel("outcome")
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
-    assert "No run has finished yet" in texts(window)

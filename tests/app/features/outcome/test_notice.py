@@ -4,6 +4,7 @@ import re
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 from PySide6.QtWidgets import QPushButton
 
 from hexmend.iteration import StoppingCriteria
@@ -38,14 +39,7 @@ def test_it_says_what_a_run_has_changed_and_undoes_it(window, qtbot):
     assert not window.messages.isVisible()
 
 
-def test_compare_shows_the_mesh_before_the_run_next_to_its_result(window, qtbot):
-    start = window.session.document.now
-    run(window, qtbot, "local-sd", max_iterations=2)
-    press(choice(window, "Compare"))
-    (view,) = window.session.side_views.all
-    assert view.state is start
-
-
+@pytest.mark.slow
 def test_it_is_removed_when_its_result_is_undone_by_other_means(window, qtbot):
     run(window, qtbot, "local-sd", max_iterations=2)
     window.messages.show_error("Other")
@@ -58,6 +52,7 @@ def test_it_is_removed_when_its_result_is_undone_by_other_means(window, qtbot):
     assert [title for _, title, _ in window.messages.messages()] == ["Other"]
 
 
+@pytest.mark.slow
 def test_its_undo_leaves_later_changes_alone(window, qtbot):
     run(window, qtbot, "local-sd", max_iterations=2)
     undo = choice(window, "Undo")

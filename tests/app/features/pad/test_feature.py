@@ -33,7 +33,7 @@ def pad(qtbot, session, choice):
     return session.document.now
 
 
-@pytest.mark.parametrize("choice", [PaddingChoice(), PaddingChoice(around="locked"), PaddingChoice(thickness=0.2)])
+@pytest.mark.parametrize("choice", [PaddingChoice(), PaddingChoice(around="locked", thickness=0.2)])
 def test_the_mesh_is_padded_and_undone(window, session, qtbot, choice):
     before = session.document.now
     assert before.summary.locked_inverted == 1
@@ -51,16 +51,6 @@ def test_the_mesh_is_padded_and_undone(window, session, qtbot, choice):
 
 
 @pytest.mark.slow
-def test_a_run_goes_on_with_the_padded_mesh_and_its_pins(window, session, qtbot):
-    now = pad(qtbot, session, PaddingChoice())
-    assert np.flatnonzero(now.mesh.pinned).tolist() == [21]
-    window.action("run").trigger()
-    qtbot.waitUntil(lambda: not session.run.busy, timeout=PATIENCE)
-    record = session.timeline.record
-    assert record is not None
-    assert session.document.now.mesh.n_hexes == now.mesh.n_hexes
-
-
 def test_a_padded_mesh_is_kept_by_a_session(window, session, qtbot, tmp_path):
     before, now = session.document.now, pad(qtbot, session, PaddingChoice())
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
@@ -74,6 +64,7 @@ def test_a_padded_mesh_is_kept_by_a_session(window, session, qtbot, tmp_path):
     assert session.document.now.mesh.n_hexes == before.mesh.n_hexes
 
 
+@pytest.mark.slow
 def test_a_layer_that_cannot_be_closed_is_reported(window, session, qtbot):
     mesh = session.document.now.mesh.replace(side_sets={"one": np.array([[4, 4]])})
     session.document.replace(State.of(mesh), None)
@@ -84,6 +75,7 @@ def test_a_layer_that_cannot_be_closed_is_reported(window, session, qtbot):
     assert "cannot be closed" in window.messages.text.text()
 
 
+@pytest.mark.slow
 def test_a_cancelled_layer_leaves_the_mesh(window, session, qtbot):
     before = session.document.now
     session.commands.pad(PaddingChoice())
@@ -94,6 +86,7 @@ def test_a_cancelled_layer_leaves_the_mesh(window, session, qtbot):
     assert not session.padder.busy
 
 
+@pytest.mark.slow
 def test_the_dialog_offers_what_the_mesh_has(window, session, qtbot, monkeypatch):
     mesh = session.document.now.mesh
     dialog = PadDialog(mesh, 1, 1)

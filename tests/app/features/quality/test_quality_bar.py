@@ -9,7 +9,6 @@ from hexmend.iteration import StoppingCriteria
 from hexmend.quality import summarise
 from hexmend_app.features.quality.quality_bar import FIGURES, QualityBar
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.settings import settings
 from hexmend_app.theme.style import BETTER, WORSE
 from hexmend_app.widgets.wording import figure
 from tests.app.driving import choose, click, phase
@@ -70,32 +69,3 @@ def test_the_bar_follows_a_run(window, qtbot):
     assert seen
     changes = [f"{one.label} {figure(getattr(start, one.key))} → {figure(getattr(now, one.key))}" for one in FIGURES]
     qtbot.waitUntil(lambda: all(change in bar.text for change in changes), timeout=PATIENCE)
-
-
-def test_an_action_hides_the_bar_and_shows_it_again(window):
-    bar = window.features["quality"].bar
-    action = window.action("key_figures")
-    assert action.isChecked()
-    for on in (False, True):
-        action.trigger()
-        window.refresh()
-        assert (bar.isVisible(), action.isChecked(), settings.KEY_FIGURES.get()) == (on, on, on)
-
-
-def test_several_views_have_their_figures_in_the_captions_instead(window):
-    bar = window.features["quality"].bar
-    assert bar.isVisible()
-    window.action("beside").trigger()
-    window.refresh()
-    assert not bar.isVisible()
-    window.action("close_views").trigger()
-    window.refresh()
-    assert bar.isVisible()
-
-
-def test_no_digit_is_cut_at_the_size_that_the_bar_asks_for(bar):
-    for now in (START, NOW):
-        bar.set_summaries(START, now)
-        bar.resize(bar.sizeHint())
-        label = bar.findChild(QLabel)
-        assert label.contentsRect().width() >= label.sizeHint().width()

@@ -7,13 +7,12 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMenu, QTableWidget
+from PySide6.QtWidgets import QTableWidget
 
 from hexmend.quality.summary import Summary
 from hexmend_app.features.quality.statistics import ROWS, StatisticsTable, change
 from hexmend_app.theme.style import BETTER, MUTED, WORSE
 from tests.app.driving import named
-from tests.patience import PATIENCE
 
 _START = {
     "hexes": 32735,
@@ -75,14 +74,6 @@ def test_every_figure_of_a_summary_except_q_max_has_a_row():
     assert {row.key for row in ROWS} == {field.name for field in dataclasses.fields(Summary)} - {"q_max"}
 
 
-def test_figures_at_the_start_and_now_are_right_aligned(table):
-    assert [cell(table, "inverted", column).text() for column in range(4)] == ["Inverted", "36", "0", "▼ 36"]
-    assert cell(table, "hexes", 1).text() == "32,735"
-    assert cell(table, "objective", 1).text() == "–"
-    for key in _ROW_OF:
-        assert all(cell(table, key, c).textAlignment() & Qt.AlignmentFlag.AlignRight for c in (1, 2, 3))
-
-
 @pytest.mark.parametrize(
     ("key", "colour"),
     [("inverted", BETTER), ("q_min", BETTER), ("q_mean", WORSE), ("q_std", MUTED), ("hexes", MUTED)]
@@ -101,12 +92,6 @@ def test_the_opposite_change_has_the_opposite_sense_and_arrow(row):
     assert change(row, 0.5, 0.5 + 1e-9)[0] == "▲ <0.0001"
 
 
-def test_every_row_has_a_tooltip(table):
-    for row in ROWS:
-        assert row.help in cell(table, row.key, 0).toolTip()
-    assert "infinite" in cell(table, "objective", 1).toolTip()
-
-
 def test_ctrl_c_copies_the_table_in_full_precision(table):
     grid(table).setFocus()
     QTest.keyClick(grid(table), Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
@@ -117,32 +102,6 @@ def test_ctrl_c_copies_the_table_in_full_precision(table):
     assert by_title["q min"] == ["0.0123456789", "0.5"]
     assert by_title["Hexes"] == ["32735", "32735"]
     assert by_title["Objective Σ η²"] == ["", "9.5"]
-
-
-def test_the_context_menu_copies_the_table(table, qtbot):
-    QGuiApplication.clipboard().setText("before")
-    grid(table).customContextMenuRequested.emit(grid(table).viewport().rect().center())
-    menu = QApplication.activePopupWidget()
-    assert isinstance(menu, QMenu)
-    QTest.keyClick(menu, Qt.Key.Key_Down)
-    QTest.keyClick(menu, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: QGuiApplication.clipboard().text() == table.text(), timeout=PATIENCE)
-
-
-def test_no_text_is_cut_off_in_a_narrow_panel(table):
-    assert table.sizeHint().width() <= 360
-    table.resize(table.sizeHint())
-    view = grid(table)
-    for row in range(view.rowCount()):
-        for column in range(view.columnCount()):
-            width = view.fontMetrics().horizontalAdvance(view.item(row, column).text())
-            assert width < view.columnWidth(column)
-    assert view.verticalScrollBar().maximum() == view.horizontalScrollBar().maximum() == 0
-
-
-def test_the_table_is_empty_without_a_mesh(table):
-    table.set_summaries(None, None)
-    assert all(cell(table, key, column).text() == "" for key in _ROW_OF for column in (1, 2, 3))
 
 
 @pytest.fixture
@@ -170,28 +129,3 @@ def test_the_numbers_of_inverted_locked_and_invalid_hexes_are_links(with_inverte
     assert requests == ["inverted", "locked", "invalid"]
     assert cell(table, "inverted", 2).font().underline()
     assert "Show only the locked hexes" in cell(table, "locked_inverted", 2).toolTip()
-
-
-def test_links_are_followed_by_keys(with_inverted):
-    table, requests = with_inverted
-    grid(table).setFocus()
-    grid(table).setCurrentCell(_ROW_OF["inverted"], 0)
-    QTest.keyClick(grid(table), Qt.Key.Key_Return)
-    QTest.keyClick(grid(table), Qt.Key.Key_Down)
-    QTest.keyClick(grid(table), Qt.Key.Key_Enter)
-    QTest.keyClick(grid(table), Qt.Key.Key_Down)
-    QTest.keyClick(grid(table), Qt.Key.Key_Enter)
-    QTest.keyClick(grid(table), Qt.Key.Key_Down)
-    QTest.keyClick(grid(table), Qt.Key.Key_Enter)  # no link
-    assert requests == ["inverted", "locked", "invalid"]
-
-
-def test_a_zero_is_no_link(with_inverted):
-    table, requests = with_inverted
-    table.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW))
-    click(table, "inverted", 2)
-    grid(table).setCurrentCell(_ROW_OF["inverted"], 0)
-    QTest.keyClick(grid(table), Qt.Key.Key_Return)
-    assert requests == []
-    assert not cell(table, "inverted", 2).font().underline()
-    assert "determinant" in cell(table, "inverted", 2).toolTip()

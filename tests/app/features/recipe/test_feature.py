@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QLabel, QLineEdit, QListWidget, QPushButton
+from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit, QListWidget, QPushButton
 
 from hexmend.iteration import StoppingCriteria
 from hexmend.run import smooth
@@ -16,7 +16,7 @@ from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.widgets.section import Section
-from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
+from tests.app.driving import LEFT, choose, click, key, named, phase, press
 from tests.patience import PATIENCE
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
@@ -86,12 +86,6 @@ def test_a_draft_is_a_sequence_of_stages():
     assert (chain.title, chain.stages) == ("", (b, c))
 
 
-def test_an_empty_recipe_cannot_run(window, panel):
-    assert not any(button(panel, name).isEnabled() for name in ("Run recipe", "Save", "Move up", "Remove the stage"))
-    assert not window.window_actions["recipe_run"].isEnabled()
-    assert window.window_actions["recipe_load"].isEnabled()
-
-
 def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
     add(window, panel, "getme", stop=StoppingCriteria(max_iterations=20))
     add(window, panel, "local-sd", {"p": 4.0})
@@ -113,28 +107,7 @@ def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
     assert window.session.recipe_draft.stages[1].smoother == METHODS["laplacian"]()
 
 
-def test_enter_shows_a_stage_above(window, panel):
-    add(window, panel, "local-sd", {"p": 4.0})
-    add(window, panel, "mend", stop=StoppingCriteria())
-    click_on(panel, 0)
-    QTest.keyClick(panel.findChild(QListWidget), Qt.Key.Key_Return)
-    assert window.session.run_setup.stage == Stage(METHODS["local-sd"](p=4.0), SHORT)
-    shown = window.features["smooth"].panel
-    assert named(shown, QComboBox, "Method").currentText() == METHODS["local-sd"].title
-    assert (shown.stage.parameters.values()["p"], shown.stage.stop.values()) == (4, SHORT.values())
-
-
-def test_an_invalid_value_is_not_added(window, panel):
-    choose(window, "local-sd")
-    type_value(window, "p", "99")
-    press(button(panel, "Add"))
-    assert stages(panel) == []
-    QApplication.processEvents()
-    assert "Correct the marked value" in said(window)
-    type_value(window, "p", "3")
-    assert "Correct" not in said(window)
-
-
+@pytest.mark.slow
 def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
     mesh = window.session.document.now.mesh
     add(window, panel, "getme")
@@ -150,26 +123,6 @@ def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
     assert "Stage 1, GETMe" in said(window)
     key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert window.session.document.now.mesh.points is mesh.points
-
-
-@pytest.mark.slow
-def test_a_paused_recipe_shows_its_stage_and_continues_with_the_next(window, panel, qtbot):
-    add(window, panel, "getme", stop=StoppingCriteria(max_iterations=100_000, tolerance=0))
-    add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=2, tolerance=0))
-    key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
-    window.session.run.pause()
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    assert said(window) == "Stage 1 of 2: GETMe, simultaneous."
-    shown = panel.findChild(QListWidget)
-    assert [shown.item(at).font().bold() for at in range(2)] == [True, False]
-    assert not any(button(panel, name).isEnabled() for name in ("Add", "Run recipe", "Load"))
-    click(window, "Resume")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    window.refresh()
-    assert not any(shown.item(at).font().bold() for at in range(2))
-    assert button(panel, "Add").isEnabled()
 
 
 @pytest.mark.slow
@@ -231,6 +184,7 @@ def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatc
     assert title.text() == "Mine"
 
 
+@pytest.mark.slow
 def test_an_invalid_file_is_reported_and_the_recipe_stays(window, panel, tmp_path):
     add(window, panel, "getme")
     before = window.session.recipe_draft.recipe
@@ -243,17 +197,3 @@ def test_an_invalid_file_is_reported_and_the_recipe_stays(window, panel, tmp_pat
     assert window.session.recipe_draft.recipe == before
     window.features["recipe"].save(tmp_path / "no" / "such.toml")
     assert window.messages.messages()[-1][1] == "Recipe not saved"
-
-
-def test_built_in_recipes_are_listed_by_title(window, panel):
-    offered = {action.text(): action for action in button(panel, "Load").menu().actions() if action.text()}
-    assert "GETMe, then mend" in offered
-    offered["GETMe, then mend"].trigger()
-    assert [stage.smoother.name for stage in window.session.recipe_draft.stages] == ["getme", "mend"]
-
-
-def test_the_recipe_stays_when_another_mesh_is_opened(window, panel, qtbot, mesh_file):
-    add(window, panel, "getme")
-    open_and_wait(qtbot, window, mesh_file)
-    assert len(stages(panel)) == 1
-    assert button(panel, "Run recipe").isEnabled()

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
 
 from hexmend.iteration import StoppingCriteria
 from hexmend.mesh.rules import MotionRules
@@ -14,7 +13,7 @@ from hexmend_app.features.runs.run_table import FIRST, NAME, QUANTITIES, SETTING
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import BLUE, MUTED
-from tests.app.driving import open_and_wait, phase
+from tests.app.driving import phase
 from tests.patience import PATIENCE
 
 GIVEN = {"inverted": 0, "invalid": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
@@ -75,6 +74,7 @@ def test_all_runs_are_listed_beside_the_mesh_at_the_start(window, three):
         assert texts(window, column)[0] == texts(window, column)[0].strip() != ""
 
 
+@pytest.mark.slow
 def test_dominated_runs_are_grey_and_say_which_are_as_good(window, three):
     rows = panel(window).model.rows
     assert three[0].name in rows[2].dominated_by
@@ -101,6 +101,7 @@ def test_a_click_shows_the_result_of_a_run(window, three):
     assert timeline.shown_iteration.record is three[0]
 
 
+@pytest.mark.slow
 def test_a_click_shows_the_mesh_at_the_start_even_if_no_run_began_there(window, qtbot):
     session = window.session
     start = session.document.start
@@ -123,6 +124,7 @@ def test_a_click_shows_the_mesh_at_the_start_even_if_no_run_began_there(window, 
     assert session.timeline.shown_iteration.number == session.timeline.record.result
 
 
+@pytest.mark.slow
 def test_runs_that_differ_in_rules_of_motion_alone_have_other_settings(window, qtbot):
     session, stop = window.session, StoppingCriteria(max_iterations=1)
     session.commands.tag("a<b", [1, 2])
@@ -135,20 +137,7 @@ def test_runs_that_differ_in_rules_of_motion_alone_have_other_settings(window, q
     assert "fix=a&lt;b" in panel(window).model.index(2, NAME).data(Qt.ItemDataRole.ToolTipRole)
 
 
-def test_the_active_run_is_named_so(window, qtbot):
-    window.show_panel("runs")
-    run_control = window.session.run
-    run_control.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=50), iterations=2)
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    window.refresh()
-    name = run_control.record.name
-    assert texts(window, NAME) == ["At the start", f"{name} (active)"]
-    run_control.stop()
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    window.refresh()
-    assert texts(window, NAME) == ["At the start", name]
-
-
+@pytest.mark.slow
 def test_iterations_that_arrive_leave_the_row_that_was_reached_by_keys(window, three):
     click(window, 3)
     table = panel(window).table
@@ -157,24 +146,6 @@ def test_iterations_that_arrive_leave_the_row_that_was_reached_by_keys(window, t
     three[2].rows.append(three[2].rows[-1])
     window.refresh()
     assert table.currentIndex().row() == 2
-
-
-def test_a_session_keeps_the_table(window, qtbot, three, tmp_path):
-    before = [texts(window, column) for column in range(FIRST + len(QUANTITIES))]
-    assert window.features["open"].save_and_wait(tmp_path / "runs.hexmend")
-    open_and_wait(qtbot, window, tmp_path / "runs.hexmend")
-    window.show_panel("runs")
-    window.refresh()
-    assert [texts(window, column) for column in range(FIRST + len(QUANTITIES))] == before
-    click(window, 1)
-    assert window.session.timeline.shown_iteration.record.name == three[0].name
-
-
-def test_a_hint_is_shown_without_runs(window):
-    window.show_panel("runs")
-    window.refresh()
-    QApplication.processEvents()
-    assert panel(window).table.isHidden()
 
 
 def test_the_dots_are_between_the_smallest_and_the_largest_value():

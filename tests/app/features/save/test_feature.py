@@ -16,7 +16,7 @@ from benchmarks.window.windows import save_and_wait
 from hexmend import io
 from hexmend.gallery import make
 from hexmend_app.features.save.feature import FeatureSave
-from hexmend_app.picture import LineStyle, Page, write_scene
+from hexmend_app.picture import Page, write_scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.state.run.run_controller import Phase
@@ -40,6 +40,7 @@ def test_saving_writes_the_displayed_mesh(window, qtbot, tmp_path):
     assert window.messages.messages()[-1][0] == "error"
 
 
+@pytest.mark.slow
 def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot, tmp_path, monkeypatch):
     assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
@@ -97,18 +98,6 @@ def test_saving_in_another_format_asks_nothing(deck, qtbot, monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("size", [(640, 480), (1500, 500)])
-def test_a_picture_has_the_requested_size(window, tmp_path, size):
-    window.action("cut").trigger()
-    window.refresh()
-    assert window.features["save"].picture(tmp_path / "view.png", size)
-    image = Image.open(tmp_path / "view.png")
-    assert image.size == size
-    colourful = np.ptp(np.asarray(image.convert("RGB")).astype(int), axis=2) > 60
-    assert colourful.mean() > 0.05
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("views", [1, 2, "wipe"])
 def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, views):
     session = window.session
@@ -135,30 +124,6 @@ def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, v
 
 
 @pytest.mark.slow
-def test_the_dialog_remembers_the_last_picture(window, qtbot, tmp_path, monkeypatch):
-    save = window.features["save"]
-    dialog = save.picture_dialog()
-    qtbot.addWidget(dialog)
-    dialog.target.line.setText(str(tmp_path / "p.pdf"))
-    dialog.size_form.preset.setCurrentIndex(1)
-    dialog.size_form.preset.activated.emit(1)
-    monkeypatch.setattr(type(dialog), "exec", lambda self: True)
-    monkeypatch.setattr(save, "picture_dialog", lambda: dialog)
-    save.ask_picture()
-    assert (tmp_path / "p.pdf").read_bytes().startswith(b"%PDF")
-    monkeypatch.undo()
-    again = save.picture_dialog()
-    qtbot.addWidget(again)
-    assert (again.scene().page.width, again.scene().page.height) == (85, 60)
-    assert again.scene().camera.pose == window.canvas.pose
-
-
-def test_hidden_edges_are_not_in_the_picture(window):
-    window.session.view.change(lines={"edges": 0.0})
-    window.refresh()
-    assert window.canvas.scene(Page()).lines == LineStyle(0.0)
-
-
 @pytest.mark.parametrize("style", [CutStyle.CRINKLE, CutStyle.SMOOTH])
 def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypatch, style):
     mesh = window.session.document.now.mesh
@@ -182,6 +147,7 @@ def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypa
     assert window.session.modified  # the tag: the mesh itself is not saved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("tagged", "warned"), [((0,), True), ((1,), False)], ids=["in the part", "elsewhere"])
 def test_only_data_of_the_visible_hexes_is_missed(window, qtbot, tmp_path, tagged, warned):
     window.session.commands.tag("far", tagged)
@@ -192,19 +158,3 @@ def test_only_data_of_the_visible_hexes_is_missed(window, qtbot, tmp_path, tagge
     qtbot.waitUntil(lambda: not saver.going_on, timeout=PATIENCE)
     missed = " ".join(text for _, title, text in window.messages.messages() if title == "Some data was not saved")
     assert ("element sets (far)" in missed) is warned
-
-
-def test_nothing_is_saved_if_no_hex_is_visible(window, tmp_path):
-    window.session.view.set_cut(Cut.at((1, 0, 0), (-1e6, 0, 0)))
-    window.refresh()
-    window.features["save"].visible.save(tmp_path / "out.vtu", window.canvas.viewport)
-    assert not window.features["save"].visible.going_on
-    assert window.messages.messages()[-1][:2] == ("error", "No hex is visible")
-    assert not (tmp_path / "out.vtu").exists()
-
-
-def test_visible_hexes_that_cannot_be_written_are_reported(window, qtbot, tmp_path):
-    saver = window.features["save"].visible
-    saver.save(tmp_path / "missing" / "out.vtu", window.canvas.viewport)
-    qtbot.waitUntil(lambda: not saver.going_on, timeout=PATIENCE)
-    assert window.messages.messages()[-1][:2] == ("error", "Visible hexes not saved")

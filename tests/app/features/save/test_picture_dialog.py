@@ -1,6 +1,5 @@
 """Dialog for the settings and path of a picture."""
 
-import numpy as np
 import pytest
 from PIL import Image
 from PySide6.QtCore import QSettings, QSize
@@ -9,10 +8,9 @@ from PySide6.QtWidgets import QDialogButtonBox, QLabel, QLineEdit, QMessageBox
 
 from hexmend.errors import ParameterError
 from hexmend_app.features.save.picture_dialog import PictureDialog
-from hexmend_app.picture import Camera, ColourBarStyle, Page, PicturePanel, Scene, TextPlace, read_scene, write_scene
+from hexmend_app.picture import Camera, Page, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
-from hexmend_app.widgets.dialogs.questions import folder, remember_folder
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
@@ -82,20 +80,6 @@ def test_an_unknown_suffix_is_rejected_with_the_known_ones(dialog, tmp_path, nam
     assert dialog.target.path() == tmp_path / "p.png"
 
 
-def test_a_name_without_a_suffix_gets_one(dialog, tmp_path):
-    write(dialog, tmp_path / "p")
-    save(dialog)
-    assert dialog.result()
-    assert dialog.target.path() == tmp_path / "p.png"
-
-
-def test_an_empty_name_is_rejected(dialog):
-    write(dialog, " ")
-    save(dialog)
-    assert dialog.isVisible()
-    assert said(dialog)
-
-
 @pytest.mark.parametrize("answer", [QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No])
 def test_a_file_is_replaced_only_after_confirmation(dialog, tmp_path, monkeypatch, answer):
     monkeypatch.setattr(QMessageBox, "exec", lambda self: answer)
@@ -103,25 +87,6 @@ def test_a_file_is_replaced_only_after_confirmation(dialog, tmp_path, monkeypatc
     write(dialog, tmp_path / "p")
     save(dialog)
     assert bool(dialog.result()) == (answer == QMessageBox.StandardButton.Yes)
-
-
-def test_all_dialogs_share_the_last_folder(dialog, qtbot, tmp_path):
-    (tmp_path / "pictures").mkdir()
-    write(dialog, tmp_path / "pictures" / "p.png")
-    save(dialog)
-    assert folder() == tmp_path / "pictures"
-    remember_folder(tmp_path / "mesh.vtu")
-    assert made(qtbot).target.path() == tmp_path / "bridge.png"
-
-
-def test_unchanged_settings_are_preserved(qtbot):
-    scene = Scene(
-        page=Page(170, 90, dpi=450, background="#102030", margin=2.5, crop=True, font_size=7.5),
-        bar=ColourBarStyle(TextPlace.RIGHT, (0.0, 0.25), "title"),
-        panels=(PicturePanel(caption="one"), PicturePanel(mesh=2, caption="two")),
-    )
-    assert made(qtbot, scene, views=("one", "two")).scene() == scene
-    assert made(qtbot).scene() == Scene(page=Page(pixels=(640, 480)))
 
 
 def test_a_size_is_chosen_in_millimetres_or_pixels(dialog):
@@ -167,22 +132,6 @@ def test_a_scene_is_saved_and_loaded(dialog, tmp_path):
     (tmp_path / "bad.toml").write_text("[bar]\ntick = 1")
     dialog.load(str(tmp_path / "bad.toml"))
     assert "[bar] has an unknown key 'tick'" in said(dialog)[0]
-
-
-@pytest.mark.slow
-def test_the_preview_is_a_small_picture(qtbot):
-    subject = PageMesh.of(grid(3))
-    dialog = made(qtbot, draw=lambda scene: draw_page(scene, [subject]))
-    qtbot.waitUntil(lambda: not dialog.preview.picture.isNull(), timeout=PATIENCE)
-    whole = dialog.scene()
-    qtbot.waitUntil(lambda: dialog.preview.picture.width() > 300, timeout=PATIENCE)
-    small = dialog.preview.picture.toImage().convertToFormat(dialog.preview.picture.toImage().Format.Format_RGB888)
-    seen = np.frombuffer(small.constBits(), np.uint8).reshape(small.height(), small.bytesPerLine())
-    seen = seen[:, : 3 * small.width()].reshape(small.height(), small.width(), 3)
-    image = draw_page(whole, [subject]).image().resize((small.width(), small.height()), Image.Resampling.BOX)
-    assert np.abs(np.asarray(image).astype(int) - seen).mean() < 12
-    dialog.size_form.width_box.setValue(320)
-    qtbot.waitUntil(lambda: dialog.preview.picture.height() > dialog.preview.picture.width(), timeout=PATIENCE)
 
 
 def test_a_page_too_small_for_its_panels_is_reported(qtbot):

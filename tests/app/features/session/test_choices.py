@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QCheckBox, QComboBox, QScrollBar, QTabBar, QTableView, QWidget
+from PySide6.QtWidgets import QTableView
 
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Slab, Sphere
-from hexmend_app.widgets.section import Section
 from tests.app.conftest import close, window_with_mesh
-from tests.app.driving import key, named, open_and_wait, tick, walk_to
-from tests.app.resetting import setting_of
+from tests.app.driving import key, named, open_and_wait
 from tests.app.test_resetting import known, live
 from tests.patience import PATIENCE
 
@@ -26,8 +24,6 @@ _NOT_KEPT = (
     "session.run.phase", "session.run.outcome", "session.run.view.pace", "session.run.view.eased", "action panel", "action drawer",
     "action pace",
 )  # fmt: skip
-#: Explanations that are unfolded, and lists of a wipe that there is not.
-_UNSEEN = ("Explain", "Advanced", "Left view", "Right view")
 
 
 @pytest.fixture
@@ -46,20 +42,9 @@ def at_rest(window, qtbot):
 
 
 def seen(window, qtbot):
-    """Return the state that a session must restore: the session and the settings of all widgets."""
+    """Return the state that a session must restore: the session, the view and the actions."""
     at_rest(window, qtbot)
-    lines = [one for one in known(window, qtbot) if one.startswith(_KEPT) and not one.startswith(_NOT_KEPT)]
-    for widget in window.findChildren(QWidget):
-        folds = isinstance(widget, QTabBar | QScrollBar) or isinstance(widget.parent(), Section)
-        setting = None if folds or widget.accessibleName() in _UNSEEN else setting_of(widget)
-        if setting is not None:
-            lines.append(f"{type(widget).__name__} {widget.accessibleName()}: {setting}")
-    return sorted(lines)
-
-
-def panel_settings(window):
-    """What the panels are set to."""
-    return {name: one for name, one in window.session.feature_states.to_data().items() if name != "camera"}
+    return sorted(line for line in known(window, qtbot) if line.startswith(_KEPT) and not line.startswith(_NOT_KEPT))
 
 
 def saved(window, tmp_path):
@@ -114,42 +99,6 @@ def test_the_pose_history_is_restored(window, qtbot, tmp_path):
     assert window.action("view_forward").isEnabled()
 
 
-def test_escape_restores_the_camera_before_an_isolation(window, qtbot, tmp_path):
-    at_rest(window, qtbot)
-    before = window.canvas.pose
-    key(window, Qt.Key.Key_N)  # isolates the worst, and flies there
-    at_rest(window, qtbot)
-    path = saved(window, tmp_path)
-    open_and_wait(qtbot, window, path)
-    at_rest(window, qtbot)
-    assert window.canvas.pose.position != pytest.approx(before.position)
-    key(window, Qt.Key.Key_Escape)
-    at_rest(window, qtbot)
-    assert window.canvas.pose.position == pytest.approx(before.position)
-
-
-def test_an_isolated_patch_follows_the_node(window, qtbot, tmp_path):
-    key(window, Qt.Key.Key_D)
-    panel = window.features["node_step"].panel
-    box = named(panel, QCheckBox, "Isolate patch")
-    qtbot.waitUntil(lambda: bool(panel.figures.isVisible()), timeout=PATIENCE)
-    tick(box)
-    qtbot.waitUntil(lambda: window.session.view.look.show.isolate is not None, timeout=PATIENCE)
-    isolation = window.session.view.look.show.isolate
-    path = saved(window, tmp_path)
-    tick(box)
-    open_and_wait(qtbot, window, path)
-    at_rest(window, qtbot)
-    assert box.isChecked()
-    assert window.session.view.look.show.isolate == isolation
-    mesh, chosen = window.session.document.now.mesh, window.session.selection
-    another = next(int(n) for n in mesh.hexes[chosen.hex] if mesh.free[n] and n != chosen.node)
-    chosen.choose(chosen.hex, another)
-    window.refresh()
-    qtbot.waitUntil(lambda: window.session.view.look.show.isolate != isolation, timeout=PATIENCE)
-    assert box.isChecked()
-
-
 def test_a_disabled_cut_is_restored(window, qtbot, tmp_path, mesh_file):
     view = window.session.view
     box = Cut(box=Box((0.1, 0.1, 0.1), (0.4, 0.4, 0.4)), style=CutStyle.SMOOTH)
@@ -187,27 +136,3 @@ def test_unknown_settings_are_rejected(window, qtbot, tmp_path, part, field, val
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
     assert said in window.messages.messages()[-1][2]
-
-
-def test_too_many_iterations_per_step_are_rejected(window, qtbot, tmp_path):
-    path = saved(window, tmp_path)
-    data = read_archive(path, "Hexmend session", VERSION)
-    data["window"]["features"]["steps"] = 10**20
-    write_archive(path, "Hexmend session", VERSION, data)
-    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
-        window.features["open"].open(path)
-    assert "the number of steps is not from 1 to 1,000,000" in window.messages.messages()[-1][2]
-
-
-def test_the_list_of_the_worst_follows_the_session(window, qtbot, tmp_path):
-    listed = window.features["hex_inspector"].worst_list
-    window.show_panel("worst")
-    box = named(listed, QComboBox, "Worst by")
-    walk_to(window, box, "volume")
-    elements = listed.hexes.tolist()
-    path = saved(window, tmp_path)
-    walk_to(window, box, "q")
-    open_and_wait(qtbot, window, path)
-    window.refresh()
-    assert box.currentData() == "volume"
-    assert listed.hexes.tolist() == elements

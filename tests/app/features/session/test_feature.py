@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
-from PySide6.QtGui import QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from benchmarks.window.windows import end_run
 from hexmend.run import StoppingCriteria
@@ -17,13 +16,10 @@ from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera
 from hexmend_app.picture.appearance import Arrows, Structure, Traces
 from hexmend_app.picture.cut import Cut
-from hexmend_app.shell.start.window_start import WindowStart
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, key, open_and_wait, phase, pixels
+from tests.app.driving import key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
-
-pytestmark = pytest.mark.slow
 
 
 def run(window, qtbot, method, iterations=4):
@@ -114,6 +110,7 @@ def tables(window):
     }
 
 
+@pytest.mark.slow
 def test_a_session_is_restored(window, qtbot, tmp_path, mesh_file):
     work(window, qtbot)
     path = tmp_path / "work.hexmend"
@@ -134,6 +131,7 @@ def test_a_session_is_restored(window, qtbot, tmp_path, mesh_file):
             np.testing.assert_array_equal(record.points(number), place)
 
 
+@pytest.mark.slow
 def test_a_restored_session_can_be_continued(window, qtbot, tmp_path):
     """Undo, timeline, branches, breakpoints and runs work after restoring."""
     work(window, qtbot)
@@ -177,6 +175,7 @@ def test_the_title_shows_the_session_and_unsaved_changes(window, qtbot, tmp_path
     assert window.isWindowModified()
 
 
+@pytest.mark.slow
 def test_a_displayed_iteration_is_not_a_change(window, qtbot, tmp_path):
     run(window, qtbot, "laplacian")
     session = window.session
@@ -191,6 +190,7 @@ def test_a_displayed_iteration_is_not_a_change(window, qtbot, tmp_path):
     assert session.document.now.summary == session.history.records[0].end.summary
 
 
+@pytest.mark.slow
 def test_unsaved_work_is_saved_to_the_opened_session(window, qtbot, tmp_path, monkeypatch):
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     run(window, qtbot, "laplacian")
@@ -207,6 +207,7 @@ def test_unsaved_work_is_saved_to_the_opened_session(window, qtbot, tmp_path, mo
     assert [record.name for record in window.session.history.records] == ["Laplacian"]
 
 
+@pytest.mark.slow
 def test_a_paused_run_is_saved(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_F10)
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
@@ -221,29 +222,7 @@ def test_a_paused_run_is_saved(window, qtbot, tmp_path):
     window.refresh()
 
 
-def test_a_session_is_dropped_on_the_window(window, qtbot, tmp_path):
-    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
-    data = QMimeData()
-    data.setUrls([QUrl.fromLocalFile(str(tmp_path / "work.hexmend"))])
-    how = Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
-    QApplication.sendEvent(window, QDragEnterEvent(QPoint(50, 50), *how))
-    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
-        QApplication.sendEvent(window, QDropEvent(QPointF(50, 50), *how))
-    assert window.session.document.name == "work.hexmend"
-
-
-def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window):
-    work(window, qtbot)
-    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
-    before = tables(window)
-    pose = window.canvas.pose
-    with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
-        WindowStart(bare_window, tmp_path / "work.hexmend")
-    bare_window.refresh()
-    assert tables(bare_window) == before
-    assert bare_window.canvas.pose == pose
-
-
+@pytest.mark.slow
 def test_a_damaged_session_is_rejected_and_the_open_mesh_stays(window, qtbot, tmp_path):
     path = tmp_path / "work.hexmend"
     window.features["session"].save_and_wait(path)
@@ -256,8 +235,3 @@ def test_a_damaged_session_is_rejected_and_the_open_mesh_stays(window, qtbot, tm
     assert window.session.document.now is now
     (text,) = (text for kind, _, text in window.messages.messages() if kind == "error")
     assert "the window.view.look: [look] has an unknown key 'colour'" in text
-
-
-def test_a_failed_save_is_reported(window, tmp_path):
-    assert not window.features["session"].save_and_wait(tmp_path / "missing" / "work.hexmend")
-    assert window.messages.messages()[-1][1] == "The session was not saved"

@@ -23,8 +23,6 @@ from hexmend_app.state.settings.paths import VARIABLE
 from tests.app.driving import open_and_wait, press
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
-
 #: A window that smooths a mesh, tells what it has come to once that is kept, and never ends by itself.
 _PROGRAM = """
 import hashlib, json, sys
@@ -93,6 +91,7 @@ def run(window, qtbot):
         window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
 
 
+@pytest.mark.slow
 def test_a_killed_window_is_recovered(killed, fresh_window, qtbot, mesh_file, own_state):
     window, session = fresh_window, fresh_window.session
     window.features["session"].start_autosave()
@@ -113,6 +112,7 @@ def test_a_killed_window_is_recovered(killed, fresh_window, qtbot, mesh_file, ow
     assert not window.features["session"].recovery.recoverable
 
 
+@pytest.mark.slow
 def test_recovery_is_offered_until_discarded(killed, fresh_window, own_state):
     feature = fresh_window.features["session"]
     feature.start_autosave()
@@ -129,6 +129,7 @@ def test_recovery_is_offered_until_discarded(killed, fresh_window, own_state):
     assert list(own_state.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_run_is_recovered_at_its_newest_iteration(fresh_window, qtbot, own_state, tmp_path, monkeypatch):
     monkeypatch.setattr(recovery_module, "RUN_PERIOD", 10)
     session, recovery = fresh_window.session, fresh_window.features["session"].recovery
@@ -165,6 +166,7 @@ def wait_for_run(own_state, qtbot, is_written):
     qtbot.waitUntil(found, timeout=PATIENCE)
 
 
+@pytest.mark.slow
 def test_a_closed_window_leaves_no_files(fresh_window, qtbot, own_state, mesh_file):
     recovery = fresh_window.features["session"].recovery
     recovery.begin()
@@ -198,6 +200,7 @@ def test_autosave_writes_only_changes(fresh_window, qtbot, own_state):
     recovery.end()
 
 
+@pytest.mark.slow
 def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state):
     recovery = fresh_window.features["session"].recovery
     recovery.begin()
@@ -220,16 +223,7 @@ def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state):
     recovery.end()
 
 
-def test_a_failed_autosave_is_reported_once(fresh_window, tmp_path):
-    (tmp_path / "state").write_text("in the way")
-    feature = fresh_window.features["session"]
-    feature.start_autosave()
-    feature.start_autosave()
-    (warning,) = [message for message in fresh_window.messages.messages() if message[0] == "warning"]
-    assert "Autosave failed" in warning[1]
-    assert not feature.recovery.watching
-
-
+@pytest.mark.slow
 def test_a_change_during_a_write_is_written_too(fresh_window, qtbot, own_state):
     run(fresh_window, qtbot)
     recovery = fresh_window.features["session"].recovery
@@ -242,19 +236,7 @@ def test_a_change_during_a_write_is_written_too(fresh_window, qtbot, own_state):
     assert session_data.read(own / "session.hexmend").view.look.show.peel == 1
 
 
-def test_a_session_to_recover_survives_another_file_opened_meanwhile(killed, fresh_window, qtbot, mesh_file, own_state):
-    window, session = fresh_window, fresh_window.session
-    window.features["session"].start_autosave()
-    recovery = window.features["session"].recovery
-    (crashed,) = recovery.recoverable
-    recovery.recover(crashed)
-    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
-        session.opener.open(mesh_file)  # instead of the session, which is still being read
-    assert not session.history.records
-    assert recovery.recoverable == (crashed,)
-    assert crashed.path.exists()
-
-
+@pytest.mark.slow
 def test_a_failed_write_is_repeated(fresh_window, qtbot, own_state, monkeypatch):
     write_session, failures = recovery_module.write_session, []
 

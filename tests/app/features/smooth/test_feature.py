@@ -7,15 +7,12 @@ import threading
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QMessageBox
 
 from hexmend.run import StoppingCriteria
 from hexmend_app.state.run import worker
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.tasks.task import running
-from hexmend_app.widgets.section import Section
-from tests.app.driving import choose, click, key, named, phase, pixels
+from tests.app.driving import choose, click, key, named, phase
 from tests.patience import PATIENCE
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
@@ -40,7 +37,6 @@ def counts(window):
     return named(window, QLabel, "Counts").text()
 
 
-@pytest.mark.slow
 def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
     window, document = endless, endless.session.document
     start = document.now
@@ -64,15 +60,6 @@ def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
 
 
 @pytest.mark.slow
-def test_a_complete_run_untangles_and_shows_it(window, qtbot):
-    choose(window, "mend", StoppingCriteria(tolerance=1e-2))
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        key(window, Qt.Key.Key_F5)
-    assert window.session.document.start.summary.inverted > 0
-    assert window.session.document.now.summary.inverted == 0
-    assert "invalid" not in counts(window)
-
-
 @pytest.mark.parametrize("back", [Qt.Key.Key_Z, Qt.Key.Key_R], ids=["undo", "reset"])
 def test_the_outcome_of_a_run_follows_undo_and_redo(window, qtbot, back):
     panel, before = window.features["smooth"].panel, counts(window)
@@ -91,37 +78,6 @@ def test_the_outcome_of_a_run_follows_undo_and_redo(window, qtbot, back):
     assert named(panel, QLabel, "Progress").text() == progress
 
 
-@pytest.mark.slow
-def test_keys_step_and_stop(window, qtbot):
-    start = window.session.document.now
-    key(window, Qt.Key.Key_F10)
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    key(window, Qt.Key.Key_F5, SHIFT)
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert window.session.document.now is not start
-
-
-@pytest.mark.slow
-def test_the_view_follows_the_iterations(window, qtbot):
-    before = pixels(window)
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    qtbot.waitUntil(lambda: (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.002, timeout=PATIENCE)
-
-
-def test_a_method_with_an_invalid_value_is_not_started(window):
-    choose(window, "mend")
-    panel = window.features["smooth"].panel
-    panel.findChild(Section).expand()
-    line = panel.stage.parameters.editor("p").lineEdit()
-    line.setFocus()
-    line.selectAll()
-    QTest.keyClicks(line, "0.1")
-    click(window, "Run")
-    assert not window.session.run.busy
-    assert "Correct" in sentence(window)
-
-
 @pytest.fixture
 def slow_method(monkeypatch):
     """Block the preparation of a method until the returned event is set."""
@@ -136,6 +92,7 @@ def slow_method(monkeypatch):
     go_on.set()
 
 
+@pytest.mark.slow
 def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_method):
     before = window.session.document.now
     click(window, "Run")
@@ -156,23 +113,6 @@ def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_metho
 
 
 # Closing the window
-
-
-@pytest.fixture
-def running_window(fresh_window, qtbot):
-    """A separate window with a run that does not end by itself."""
-    choose(fresh_window, "local-sd", StoppingCriteria(tolerance=0.0))
-    click(fresh_window, "Run")
-    qtbot.waitUntil(phase(fresh_window, Phase.RUNNING), timeout=PATIENCE)
-    return fresh_window
-
-
-@pytest.mark.slow
-def test_closing_while_running_leaves_no_thread(running_window):
-    assert "smoother local-sd" in [task.name for task in running()]
-    running_window.close()
-    assert running() == ()
-    assert not running_window.isVisible()
 
 
 @pytest.mark.slow

@@ -55,14 +55,6 @@ def test_a_run_starts_only_with_consent(window, qtbot, asked):
     assert session.document.now is not before
 
 
-@pytest.mark.slow
-def test_sufficient_memory_needs_no_consent(window, qtbot, asked):
-    choose(window, "laplacian", StoppingCriteria(max_iterations=2))
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
-    assert not asked
-
-
 def test_a_recipe_and_a_comparison_need_consent(window, asked):
     session = window.session
     session.recipe_draft.add(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
@@ -74,6 +66,7 @@ def test_a_recipe_and_a_comparison_need_consent(window, asked):
     assert len(asked) == 2
 
 
+@pytest.mark.slow
 def test_a_branch_without_consent_leaves_the_active_run(window, qtbot, asked):
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0))
     click(window, "Step")

@@ -11,8 +11,8 @@ from tests.app.driving import choose
 from tests.patience import PATIENCE
 
 
-@pytest.mark.parametrize("pace", list(Pace))
-def test_a_pace_is_chosen_in_the_menu_and_stored(window, pace):
+def test_a_pace_is_chosen_in_the_menu_and_stored(window):
+    pace = Pace.EVERY
     action = window.action(f"pace_{pace.value}")
     action.trigger()
     window.refresh()
@@ -26,11 +26,7 @@ def _menu(window, title):
     return next(one.menu() for one in window.menuBar().actions() if one.text().replace("&", "") == title)
 
 
-def test_a_stored_pace_that_is_none_is_the_default(window):
-    settings.RUN_PACE.set("jump")
-    assert settings.RUN_PACE.get() == settings.RUN_PACE.default
-
-
+@pytest.mark.slow
 def test_actions_and_sessions_have_the_result_and_not_what_is_shown_on_the_way(window, qtbot):
     session = window.session
     session.run.set_pace(Pace.EASED)
@@ -45,6 +41,7 @@ def test_actions_and_sessions_have_the_result_and_not_what_is_shown_on_the_way(w
         assert not session.run.view.eased.active
 
 
+@pytest.mark.slow
 def test_keys_that_move_the_camera_leave_the_easing_and_others_end_it(window, qtbot):
     session, view = window.session, window.canvas.interactor
     session.run.set_pace(Pace.EASED)

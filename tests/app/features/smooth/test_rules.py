@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QLabel, QLineEdit
+from PySide6.QtWidgets import QApplication, QComboBox, QLabel
 
 from hexmend.gallery import make
 from hexmend.mesh.rules import MotionRules
@@ -18,7 +17,7 @@ from hexmend_app.features.smooth.set_rules import choices_of, rules_of_set, with
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
 from tests.app.driving import named
-from tests.app.hosting import PlainHost, action
+from tests.app.hosting import PlainHost
 from tests.patience import PATIENCE
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
@@ -136,16 +135,6 @@ def test_a_set_that_the_mesh_lacks_is_shown_as_long_as_it_has_a_rule(form, mesh)
     assert "Rule of other" not in boxes(form)
 
 
-def test_many_sets_are_filtered_by_name(shown):
-    mesh = make("cube", size=27)
-    mesh = mesh.replace(node_sets={f"set {k}": np.array([k]) for k in range(20)})
-    form = shown(RuleForm(), 300, 400)
-    form.show_rules(mesh, MotionRules())
-    assert len(boxes(form)) == 12
-    QTest.keyClicks(named(form, QLineEdit, "Filter sets"), "t 19")
-    assert list(boxes(form)) == ["Rule of set 19"]
-
-
 def test_the_form_is_hidden_for_a_mesh_without_sets_and_while_a_run_is_paused(host):
     feature, panel = host.feature, host.feature.panel
     feature.refresh()
@@ -171,16 +160,6 @@ def test_a_run_has_the_rules_and_its_result_has_none(host, mesh, qtbot):
 
 def run_without_rules(mesh):
     return smooth(mesh, METHODS["local-sd"](boundary="slide"), SHORT).mesh
-
-
-def test_a_run_of_a_recipe_has_the_rules(host, mesh, qtbot):
-    session = host.session
-    session.run_setup.set_rules(MotionRules(interfaces="free"))
-    session.recipe_draft.add(Stage(METHODS["local-sd"](), SHORT))
-    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
-        session.commands.run_recipe(session.recipe_draft.recipe)
-    expected = smooth(mesh, METHODS["local-sd"](), SHORT, interfaces="free").mesh
-    np.testing.assert_array_equal(session.document.now.mesh.points, expected.points)
 
 
 def test_recipes_have_the_rules_in_files(host, tmp_path):
@@ -222,14 +201,6 @@ def test_rules_that_do_not_fit_the_mesh_are_an_error_before_the_run(host, qtbot)
     labels = [label.text() for label in host.messages.findChildren(QLabel)]
     assert any("Run not started" in text for text in labels)
     assert any("there is no set 'nowhere'" in text for text in labels)
-
-
-def test_the_command_has_the_rules(host, qapp, tmp_path, mesh):
-    host.session.document.replace(State.of(mesh), tmp_path / "in.vtu")
-    host.session.run_setup.set_rules(SLIDING)
-    action(host.feature, "copy_command").handle()
-    expected = f"hexmend smooth {tmp_path}/in.vtu -o {tmp_path}/mesh-smoothed.vtu --interfaces slide --fix inlet"
-    assert qapp.clipboard().text() == expected
 
 
 def test_rules_follow_a_tag_that_is_renamed(qtbot, host):

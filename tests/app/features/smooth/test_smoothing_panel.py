@@ -13,7 +13,6 @@ from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.widgets.section import Section
 from tests.patience import PATIENCE
 
-_LEFT = Qt.MouseButton.LeftButton
 _STATES = ("idle", "preparing", "running", "paused", "finished")
 _SIGNALS = (
     "run_requested",
@@ -135,67 +134,3 @@ def test_the_status_shows_progress_and_wraps_the_outcome(panel, qtbot):
     assert "1.84 s" in progress.text()
     qtbot.waitUntil(lambda: sentence.height() > 2 * sentence.fontMetrics().height(), timeout=PATIENCE)
     assert sentence.width() <= panel.width()
-
-
-def test_buttons_show_their_actions(window, qtbot):
-    window.show_panel("run")
-    buttons = window.features["smooth"].panel.buttons
-    for name, keys in (("run", "F5"), ("step", "F10"), ("stop", "Shift+F5"), ("reset", "Ctrl+R")):
-        action, button = window.action(name), buttons.button(name)
-        assert button.defaultAction() is action
-        assert f"({keys})" in button.toolTip()
-        assert button.isEnabled() is action.isEnabled()
-    assert buttons.button("run").text() == buttons.button("run").accessibleName() == "Run"
-    QTest.mouseClick(buttons.button("step"), _LEFT)
-    qtbot.waitUntil(lambda: buttons.button("run").text() == "Resume", timeout=PATIENCE)
-    assert window.action("run").iconText() == "Resume"
-    assert buttons.button("stop").isEnabled()
-    QTest.mouseClick(buttons.button("stop"), _LEFT)
-    qtbot.waitUntil(lambda: buttons.button("run").text() == "Run", timeout=PATIENCE)
-    QTest.mouseClick(buttons.button("reset"), _LEFT)
-    document = window.session.document
-    qtbot.waitUntil(lambda: document.now.mesh.points is document.start.mesh.points, timeout=PATIENCE)
-
-
-def test_all_sections_are_collapsed_at_first(panel):
-    assert len(sections(panel)) >= 3
-    assert not any(section.isExpanded() for section in sections(panel))
-
-
-def test_a_collapsed_section_is_hidden_and_opens_by_key(panel):
-    section = sections(panel)[0]
-    section.collapse()
-    assert not panel.stage.parameters.isVisible()
-    section.toggleButton().setFocus()
-    QTest.keyClick(section.toggleButton(), Qt.Key.Key_Space)
-    assert panel.stage.parameters.isVisible()
-    assert panel.stage.parameters.editor("scaling").height() > 15
-
-
-def test_widgets_do_not_move_when_the_sentence_changes(panel, qtbot):
-    def places():
-        panel.layout().activate()
-        return [part.pos() for part in (panel.buttons, *sections(panel))]
-
-    panel.set_status()
-    before = places()
-    panel.set_status(
-        8, 1.73, "Converged: no node moved more than the tolerance. 8 iterations in 1.73 s; no hex is left."
-    )
-    assert places() == before
-    panel.set_status()
-    assert places() == before
-
-
-def test_the_panel_keeps_its_width_during_a_long_run(panel):
-    panel.set_status()
-    before = panel.minimumSizeHint().width()
-    panel.set_status(123_456, 98_765.43, "Running.")
-    assert panel.minimumSizeHint().width() == before
-    assert "98765 s" in named(panel, QLabel, "Progress").toolTip()
-
-
-@pytest.mark.parametrize(("seconds", "said"), [(0.0, "0.00 s"), (1.839, "1.84 s"), (23.46, "23.5 s"), (412.7, "413 s")])
-def test_seconds_have_three_digits(panel, seconds, said):
-    panel.set_status(212, seconds)
-    assert named(panel, QLabel, "Progress").text() == f"212 iterations · {said}"

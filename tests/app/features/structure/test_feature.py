@@ -4,46 +4,35 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel, QLineEdit
 
-from hexmend import gallery, io
+from hexmend import io
 from hexmend.boundary import NodeClass
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.page import Page
-from hexmend_app.scene.layers.optional.structure import KINDS, LOCKED, PINNED, VALENCES
-from hexmend_app.shell.palette.command_palette import CommandPalette
+from hexmend_app.scene.layers.optional.structure import KINDS
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.mesh.structure import find_structure
-from hexmend_app.state.tasks.boundary_classifier import PIN
-from tests.app.driving import choose, click, open_and_wait, tick, turn
+from tests.app.driving import choose
 from tests.app.features.structure.layers import count, open_and_know, pixels, press_key, texts
-from tests.app.state.mesh.test_structure import tetrahedron
-from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
-pytestmark = pytest.mark.slow
 
-
-@pytest.mark.parametrize("name", ["irregular", "sharp", "fixed", "free"])
-def test_a_key_shows_and_hides_a_layer(five, name):
+def test_a_key_shows_and_hides_a_layer(five):
     before = pixels(five)
-    box = five.features["structure"].panel.layers[name].box
-    press_key(five, name)
-    assert five.session.view.look.structure == Structure.of(name)
+    box = five.features["structure"].panel.layers["irregular"].box
+    press_key(five, "irregular")
+    assert five.session.view.look.structure == Structure.of("irregular")
     assert box.isChecked()
-    assert five.window_actions[f"show_{name}"].isChecked()
-    if name != "free":  # of which none is in sight
-        assert (np.abs(pixels(five) - before).sum(axis=2) > 60).sum() > 100
-    press_key(five, name)
+    assert five.window_actions["show_irregular"].isChecked()
+    assert (np.abs(pixels(five) - before).sum(axis=2) > 60).sum() > 100
+    press_key(five, "irregular")
     assert five.session.view.look == Look(page=Page(shading=False))
     np.testing.assert_array_equal(pixels(five), before)
 
 
+@pytest.mark.slow
 def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
     press_key(five, "kinds")
     qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.is_on("kinds"), timeout=PATIENCE)
@@ -63,30 +52,7 @@ def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
     assert f"{after.count(NodeClass.CURVE)} on curves" in texts(panel, "kinds")
 
 
-def test_a_pin_changes_the_class_of_a_boundary_node(five, qtbot):
-    press_key(five, "kinds")
-    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.is_on("kinds"), timeout=PATIENCE)
-    node = int(np.flatnonzero(five.session.boundary_classifier.classes.kinds == NodeClass.PATCH)[0])
-    five.session.commands.pin(node, True)
-    qtbot.waitUntil(lambda: five.session.boundary_classifier.classes.kinds[node] == PIN, timeout=PATIENCE)
-    five.session.commands.undo()
-    qtbot.waitUntil(lambda: five.session.boundary_classifier.classes.kinds[node] == NodeClass.PATCH, timeout=PATIENCE)
-
-
-def test_locked_hexes_that_sliding_frees_are_counted(window, qtbot, tmp_path):
-    io.write(tmp_path / "ball.vtu", slid(ball(3), 0.6, seed=0))
-    open_and_wait(qtbot, window, tmp_path / "ball.vtu")
-    window.show_panel("show")
-    window.refresh()
-    qtbot.waitUntil(
-        lambda: window.session.boundary_classifier.of(window.session.document.now.mesh) is not None, timeout=PATIENCE
-    )
-    window.refresh()
-    classes = window.session.boundary_classifier.classes
-    said = texts(window.features["structure"].panel, "locked")
-    assert said == [f"of {classes.locked} hexes", f"{classes.freed} freed by sliding"]
-
-
+@pytest.mark.slow
 def test_the_original_surface_is_that_of_the_opened_mesh(five):
     press_key(five, "original")
     window, opened = five, five.session.document.start.mesh.points
@@ -102,104 +68,7 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
     assert not window.canvas.viewport.overlay_layers.optional["original"].shown
 
 
-def test_empty_layers_are_disabled(five):
-    assert not five.window_actions["show_boundary"].isEnabled()
-    assert not five.window_actions["show_locked"].isEnabled()
-    press_key(five, "boundary")
-    assert five.session.view.look.structure == Structure()
-
-
-def test_irregular_edges_are_shown_by_the_palette(five, qtbot):
-    five.window_actions["commands"].trigger()
-    field = five.findChild(CommandPalette).findChild(QLineEdit)
-    QTest.keyClicks(field, "irregular edges inside")
-    QTest.keyClick(field, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: five.session.view.look.structure.is_on("irregular"), timeout=PATIENCE)
-    assert count(pixels(five), VALENCES[5]) > 100
-
-
-def test_marks_follow_a_smoother(window, qtbot, tmp_path):
-    io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
-    open_and_know(qtbot, window, tmp_path / "five.vtu")
-    tick(window.features["structure"].panel.layers["irregular"].box)
-    marks = window.canvas.viewport.overlay_layers.structure.irregular_inside
-    before = np.array(marks.poly.points)
-    start = window.session.document.now
-    choose(window, "laplacian")
-    click(window, "Step")
-    qtbot.waitUntil(lambda: window.session.document.now is not start, timeout=PATIENCE)
-    window.refresh()
-    now = np.array(marks.poly.points)
-    assert not np.array_equal(now, before)
-    np.testing.assert_array_equal(now, window.session.document.now.mesh.points[marks.nodes])
-
-
-def test_a_pinned_node_changes_its_colour(five, qtbot):
-    tick(five.features["structure"].panel.layers["fixed"].box)
-    inside = int(np.flatnonzero(five.session.document.now.mesh.free)[0])
-    five.session.view.change(show={"peel": 1})
-    five.refresh()
-    assert count(pixels(five), PINNED) == 0
-    visible = five.canvas.viewport.mesh_layer.faces.nodes
-    inside = int(visible[five.session.document.now.mesh.free[visible]][0])
-    five.session.commands.pin(inside, True)
-    five.refresh()
-    assert texts(five.features["structure"].panel, "fixed")[1] == "1 pinned"
-    nodes = five.canvas.viewport.overlay_layers.structure.nodes.poly
-    assert (nodes.cell_data["colours"] == tuple(bytes.fromhex(PINNED[1:]))).all(axis=1).sum() == 1
-    five.session.commands.undo()
-    five.refresh()
-    assert len(texts(five.features["structure"].panel, "fixed")) == 1
-
-
-def test_boundary_counts_follow_the_mesh(window, qtbot, tmp_path):
-    mesh, one = grid(2), grid(1)
-    apart = Mesh(
-        np.concatenate([mesh.points, one.points + 9]), np.concatenate([mesh.hexes, one.hexes + len(mesh.points)])
-    )
-    panel = window.features["structure"].panel
-    for name, each, boundary in (("one", mesh, 26), ("two", apart, 34)):
-        io.write(tmp_path / f"{name}.vtu", each)
-        open_and_wait(qtbot, window, tmp_path / f"{name}.vtu")
-        window.refresh()
-        assert texts(panel, "free") == ["1"]
-        assert texts(panel, "fixed") == [f"{boundary} boundary"]
-
-
-def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
-    mesh = grid(3)
-    points = mesh.points.copy()
-    points[15] += [-1.5, 0, 0]
-    io.write(tmp_path / "locked.vtu", Mesh(points, mesh.hexes))
-    open_and_know(qtbot, window, tmp_path / "locked.vtu")
-    press_key(window, "locked")
-    assert count(pixels(window), LOCKED) > 20
-    from PIL import Image
-
-    assert window.features["save"].picture(tmp_path / "locked.png", (640, 480))
-    image = np.asarray(Image.open(tmp_path / "locked.png").convert("RGB")).astype(int)
-    assert count(image, LOCKED) > 20
-
-
-@pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
-def test_nothing_is_cut_off(five, qtbot, size):
-    five.resize(*size)
-    panel = five.features["structure"].panel
-    panel.set_nodes(1_234_567, 12_345, 1_234_567, 12_345)
-    five.session.view.change(structure=Structure.of("irregular"))
-    found = find_structure(tetrahedron())
-    valence = np.repeat([3, 5, 6, 7, 8], [14_461, 10_776, 1_048, 303, 10])
-    panel.set_found(type(found)(found.interior, valence, np.arange(8672), found.boundary, valence, found.sharp))
-    five.refresh()
-    turn()
-    for layer in panel.layers.values():
-        assert layer.box.width() >= layer.box.sizeHint().width()
-        for label in layer.entries.findChildren(QLabel):
-            if label.isVisible():
-                assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
-    assert panel.mapTo(five, panel.rect().bottomRight()).x() < size[0]
-
-
+@pytest.mark.slow
 def test_other_cells_are_shown_and_reported(window, qtbot, tmp_path):
     bare = grid(2, 2, 1)
     tip = bare.points[bare.hexes[0, 4:]].mean(axis=0) + [0, 0, 1]

@@ -15,6 +15,8 @@ from tests.app.features.structure.layers import count, pixels, press_key, texts
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 
 def begin_searching(window):
     """Not waited for: a small mesh's search may be over between two looks at it."""
@@ -22,7 +24,6 @@ def begin_searching(window):
     assert window.session.structure_finder.busy
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("searching", [False, True])
 def test_closing_during_the_search_leaves_no_thread(fresh_window, qtbot, mesh_file, searching):
     window = fresh_window

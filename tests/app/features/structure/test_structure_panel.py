@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QLabel
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.features.structure.structure_panel import StructurePanel
@@ -14,7 +11,6 @@ from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.layers.optional.original_surface import OriginalSurface
 from hexmend_app.shell.start.program import application
 from hexmend_app.state.mesh.structure import find_structure
-from tests.app.driving import turn
 from tests.app.features.structure.layers import press, texts
 from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.grids import grid
@@ -67,17 +63,6 @@ def test_edges_are_counted_by_valence(panel):
     assert texts(panel, "boundary") == [f"{12 * 8} of 1"]
 
 
-def test_no_count_is_cut_off_in_a_narrow_column(panel, qtbot):
-    valence = np.repeat([3, 5, 6, 7], [14461, 10776, 1048, 313])
-    panel.set_found(dataclasses.replace(find_structure(tetrahedron()), interior_valence=valence))
-    panel.set_nodes(9156, 120, 28317, 44)
-    panel.resize(280, 400)
-    turn()
-    for label in panel.findChildren(QLabel):
-        if label.isVisible():
-            assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
-
-
 def test_curved_faces_are_offered_for_hexes_with_mid_nodes_alone(panel):
     panel.set_curved(None)
     assert not panel.layers["curved"].box.isVisible()
@@ -113,13 +98,3 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     press(panel.layers["irregular"].box)
     assert heard == [Structure()]
     assert not panel.offered()["irregular"]
-
-
-def test_a_click_adds_a_layer(panel):
-    panel.set_found(find_structure(grid(2)))
-    heard = []
-    panel.structure_changed.connect(heard.append)
-    panel.set_structure(Structure.of("locked"))
-    press(panel.layers["sharp"].box)
-    press(panel.layers["sharp"].box)
-    assert heard == [Structure.of("sharp", "locked"), Structure.of("locked")]

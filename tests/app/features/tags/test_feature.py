@@ -9,8 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableWidget
 
 from hexmend import io
-from hexmend.run import StoppingCriteria
-from tests.app.driving import LEFT, choose, click, key, named, press
+from tests.app.driving import LEFT, key, press
 from tests.patience import PATIENCE
 
 
@@ -65,6 +64,7 @@ def test_a_hex_is_tagged_and_untagged_by_key_undone_and_saved(window, panel, tmp
     assert kept.hex_sets["tagged"].tolist() == sorted([first, second])
 
 
+@pytest.mark.slow
 def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
     name = panel.findChild(QComboBox)
     name.lineEdit().selectAll()
@@ -86,17 +86,7 @@ def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
     assert list(tags(window)) == ["bad ones"]
 
 
-def test_a_typed_name_is_not_completed_or_added(window, panel):
-    window.session.commands.tag("Tagged", [1])
-    window.refresh()
-    name = panel.findChild(QComboBox)
-    name.lineEdit().selectAll()
-    QTest.keyClicks(name.lineEdit(), "tagged")
-    QTest.keyClick(name.lineEdit(), Qt.Key.Key_Return)
-    assert panel.name == "tagged"
-    assert [name.itemText(at) for at in range(name.count())] == ["Tagged"]
-
-
+@pytest.mark.slow
 def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
     window.session.commands.tag("one", [1, 2])
     window.session.commands.tag("two", [3])
@@ -119,37 +109,3 @@ def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
     write(0, "two")
     assert tags(window) == {"three": [1, 2], "two": [3]}
     assert listed(panel)[0][0] == "three"
-
-
-@pytest.mark.slow
-def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot):
-    window.session.commands.tag("kept", [5])
-    choose(window, "laplacian")
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
-    assert tags(window) == {"kept": [5]}
-    window.session.commands.tag("later", [6])
-    window.session.commands.reset()
-    assert tags(window) == {"kept": [5], "later": [6]}
-    np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
-
-
-def test_tagging_keeps_the_displayed_iteration(window, panel, qtbot):
-    choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
-    shown = named(window, QLabel, "Iteration shown")
-    window.refresh()
-    before = shown.text()
-    assert before.endswith("of 3")
-    window.session.commands.tag("bad", [5])
-    window.refresh()
-    assert shown.text() == before
-
-
-def test_a_format_without_tags_is_reported(window, panel, tmp_path):
-    window.session.commands.tag("lost", [5])
-    assert window.features["save"].save_and_wait(tmp_path / "mesh.mesh")
-    kind, title, text = window.messages.messages()[-1]
-    assert (kind, title) == ("warning", "Some data was not saved")
-    assert "lost" in text

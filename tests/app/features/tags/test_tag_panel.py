@@ -51,22 +51,6 @@ def test_a_refused_tag_has_a_reason(panel, refused, rows, selected, busy, name, 
     assert any(word in text or ("Select a hex" in text and not busy and name.strip()) for text in said(panel))
 
 
-def test_a_selected_hex_is_tagged(panel, refused):
-    panel.set_state(True, False)
-    panel.toggle()
-    assert refused == ["tagged tagged"]
-
-
-def test_the_panel_keeps_its_height(panel):
-    heights = set()
-    for selected, busy in ((True, False), (False, False), (True, True)):
-        panel.set_tags([TagRow("one", 3, 0, 0.5)])
-        panel.set_state(selected, busy)
-        panel.layout().activate()
-        heights.add(panel.findChild(QComboBox).geometry().top())
-    assert len(heights) == 1
-
-
 @pytest.fixture
 def host(qtbot):
     host = PlainHost(scrambled(grid(4), 0.3))

@@ -45,6 +45,7 @@ def test_runs_slide_on_a_chosen_surface(window, qtbot, stl):
     assert "from fine.stl" in window.session.timeline.record.advice.surface
 
 
+@pytest.mark.slow
 def test_it_is_shown_as_a_ghost_until_it_is_removed(window, stl):
     window.features["target_surface"].choose(stl)
     window.refresh()
@@ -62,6 +63,7 @@ def test_it_is_shown_as_a_ghost_until_it_is_removed(window, stl):
     assert not ghost.shown
 
 
+@pytest.mark.slow
 def test_the_choice_is_undone_and_kept_in_sessions(window, qtbot, stl, tmp_path):
     window.features["target_surface"].choose(stl)
     assert window.features["open"].save_and_wait(tmp_path / "ball.hexmend")
@@ -73,6 +75,7 @@ def test_the_choice_is_undone_and_kept_in_sessions(window, qtbot, stl, tmp_path)
     assert target(window).name == "fine.stl"
 
 
+@pytest.mark.slow
 def test_a_surface_that_does_not_fit_is_refused(window, stl, tmp_path):
     write_stl(tmp_path / "far.stl", SkinSurface(1000 * SKIN.points, SKIN.faces))
     before = window.session.document.now
@@ -82,6 +85,7 @@ def test_a_surface_that_does_not_fit_is_refused(window, stl, tmp_path):
         assert window.session.document.now is before
 
 
+@pytest.mark.slow
 def test_the_script_reads_the_surface(window, stl):
     window.features["target_surface"].choose(stl)
     text = window.features["script"].text

@@ -1,7 +1,5 @@
 """The timeline in the window, by mouse and keys: scrubbing, playing, branching, breakpoints."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QSettings, Qt
@@ -11,7 +9,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QDoubleSpinBox, QLabel, QSpi
 from hexmend.run import StoppingCriteria
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, open_and_wait, phase, pixels
+from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, phase, pixels
 from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
 
@@ -77,13 +75,6 @@ def check(window, text):
     assert box.isChecked()
 
 
-def test_the_bar_is_disabled_without_a_run(window):
-    bar = window.features["timeline"].panel
-    assert bar.isVisible()
-    assert not any(bar.button(name).isEnabled() for name in ("first", "back", "play", "on", "newest", "branch"))
-    assert not window.window_actions["iteration_play"].isEnabled()
-
-
 @pytest.mark.slow
 def test_everything_follows_the_slider(window, qtbot):
     record = stepped(window, qtbot)
@@ -115,25 +106,6 @@ def test_shortcuts_show_other_iterations(window, qtbot):
     key(window, Qt.Key.Key_End, Qt.KeyboardModifier.AltModifier)
     assert at(window, 12)()
     assert window.session.timeline.live
-
-
-@pytest.mark.slow
-def test_buttons_and_playing(window, qtbot):
-    stepped(window, qtbot)
-    window.session.timeline.set_speed(60)
-    press(window, "first")
-    assert at(window, 0)()
-    press(window, "play")
-    assert window.features["timeline"].panel.button("play").accessibleName() == "Pause"
-    qtbot.waitUntil(lambda: not window.session.timeline.playing, timeout=PATIENCE)
-    assert at(window, 12)()
-    press(window, "back")
-    press(window, "back")
-    assert at(window, 10)()
-    key(window, Qt.Key.Key_K)
-    assert window.session.timeline.playing
-    key(window, Qt.Key.Key_K)
-    assert not window.session.timeline.playing
 
 
 @pytest.mark.slow
@@ -175,6 +147,7 @@ def test_a_breakpoint_pauses_and_selects_the_hex(window, qtbot):
     assert frame.hit.sentence in slider(window).toolTip()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "method", "chooses"), [("Node moves", "laplacian", True), ("Line search backtracks", "global-sd", False)]
 )
@@ -196,23 +169,7 @@ def test_breakpoints_for_a_node_and_for_the_line_search(window, qtbot, text, met
     assert window.session.selection.node == (node if chooses else None)
 
 
-def test_saving_writes_the_displayed_iteration(window, qtbot, tmp_path):
-    from hexmend import io
-
-    record = stepped(window, qtbot)
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Stop")
-    go(window, qtbot, 5)
-    path = Path(tmp_path) / "five.vtu"
-    assert window.features["save"].save_and_wait(path)
-    np.testing.assert_array_equal(io.read(path).points, window.session.document.now.mesh.points)
-    assert not window.session.document.modified
-    assert window.session.document.undo_title == f"go to {record.name} 5"
-    window.session.document.undo()
-    assert window.session.document.modified
-    assert at(window, 12)()
-
-
+@pytest.mark.slow
 def test_memory_and_speed_are_remembered(window, qtbot):
     record = stepped(window, qtbot)
     each = (window.session.history.bytes) // 12
@@ -237,15 +194,6 @@ def test_memory_and_speed_are_remembered(window, qtbot):
 
 
 @pytest.mark.slow
-def test_another_mesh_has_an_empty_timeline(window, qtbot, mesh_file):
-    stepped(window, qtbot)
-    open_and_wait(qtbot, window, mesh_file)
-    window.refresh()
-    assert named(window.features["timeline"].panel, QComboBox, "Run").count() == 0
-    assert not window.features["timeline"].panel.button("play").isEnabled()
-
-
-@pytest.mark.slow
 def test_the_method_can_change_while_a_run_is_paused(window, qtbot):
     record = stepped(window, qtbot, 4)
     click(window, "Step")
@@ -266,15 +214,6 @@ def test_the_method_can_change_while_a_run_is_paused(window, qtbot):
     assert window.session.document.undo_title == "Local steepest descent"
     window.session.document.undo()
     assert window.session.document.now is window.session.document.start
-
-
-@pytest.mark.slow
-def test_an_unchanged_run_resumes_as_it_was(window, qtbot):
-    record = stepped(window, qtbot, 3, "local-nr")
-    with qtbot.assertNotEmitted(window.features["smooth"].panel.change_requested):
-        click(window, "Step")
-        qtbot.waitUntil(at(window, 6), timeout=PATIENCE)
-    assert {row["method"] for row in record.rows} == {"local-nr"}
 
 
 @pytest.mark.slow

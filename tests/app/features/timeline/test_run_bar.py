@@ -36,6 +36,7 @@ def test_a_run_is_started_paused_stepped_and_stopped_below_the_view(window, qtbo
     assert bar_of(window).state == "Stopped"
 
 
+@pytest.mark.slow
 def test_a_result_that_is_undone_or_reset_is_not_called_converged(window, qtbot):
     bar = bar_of(window)
     choose(window, "local-sd", StoppingCriteria(max_iterations=3, tolerance=0))
@@ -62,6 +63,7 @@ def test_every_outcome_has_a_word(qapp, outcome):
     bar.deleteLater()
 
 
+@pytest.mark.slow
 def test_a_failed_run_says_so(window, qtbot, monkeypatch):
     def steps(self, mesh):
         yield Step(mesh.points)

@@ -9,6 +9,8 @@ from tests.app.driving import named, open_and_wait
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def case(tmp_path):

@@ -1,7 +1,6 @@
 """Flights of the camera between poses."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from vtkmodules.vtkRenderingCore import vtkCamera
@@ -43,30 +42,9 @@ def test_a_flight_starts_at_the_current_pose_and_ends_at_the_goal(start, goal):
     assert pose_of(camera).looks_like(goal)
 
 
-@given(poses(), poses(), st.floats(0.05, 0.95))
-def test_poses_during_a_flight_are_valid_and_between_start_and_goal(start, goal, share):
-    camera = camera_in(start)
-    Flight(camera, goal).at(share)
-    far = camera.GetDistance()
-    low, high = sorted([start.distance, goal.distance])
-    assert low * (1 - 1e-6) <= far <= high * (1 + 1e-6)
-    assert abs(np.dot(camera.GetViewUp(), camera.GetDirectionOfProjection())) < 1e-6
-    low, high = np.sort([start.focal, goal.focal], axis=0)
-    assert (low - 1e-6 <= camera.GetFocalPoint()).all()
-    assert (camera.GetFocalPoint() <= high + 1e-6).all()
-
-
 def test_a_flight_takes_the_shorter_rotation():
     start = CameraPose((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0, "z")
     goal = CameraPose((0.0, -1.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0, "z")
     camera = camera_in(start)
     Flight(camera, goal).at(0.5)
     np.testing.assert_allclose(camera.GetPosition(), (0.5**0.5, -(0.5**0.5), 0), atol=1e-9)
-
-
-def test_a_flight_has_the_projection_of_the_goal():
-    start = CameraPose((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0, "z")
-    camera = camera_in(start)
-    Flight(camera, CameraPose(start.position, start.focal, start.up, True, 4.0, "z")).at(0.5)
-    assert camera.GetParallelProjection()
-    assert camera.GetParallelScale() == pytest.approx(2.0)

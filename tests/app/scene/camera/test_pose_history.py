@@ -21,12 +21,6 @@ def three():
     return poses
 
 
-def test_a_new_history_is_empty():
-    poses = PoseHistory()
-    assert (poses.can_go_back, poses.can_go_forward) == (False, False)
-    assert (poses.back(), poses.forward()) == (None, None)
-
-
 def test_back_ends_at_the_first_pose_and_forward_at_the_last(three):
     assert [three.back(), three.back(), three.back()] == [pose(1), pose(0), None]
     assert not three.can_go_back
@@ -56,9 +50,3 @@ def test_the_oldest_of_many_poses_are_dropped():
     for k in range(10):
         poses.add(pose(k))
     assert [poses.back() for _ in range(4)] == [pose(8), pose(7), pose(6), None]
-
-
-def test_clear_drops_all_poses(three):
-    three.clear()
-    assert not three.can_go_back
-    assert three.add(pose(2))

@@ -9,11 +9,9 @@ from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.name_list import NameList
 from hexmend_app.picture import ColourBarStyle, Colours, Page, Scene, TextPlace
 from hexmend_app.picture.appearance import Look
-from hexmend_app.scene.colour.colouring import INVERTED, Colouring, resolve
+from hexmend_app.scene.colour.colouring import INVERTED, resolve
 from hexmend_app.scene.colour.hex_colours import HexColours
-from hexmend_app.scene.colour.material_colours import material_names, material_table
-from hexmend_app.scene.film.film_histogram import count_bars, draw_histogram
-from hexmend_app.scene.film.frame_parts import colour_bar
+from hexmend_app.scene.colour.material_colours import material_table
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
@@ -47,11 +45,6 @@ def test_hexes_have_the_colour_of_their_material_and_inverted_ones_magenta():
     assert tuple(inverted[0]) == INVERTED
 
 
-def test_a_mesh_of_one_material_has_one_colour_and_name():
-    assert material_names(ONE) == ("one material",)
-    assert (measured(ONE).of(np.arange(64)) == material_table(1)).all()
-
-
 def test_thirty_materials_have_different_colours_and_none_is_that_of_inverted_hexes():
     table = material_table(31)
     assert len(np.unique(table[:30], axis=0)) == 30
@@ -67,17 +60,6 @@ def test_a_page_has_a_legend_with_the_materials(place):
     image = page.crop((legend.left, legend.top, legend.left + legend.width, legend.top + legend.height))
     for colour in (*material_table(2), INVERTED):
         assert has(image, colour)
-
-
-def test_a_film_has_a_legend_and_a_histogram_with_the_materials():
-    bar = colour_bar(NAMED, [("inverted", 0, INVERTED)], (640, 40))
-    counts = count_bars(np.repeat([0.0, 1.0], 32), np.zeros(64, np.int8), NAMED)
-    chart = draw_histogram(counts, NAMED, (300, 300), 1.0)
-    for colour in material_table(2):
-        assert has(bar, colour)
-        assert has(chart, colour)
-    many = Colouring("Material", 0.0, 99.0, material_table(100), names=tuple(f"name {k}" for k in range(100)))
-    assert colour_bar(many, [("inverted", 0, INVERTED)], (640, 40)).size == (640, 40)
 
 
 def test_the_window_lists_the_materials_in_place_of_the_gradient(shown):

@@ -65,12 +65,6 @@ def test_a_plane_that_only_the_bulge_of_a_hex_reaches_has_a_section():
     assert section.area == pytest.approx(2 * np.sqrt(4 - height**2), rel=0.05)
 
 
-def test_hidden_hexes_have_no_section():
-    mesh = curved_shell(20, around=2)
-    section = cut_of(mesh, smooth(HALF), keep=np.array([True, False]))
-    assert set(hexes_of(section)) == {0}
-
-
 @pytest.mark.parametrize("height", [0.0, 1 / 3, 0.5, 2 / 3, 1.0])
 def test_faces_in_a_plane_are_drawn_once(height):
     mesh = curved_shell(27, around=2, along=3)

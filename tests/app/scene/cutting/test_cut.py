@@ -63,10 +63,6 @@ def test_hidden_hexes_are_not_cut():
     assert got.area == pytest.approx(1)
 
 
-def test_a_plane_outside_the_mesh_cuts_nothing():
-    assert cut.sections(MESH.points, MESH.hexes, None, Cut.at((1, 0, 0), (9, 0, 0)), COLOURS).n_cells == 0
-
-
 def test_the_remaining_skin_lies_in_front_of_the_plane():
     faces = Skin(MESH).visible()
     skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes], faces.hexes)

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.cutting.coarse_section import coarse_section
 from hexmend_app.scene.cutting.moving_planes import MOST_PLANES, MovingPlanes
-from hexmend_app.scene.geometry import plane_sides
 from hexmend_app.scene.geometry.plane_sides import centres_kept
 from hexmend_app.scene.geometry.skin import Skin
 from tests.core.grids import grid, scrambled
@@ -62,15 +61,3 @@ def test_small_faces_become_squares_in_the_plane_and_large_ones_stay(cells):
     sides = np.linalg.norm(np.roll(corners.reshape(-1, 4, 3), -1, axis=1) - corners.reshape(-1, 4, 3), axis=2)
     np.testing.assert_allclose(sides, 4.0)
     assert len({tuple(place) for place in corners.reshape(-1, 4, 3).mean(axis=1).round(9)}) == len(owners)
-
-
-def test_heights_are_computed_once_while_a_plane_moves_and_again_after_they_are_freed(monkeypatch):
-    computed, compute = [], plane_sides.centre_heights
-    monkeypatch.setattr(plane_sides, "centre_heights", lambda *args: computed.append(1) or compute(*args))
-    moving = MovingPlanes(MESH)
-    for z, expected in ((1.6, 1), (2.2, 1), (9.0, 1)):
-        moving.kept(MESH.points, [Plane((0.0, 0.0, 1.0), point=(0.0, 0.0, z))], False)
-        assert len(computed) == expected
-    moving.forget()
-    moving.kept(MESH.points, [Plane((0.0, 0.0, 1.0), point=(0.0, 0.0, 9.0))], False)
-    assert len(computed) == 2

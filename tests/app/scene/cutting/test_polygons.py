@@ -56,8 +56,3 @@ def test_a_plane_through_corners_leaves_the_part_in_front():
     outside = square.before(np.array([[1.0, 0, 0]]), np.array([-2.0]))
     assert len(outside) == len(outside.points) == 0
     assert outside.start.tolist() == [0]
-
-
-def test_clipping_no_polygons_returns_none():
-    none = Polygons(np.empty((0, 3)), np.zeros(1, np.int64), np.empty(0, np.int64), np.empty(0, np.int64))
-    assert len(none.before(np.eye(3), np.ones(3))) == 0

@@ -6,11 +6,9 @@ import pyvista as pv
 
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.visibility import Isolate, Show
-from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
+from hexmend_app.scene.geometry.curved_faces import CurvedFaces
 from hexmend_app.scene.geometry.edge_flags import edge_flags, normals_of
 from hexmend_app.scene.geometry.skin import Skin
-from hexmend_app.scene.layers import mesh as mesh_layer
 from hexmend_app.scene.layers.invalid_outline import outlines
 from hexmend_app.scene.layers.surface import hexes_of
 from hexmend_app.scene.render.stage import Stage
@@ -132,55 +130,8 @@ def test_moved_faces_are_those_of_the_moved_mesh():
     np.testing.assert_array_equal(poly.cell_data["colours"], expected.cell_data["colours"])
 
 
-def test_shrunk_hexes_keep_their_shape():
-    mesh = curved_shell(27, around=1)
-    _, poly, _ = faces(mesh, 3, shrink=0.5)
-    _, whole, _ = faces(mesh, 3)
-    centre = mesh.points[mesh.hexes[0]].mean(axis=0)
-    np.testing.assert_allclose(poly.points - centre, (whole.points - centre) / 2, atol=1e-12)
-
-
-def test_more_faces_are_divided_less():
-    numbers = [divisions_of(n) for n in (0, 6, 300, 1000, 5766, 60_000, 60_001)]
-    assert numbers == [8, 8, 8, 4, 2, 2, 1]
-    assert all(n * divisions_of(n) ** 2 <= 20_000 for n in range(1, 5000))
-
-
 def drawn(viewport):
     return pv.wrap(viewport.mesh_layer.skin.actor.GetMapper().GetInput())
-
-
-def test_an_isolated_hex_is_finer_than_the_mesh_and_has_curved_ghosts(seen):
-    viewport, draw = seen
-    mesh = curved_shell(20, through=6, around=6, along=6)
-    draw(mesh)
-    assert drawn(viewport).n_cells == 216 * divisions_of(216) ** 2
-    look = Look(show=Show(isolate=Isolate((215,), 1)))
-    draw(mesh, look)
-    assert drawn(viewport).n_cells == 6 * 64
-    ghosts = viewport.overlay_layers.ghosts.places
-    radii = np.linalg.norm(ghosts[:, :2], axis=1)
-    on_outer_wall = np.abs(radii - 2) < 1e-4
-    assert np.count_nonzero(on_outer_wall) > 8 * 4 * 8  # more than the corners
-    draw(mesh.with_points(mesh.points * [1, 1, 2]), look)
-    assert viewport.overlay_layers.ghosts.places[:, 2].max() == pytest.approx(2)
-
-
-def test_many_parts_are_drawn_flat_while_only_the_camera_moves(seen, monkeypatch):
-    viewport, draw = seen
-    mesh = curved_shell(20, through=2, around=3)
-    draw(mesh)
-    fine = drawn(viewport)
-    viewport.turning()
-    assert drawn(viewport) is fine
-    monkeypatch.setattr(mesh_layer, "MANY", 1000)
-    viewport.turning()
-    flat = drawn(viewport)
-    assert flat.n_cells == fine.n_cells / 64
-    corners = np.unique(mesh.points[Skin(mesh).visible().nodes].round(9), axis=0)
-    np.testing.assert_allclose(np.unique(flat.points.round(9), axis=0), corners, atol=1e-8)
-    viewport.still()
-    assert drawn(viewport).n_cells == fine.n_cells
 
 
 def test_a_switch_draws_the_hexes_by_their_corners(seen):

@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.kernels import set_threads, threads
 from hexmend_app.scene.cutting.polygons import Polygons
-from hexmend_app.scene.geometry.occlusion import DARKEST, ambient_light, brightness, directions, normals
+from hexmend_app.scene.geometry.occlusion import ambient_light, directions
 from hexmend_app.scene.geometry.skin import Skin
 from tests.core.grids import grid, scrambled
 
@@ -96,27 +96,3 @@ def test_the_computation_can_be_cancelled():
     polygons, _ = faces(grid(2, 2, 2))
     assert ambient_light(polygons, lambda: asked.append(1) or len(asked) < 3) is None
     assert len(asked) == 3
-
-
-def test_no_polygons_give_empty_results():
-    nothing = Polygons(np.zeros((0, 3)), np.zeros(1, np.int64), np.zeros(0, np.int64), np.zeros(0, np.int64))
-    assert ambient_light(nothing).shape == (0,)
-    assert normals(nothing).shape == (0, 3)
-
-
-def test_a_warped_quad_has_the_normal_across_its_diagonals():
-    points = np.array([[0, 0, 0.2], [1, 0, 0], [1, 1, 0.3], [0, 1, 0]], float)
-    expected = np.cross(points[2] - points[0], points[3] - points[1])
-    one = Polygons(points + 1e6, np.array([0, 4]), np.arange(4), np.zeros(1, np.int64))
-    np.testing.assert_allclose(normals(one)[0], expected / np.linalg.norm(expected), atol=1e-9)
-
-
-def test_a_polygon_without_an_area_has_no_normal():
-    one = Polygons(np.zeros((4, 3)), np.array([0, 4]), np.arange(4), np.zeros(1, np.int64))
-    np.testing.assert_array_equal(normals(one), 0)
-    np.testing.assert_array_equal(ambient_light(one), 1)
-
-
-def test_dark_colours_remain_distinguishable():
-    np.testing.assert_allclose(brightness(np.array([0.0, 1.0])), [DARKEST, 1.0])
-    assert DARKEST >= 0.4

@@ -36,12 +36,3 @@ def test_results_agree_with_numpy(seed, planes, notch, along_axes):
     np.testing.assert_array_equal(
         touched(points, MESH.hexes, normals, offsets, notch), ~(before | beyond) & ~hidden[:, None]
     )
-
-
-def test_no_planes_or_no_hexes_give_empty_results():
-    none, normals, offsets = np.empty((0, 8), np.int32), np.eye(3), np.ones(3)
-    assert touched(MESH.points, none, normals, offsets, False).shape == (0, 3)
-    assert centres_kept(MESH.points, none, normals, offsets, False).shape == (0,)
-    assert touched(np.empty((0, 3)), none, normals, offsets, True).shape == (0, 3)
-    assert touched(MESH.points, MESH.hexes, normals[:0], offsets[:0], False).shape == (24, 0)
-    assert centres_kept(MESH.points, MESH.hexes, normals[:0], offsets[:0], False).all()

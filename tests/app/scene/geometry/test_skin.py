@@ -84,12 +84,6 @@ def test_edges_of_kept_hexes_are_kept(size, seed):
     assert {frozenset(edge) for edge in edges[kept].tolist()} == expected
 
 
-def test_no_kept_hexes_give_no_faces():
-    mesh = grid(2)
-    faces, _ = visible_faces(mesh, np.zeros(8, dtype=bool))
-    assert len(faces.quads) == len(faces.nodes) == 0
-
-
 @given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([None, "in sight", "all", "fine"]))
 def test_a_face_is_opened_if_it_is_inside_the_mesh(size, seed, shrunk):
     mesh = grid(*size)

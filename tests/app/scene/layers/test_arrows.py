@@ -86,16 +86,6 @@ def test_visible_or_all_nodes_that_have_moved_have_arrows(viewport):
     assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)
 
 
-def test_the_longest_of_many_arrows_are_drawn(viewport, monkeypatch):
-    monkeypatch.setattr(layer, "MAX_ARROWS", 20)
-    look_at(viewport, Look(movement=Traces(arrows=Arrows.ALL)))
-    move(viewport)
-    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (20, int(MESH.free.sum()))
-    starts = np.asarray(viewport.overlay_layers.arrows.lines.points)[::7]
-    longest = np.argsort(np.linalg.norm(NOW - MESH.points, axis=1))[-20:]
-    np.testing.assert_allclose(starts, MESH.points[np.sort(longest)])
-
-
 def test_arrows_are_drawn_move_with_the_nodes_and_are_removed(viewport, drawn):
     without = drawn()
     look_at(viewport, Look(cut=CUT, movement=Traces(arrows=Arrows.SIGHT, factor=1)))
@@ -125,9 +115,3 @@ def test_colours_of_a_change_distinguish_newly_invalid_and_mended_hexes(viewport
     assert colouring.title == "change of q(H) since then"
     assert not np.array_equal(colouring.table[0], colouring.table[-1])
     assert colouring.table[127:129].min() > 230  # nothing has changed in the middle
-
-
-def test_without_a_movement_nothing_has_moved(viewport):
-    look_at(viewport, Look(movement=Traces(arrows=Arrows.ALL), colours=Colours(metric="moved-most")))
-    assert (viewport.colouring.low, viewport.colouring.high) == (0.0, 1.0)
-    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)

@@ -78,17 +78,6 @@ def test_edges_between_smoothly_joined_faces_are_not_sharp(viewport):
     assert viewport.overlay_layers.outline is not outline
 
 
-def test_marks_of_sharp_edges_are_curved_and_move(viewport):
-    draw(viewport, structure=Structure.of("sharp"))
-    sharp = viewport.overlay_layers.structure.sharp
-    assert sharp.count == len(sharp_edges(MESH.points, MESH.topology.boundary_faces))
-    assert radii(sharp.poly.points).min() > 0.99  # a chord of the inner wall is at 0.89
-    draw(viewport, MESH.with_points(MESH.points * 3), structure=Structure.of("sharp"))
-    assert radii(sharp.poly.points).max() == pytest.approx(6, abs=0.03)
-    draw(viewport, structure=Structure.of("sharp").without("curved"))
-    assert sharp.poly.n_points == len(np.unique(sharp_edges(MESH.points, MESH.topology.boundary_faces)))
-
-
 def test_an_inverted_hex_is_outlined_along_its_curved_edges(viewport):
     points = MESH.points.copy()
     h = MESH.hexes[2]

@@ -44,15 +44,3 @@ def test_edges_fade_out_on_small_polygons(colour):
     assert large > 10  # 4 pixels a square: lines
     assert small < 0.5 * large  # 2 pixels, of which half were lines
     assert smallest < 1  # 1.3 pixels: none
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("pen", [2.0, 4.0])
-def test_edges_scale_with_the_pixel_ratio(pen):
-    """Lines cover the same fraction of an enlarged picture."""
-    face = np.median(board(8, BRIGHT))
-    drawn, large, thin = (
-        (face - board(8, BRIGHT, round(320 * times), width)).mean() for times, width in ((1, 1), (pen, pen), (pen, 1))
-    )
-    assert 0.8 * drawn < large < 1.25 * drawn
-    assert thin < 0.7 * drawn

@@ -61,13 +61,6 @@ def test_hexes_dug_out_or_cut_away_are_no_ghosts(viewport):
     assert not ghosts[61]
 
 
-def test_there_are_no_ghosts_without_isolation(viewport):
-    viewport.draw(frame(show=Show(isolate=Isolate((MIDDLE,), 1))))
-    viewport.draw(frame())
-    assert viewport.filters.ghosts(viewport.frame) is None
-    np.testing.assert_allclose(np.ptp(viewport.places, axis=0), 5)
-
-
 def test_an_isolated_hex_is_visible_through_its_ghosts(stage, viewport):
     viewport.draw(frame(show=Show(isolate=Isolate((MIDDLE,), 1), outline=False)))
     apply_pose(viewport.camera, CameraPose((7, -5, 7), (2.5, 2.5, 2.5), (0, 0, 1), False, 1.0, "z"))

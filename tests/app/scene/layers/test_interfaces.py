@@ -9,7 +9,6 @@ from hexmend_app.scene.layers.optional.interfaces import InterfaceLayer
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.theme.palette import INTERFACE
 from tests.core.grids import grid
 
 ONE = grid(4)
@@ -48,8 +47,3 @@ def test_an_unchanged_interface_is_not_built_again_and_moves_with_its_nodes(pane
     assert layer.poly is poly
     layer.draw(frame(TWO.with_points(TWO.points + 1)), None)
     assert (layer.places[:, 0] == 3).all()
-
-
-def test_the_legend_counts_the_nodes_and_is_empty_for_one_material():
-    assert InterfaceLayer.legend(ONE) == []
-    assert InterfaceLayer.legend(TWO) == [(INTERFACE, True, "9 inside")]

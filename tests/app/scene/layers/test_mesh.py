@@ -12,7 +12,6 @@ from hexmend_app.picture.page import Page
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.colouring import OPENED, OUTSIDE
 from hexmend_app.scene.geometry import occlusion
-from hexmend_app.scene.layers import mesh as module
 from hexmend_app.scene.layers.surface import colours_of
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
@@ -69,15 +68,6 @@ def test_shading_that_is_known_or_switched_off_is_not_computed(viewport):
     np.testing.assert_allclose(shades(viewport), 1)
 
 
-def test_other_colours_have_the_same_shading(viewport):
-    draw(viewport)
-    viewport.shade()
-    before = shades(viewport)
-    draw(viewport, Look(show=Show(hidden=STEP.show.hidden), colours=Colours(map="plasma", reverse=True)))
-    assert viewport.mesh_layer.needs_shading is None
-    np.testing.assert_allclose(shades(viewport), before, atol=0.05)  # but for rounding
-
-
 def test_shading_is_dropped_when_nodes_move(viewport):
     draw(viewport)
     viewport.shade()
@@ -94,32 +84,6 @@ def test_shading_of_an_outdated_scene_is_rejected(viewport):
     draw(viewport, Look())
     assert not viewport.mesh_layer.apply_shading(polygons, light)
     np.testing.assert_allclose(shades(viewport), 1)
-
-
-def test_shading_remains_while_the_camera_moves(viewport, monkeypatch):
-    draw(viewport)
-    viewport.shade()
-    fine = drawn(viewport)
-    viewport.turning()
-    assert drawn(viewport) is fine or drawn(viewport).n_points == fine.n_points
-    monkeypatch.setattr(module, "MANY", 10)
-    viewport.still()
-    viewport.turning()
-    coarse = drawn(viewport)
-    assert coarse.n_points < fine.n_points
-    assert len(np.unique(colours_of(coarse), axis=0)) > len(np.unique(colours_of(fine), axis=0))
-
-
-def test_a_fine_quad_has_one_normal_and_its_own_corners(viewport):
-    mesh = MESH.with_points(MESH.points + 0.2 * np.random.default_rng(0).random(MESH.points.shape))
-    draw(viewport, Look(), mesh)
-    poly = drawn(viewport)
-    normals = np.asarray(poly.point_normals).reshape(-1, 4, 3)
-    assert poly.n_points == 4 * poly.n_cells
-    np.testing.assert_array_equal(normals, np.repeat(normals[:, :1], 4, axis=1))
-    corners = poly.points.reshape(-1, 4, 3)
-    across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    np.testing.assert_allclose(normals[:, 0], across / np.linalg.norm(across, axis=1, keepdims=True), atol=1e-6)
 
 
 def test_sections_of_a_smooth_cut_face_the_removed_side(viewport):

@@ -59,15 +59,6 @@ def test_it_is_visible_around_a_shrunk_mesh(drawn):
     np.testing.assert_array_equal(np.ptp(drawn.viewport.overlay_layers.optional["original"].places, axis=0), 4)
 
 
-def test_it_stays_while_the_nodes_move(drawn):
-    drawn(frame(MESH.points))
-    poly = drawn.viewport.overlay_layers.optional["original"].poly
-    drawn(frame(MESH.points * 1.1))
-    assert drawn.viewport.overlay_layers.optional["original"].poly is poly
-    drawn(Frame(MESH, measure(MESH.points, MESH.hexes), look=ON))  # nothing is known of the opened mesh
-    assert not drawn.viewport.overlay_layers.optional["original"].shown
-
-
 def test_faces_of_hidden_hexes_are_not_drawn(drawn):
     half = Look(cut=Cut.at((0, 0, 1), (2, 2, 1.9)), structure=Structure.of("original"))
     drawn(frame(MESH.points))
@@ -78,11 +69,3 @@ def test_faces_of_hidden_hexes_are_not_drawn(drawn):
     assert not drawn.viewport.overlay_layers.optional["original"].shown
     drawn(frame(MESH.points))
     assert drawn.viewport.overlay_layers.optional["original"].shown
-
-
-def test_other_views_show_it_if_their_hexes_are_equal():
-    first = frame(MESH.points)
-    other_view = Frame(MESH.with_points(MESH.points * 2), measure(MESH.points * 2, MESH.hexes)).matching(first)
-    assert other_view.original is first.original
-    other = grid(2)
-    assert Frame(other, measure(other.points, other.hexes)).matching(first).original is None

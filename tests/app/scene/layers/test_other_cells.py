@@ -82,16 +82,3 @@ def test_they_are_drawn_unless_switched_off(drawn):
     without = drawn(frame(mesh, OFF))
     assert not drawn.viewport.overlay_layers.optional["others"].shown
     assert np.abs(seen - without).sum(axis=2).astype(bool).sum() > 500
-
-
-def test_they_move_with_their_nodes(drawn):
-    mesh = hybrid()
-    drawn(frame(mesh))
-    drawn(frame(mesh.with_points(mesh.points + [0, 0, 3])))
-    assert drawn.viewport.overlay_layers.optional["others"].places[:, 2].max() == 5
-
-
-def test_nothing_is_drawn_for_a_mesh_of_hexes_only(drawn):
-    drawn(frame(hybrid()))
-    drawn(frame(grid(2)))
-    assert not drawn.viewport.overlay_layers.optional["others"].shown

@@ -2,14 +2,10 @@
 
 import numpy as np
 import pytest
-from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.mesh.mesh import Mesh
-from hexmend_app.picture.appearance import Look
-from hexmend_app.scene.layers.silhouette import Silhouette, form_lines
+from hexmend_app.scene.layers.silhouette import form_lines
 from hexmend_app.state.mesh.structure import sharp_edges
 from tests.core.grids import grid
-from tests.core.mesh.topology.test_topology import closed
 
 
 @pytest.mark.parametrize("size", [(1, 1, 1), (3, 2, 4)])
@@ -37,15 +33,3 @@ def test_sharp_edges_of_a_ball_do_not_form_lines():
     size = np.linalg.norm(p, axis=1, keepdims=True)
     ball = p * np.abs(p).max(axis=1, keepdims=True) / np.maximum(size, 1e-9)
     assert not form_lines(sharp_edges(ball, mesh.topology.boundary_faces))
-
-
-def test_isolated_edges_do_not_form_lines():
-    assert not form_lines(np.array([[0, 1], [5, 6], [8, 9]]))
-    assert form_lines(np.array([[0, 1], [1, 2], [2, 0]]))
-
-
-def test_a_mesh_without_boundary_has_no_silhouette():
-    renderer, mesh = vtkRenderer(), Mesh(np.random.default_rng(0).random((27, 3)), closed((3, 3, 3)))
-    silhouette = Silhouette(renderer, mesh)
-    silhouette.show(Look(), mesh.points, None)
-    silhouette.move(mesh.points)

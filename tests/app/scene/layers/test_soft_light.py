@@ -36,16 +36,17 @@ def faces(direction, colour_map="viridis", edges=0.0, fine=True):
         return colours[drawn].astype(float), viewport.colouring.table[-1].astype(float)
 
 
-@pytest.mark.parametrize("fine", [True, False])
-@pytest.mark.parametrize("edges", [None, 0.0])
-@pytest.mark.parametrize("direction", ["+x", "-y", "+z"])
+@pytest.mark.parametrize(
+    ("direction", "edges", "fine"), [("+x", None, True), ("-y", 0.0, True), ("+z", None, False), ("+x", 0.0, False)]
+)
 def test_a_face_towards_the_viewer_has_the_colour_of_the_legend(direction, edges, fine):
     colours, legend = faces(direction, edges=edges, fine=fine)
     assert np.abs(colours - legend).max(axis=1).min() <= 2
 
 
-@pytest.mark.parametrize("colour_map", ["viridis", "plasma"])
-@pytest.mark.parametrize("direction", ["iso", (1.0, 0.3, 0.1), (-1.0, -0.2, -0.9)])
+@pytest.mark.parametrize(
+    ("direction", "colour_map"), [("iso", "viridis"), ((1.0, 0.3, 0.1), "plasma"), ((-1.0, -0.2, -0.9), "viridis")]
+)
 def test_shades_keep_the_hue_and_most_of_the_brightness(direction, colour_map):
     colours, legend = faces(direction, colour_map)
     shades = colours / legend

@@ -21,11 +21,8 @@ from hexmend_app.scene.layers.optional.structure import (
     IRREGULAR_NODE,
     KINDS,
     LOCKED,
-    OTHER,
     PINNED,
-    SHARP,
     VALENCES,
-    valence_colours,
 )
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
@@ -84,22 +81,6 @@ def test_irregular_edges_are_visible_through_the_mesh_in_the_colour_of_their_val
     assert count(image, VALENCES[3]) > 20
     assert count(image, VALENCES[5]) == 0
     assert count(image, IRREGULAR_NODE) > 5
-
-
-def test_visible_edges_are_thicker_than_hidden_ones(draw):
-    through = count(draw(FIVE, Structure.of("irregular")), VALENCES[5])
-    draw.viewport.mesh_layer.skin.actor.SetVisibility(False)
-    assert count(draw.pixels(), VALENCES[5]) > 1.4 * through
-
-
-def test_sharp_edges_and_irregular_edges_of_a_smooth_boundary(draw):
-    assert count(draw(grid(3), Structure.of("sharp")), SHARP) > 300
-    mesh = grid(8)
-    assert count(draw(mesh, Structure.of("boundary")), OTHER) == 0  # the edges of a box are sharp
-    p = mesh.points / 4 - 1
-    size = np.linalg.norm(p, axis=1, keepdims=True)
-    ball = Mesh(p * np.abs(p).max(axis=1, keepdims=True) / np.maximum(size, 1e-9), mesh.hexes)
-    assert count(draw(ball, Structure.of("boundary")), OTHER) > 100
 
 
 def test_nodes_have_the_colour_of_their_kind(draw):
@@ -168,24 +149,6 @@ def test_marks_move_with_the_nodes_and_with_shrunk_hexes(draw):
         assert np.abs(shrunk - point).max(axis=1).min() < 1e-6
 
 
-def test_many_marks_are_drawn_in_full_only_in_fine_frames(draw, monkeypatch):
-    monkeypatch.setattr("hexmend_app.scene.layers.optional.structure._MANY", 5)
-    draw(FIVE, Structure.of("irregular"))
-    layers = draw.viewport.overlay_layers.structure
-    assert not layers.layer.GetDraw()
-    draw.viewport.still()
-    assert layers.layer.GetDraw()
-    assert layers.irregular_inside.filled.GetProperty().GetOpacity() == pytest.approx((5 / 11) ** 0.5)
-    draw.viewport.draw(dataclasses.replace(draw.viewport.frame, look=Look()))
-    assert not layers.layer.GetDraw()
-
-
-def test_valences_without_a_separate_colour_share_one():
-    colours = valence_colours(np.array([1, 2, 3, 4, 5, 6, 7, 40]))
-    expected = [VALENCES.get(n, OTHER) for n in (1, 2, 3, 4, 5, 6, 7, 40)]
-    assert colours.tolist() == [list(bytes.fromhex(colour[1:])) for colour in expected]
-
-
 def test_boundary_nodes_have_the_colour_of_their_class(draw):
     mesh = grid(3)
     image = draw(mesh, Structure.of("kinds"))
@@ -207,15 +170,6 @@ def test_nodes_that_were_moved_off_the_boundary_have_a_colour_of_their_own(draw)
     assert count(draw(grid(3), Structure.of("kinds")), KINDS[LEFT]) == 0
 
 
-def test_nodes_that_moved_off_the_boundary_follow_the_frames_of_a_film(draw):
-    mesh = grid(3).keeping_surface()
-    points = mesh.points.copy()
-    points[(points == [3, 3, 3]).all(axis=1)] += 0.2
-    at_start, moved, again = (mesh.with_points(one) for one in (mesh.points, points, mesh.points.copy()))
-    marks = [count(draw(one, Structure.of("kinds")), KINDS[LEFT]) for one in (at_start, moved, again)]
-    assert marks[0] == marks[2] == 0 < marks[1]
-
-
 def test_a_view_beside_the_first_does_not_mark_nodes_that_have_not_moved_there():
     mesh = grid(3).keeping_surface()
     points = mesh.points.copy()
@@ -228,13 +182,3 @@ def test_a_view_beside_the_first_does_not_mark_nodes_that_have_not_moved_there()
     other = Frame(mesh, measure(mesh.points, mesh.hexes)).matching(first)
     assert not (other.kinds == LEFT).any()
     assert Frame(moved, figures).matching(first).kinds is classes.kinds
-
-
-def test_given_classes_are_drawn(draw):
-    mesh = grid(3)
-    kinds = np.where(mesh.topology.boundary, WHISKER, 0).astype(np.uint8)
-    look = Look(structure=Structure.of("kinds"), lines=LineStyle(edges=0.0), show=Show(outline=False))
-    draw(mesh, Structure.of("kinds"))
-    draw.viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look, kinds=kinds))
-    assert count(draw.pixels(), KINDS[WHISKER]) > 300
-    assert count(draw.pixels(), KINDS[NodeClass.PATCH]) == 0

@@ -8,16 +8,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend.errors import ParameterError
 from hexmend_app.picture import (
     AxesStyle,
     Camera,
     Captions,
     ColourBarStyle,
     Colours,
-    Corner,
     Cut,
-    LineStyle,
     Page,
     PicturePanel,
     Plane,
@@ -25,11 +22,8 @@ from hexmend_app.picture import (
     Scene,
     Show,
     TextPlace,
-    WipeLayout,
 )
-from hexmend_app.picture.appearance import Arrows, Traces
 from hexmend_app.picture.colour_map import COLOUR_MAPS
-from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
@@ -140,38 +134,6 @@ def test_a_cropped_page_has_the_mesh_at_its_sides():
     assert with_bar.size[1] < 300 or with_bar.size[0] < 900
 
 
-def test_a_margin_stays_free():
-    image = pixels(drawn(grid(2), page=Page(100, 60, dpi=127, margin=5), axes=AxesStyle(show=False)))
-    assert (image[:25] == 255).all() and (image[:, :25] == 255).all() and (image[-25:] == 255).all()  # noqa: PT018
-
-
-@pytest.mark.slow
-def test_edges_have_the_specified_width_at_all_resolutions():
-    shares = []
-    for edges, dpi in ((0.0, 300), (0.5, 150), (0.5, 300), (1.0, 300)):
-        page = Page(100, 60, dpi=dpi, shading=False)
-        image = pixels(drawn(grid(3), lines=LineStyle(edges), page=page, colours=Colours(neutral=True), **BARE))
-        shares.append(255 - image.mean())
-    none, coarse, fine, thick = shares
-    assert coarse - none == pytest.approx(fine - none, rel=0.3)
-    assert 1.4 < (thick - none) / (fine - none) < 3.2
-
-
-@pytest.mark.slow
-def test_axes_are_drawn_in_the_specified_corner():
-    colours = {}
-    for corner in Corner:
-        bare = {
-            "page": Page(pixels=(400, 400)),
-            "show": Show(quality=(0, 0.1), outline=False),
-            "bar": ColourBarStyle(TextPlace.NONE),
-        }
-        image = pixels(drawn(grid(1), axes=AxesStyle(place=corner), **bare))
-        rows, columns = np.nonzero((image < 200).any(axis=2))
-        colours[corner] = ("lower" if rows.mean() > 200 else "upper", "left" if columns.mean() < 200 else "right")
-    assert colours == {corner: tuple(corner.value.split()) for corner in Corner}
-
-
 def test_one_mesh_is_seen_from_several_directions():
     scene = Scene(
         cameras={"side": Camera("+x"), "top": Camera("+z", parallel=True)},
@@ -187,15 +149,6 @@ def test_one_mesh_is_seen_from_several_directions():
     assert np.abs(left - right).mean() > 10
 
 
-@pytest.mark.slow
-def test_a_wipe_shows_one_mesh_on_either_side():
-    plain, tangled = grid(5), scrambled(grid(5), 0.7)
-    scene = Scene(panels=(PicturePanel(wipe=WipeLayout(2, 0.5)),), page=Page(pixels=(600, 400), shading=False), **BARE)
-    sides = [pixels(drawn(*pair, scene=scene)) for pair in ((plain, plain), (tangled, tangled), (plain, tangled))]
-    for seen, alone in ((slice(0, 295), sides[0]), (slice(305, 600), sides[1])):
-        assert np.abs(sides[2][40:, seen] - alone[40:, seen]).mean() < 0.5
-
-
 def test_panels_share_a_range_that_is_fitted():
     scene = Scene(colours=Colours(range=Range.FITTED), page=Page(pixels=(600, 300)))
     good, bad = grid(3), scrambled(grid(3), 0.3)
@@ -205,41 +158,9 @@ def test_panels_share_a_range_that_is_fitted():
 
 
 @pytest.mark.slow
-def test_movement_is_drawn_since_the_first_mesh():
-    before, after = grid(3), scrambled(grid(3), 0.4)
-    first, second = page_meshes(before, after)
-    then = ReferenceState(before.points, first.figures, "before")
-    first = PageMesh("a", before, first.figures, Displacement(before, then, before.points, first.figures))
-    scene = Scene(
-        movement=Traces(arrows=Arrows.ALL), page=Page(pixels=(600, 300)), panels=(PicturePanel(mesh=2),), **BARE
-    )
-    still = Scene(page=scene.page, panels=scene.panels, **BARE)
-    assert np.abs(pixels(draw_page(scene, [first, second])) - pixels(draw_page(still, [first, second]))).mean() > 0.1
-
-
-def test_hexes_that_do_not_exist_are_an_error():
-    with pytest.raises(ParameterError, match="names hex 8: expected one of the mesh, below 8"):
-        drawn(grid(2), show=Show(hidden=(3, 8)))
-    with pytest.raises(ParameterError, match="panel 1 shows mesh 2, but there are 1"):
-        drawn(grid(2), panels=(PicturePanel(mesh=2),))
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["a" * 300, "$x^2$ \\alpha {", "‮×", ""])
 def test_a_name_is_drawn_verbatim_and_stays_within_its_panel(name):
     page = Page(pixels=(500, 260))
     plain, other = (draw_page(Scene(page=page, **BARE), [PageMesh.of(grid(2), "b"), PageMesh.of(grid(2), text)])
                     for text in ("", name))  # fmt: skip
     assert np.array_equal(pixels(plain)[:, :245], pixels(other)[:, :245])
-
-
-def test_captions_have_letters_of_one_size(tmp_path):
-    page = Page(90, 40)
-    sizes = {}
-    for name in ("b", "mended by m"):
-        sheet = draw_page(Scene(page=page, **BARE), [PageMesh.of(grid(2), "a"), PageMesh.of(grid(2), name)])
-        sheet.write(tmp_path / "p.svg")
-        texts = re.findall(r'<text style="[^"]*font-size: ([0-9.]+)px[^>]*>([^<]*)', (tmp_path / "p.svg").read_text())
-        assert name in [text for _, text in texts]
-        (sizes[name],) = {float(size) for size, _ in texts}
-    assert sizes["mended by m"] < sizes["b"]

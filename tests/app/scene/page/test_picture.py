@@ -12,20 +12,17 @@ import pytest
 from PIL import Image
 from PySide6.QtGui import QOpenGLContext
 
-from hexmend.errors import FileError, ParameterError
+from hexmend.errors import FileError
 from hexmend.io import write
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import METRICS, measure
 from hexmend_app.cli.render import command
 from hexmend_app.cli.scene_options import parse_plane, with_options
 from hexmend_app.picture import ColourBarStyle, LineStyle, Page, Scene, Show, TextPlace
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab
-from hexmend_app.scene.colour.colouring import INVERTED, resolve
+from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
-from hexmend_app.state.mesh.metric_cache import metric_values
 from tests.core.grids import grid, scrambled
 
 #: Program that runs commands from its standard input, one a line, and prints their exit status.
@@ -69,13 +66,6 @@ def ink(image):
     return np.mean(view.max(axis=2) - view.min(axis=2) > 40)
 
 
-@pytest.mark.slow
-def test_the_command_draws_at_the_size_asked_for(pictures):
-    whole = pictures("--view", "iso")
-    assert whole.shape == (240, 320, 3)
-    assert ink(whole) > 0.15
-
-
 def test_structure_is_drawn_by_name(pictures):
     bare = pictures("--no-edges")
     black = np.array([0x11, 0x15, 0x1C])
@@ -97,27 +87,6 @@ def test_a_smooth_cut_shows_inverted_elements_inside(pictures):
 
 def test_a_quality_range_hides_the_others(pictures):
     assert ink(pictures("--key", "show.quality=0.99,1")) < 0.3 * ink(pictures("--view", "iso"))
-
-
-@pytest.mark.parametrize("name", METRICS)
-def test_every_metric_has_a_range_of_colours(name):
-    parser = argparse.ArgumentParser()
-    command.arguments(parser)
-    args = parser.parse_args(["a.vtk", "-o", "a.png", "--metric", name])
-    for mesh in (grid(2), scrambled(grid(3), 0.6), scrambled(grid(1), 0), grid(2).with_points(grid(2).points * 0)):
-        figures = measure(mesh.points, mesh.hexes)
-        colours = with_options(args, Scene()).colours
-        assert colours.metric == name
-        shown = resolve(colours, metric_values(name, mesh, figures), figures.inverted)
-        low, high = shown.low, shown.high
-        assert np.isfinite((low, high)).all()
-        assert low < high
-
-
-def test_a_metric_other_than_q_is_drawn(pictures):
-    drawn, q = pictures("--metric", "max-angle"), pictures("--metric", "q")
-    assert ink(drawn) > 0.15
-    assert (drawn[:200] != q[:200]).any()
 
 
 @pytest.mark.parametrize(
@@ -180,22 +149,12 @@ def sheet(*meshes, look=Look(), bar=True, names="abcdef", **page):  # noqa: B008
     return draw_page(scene, [PageMesh.of(mesh, name) for mesh, name in zip(meshes, names, strict=False)])
 
 
-@pytest.mark.parametrize("size", [(64, 64), (200, 600), (640, 400)])
-def test_a_figure_has_the_size_asked_for(size):
-    assert sheet(grid(2), grid(3), pixels=size).image().size == size
-
-
 def test_values_may_begin_with_a_minus():
     parser = argparse.ArgumentParser(allow_abbrev=False)
     command.arguments(parser)
     args = parser.parse_args(["a.vtk", "-o", "a.png", "--view", "-x", "--clip", "-1,0,0:0.4", "--no-bar"])
     assert (args.view, args.clip, args.output, args.no_bar) == ("-x", ["-1,0,0:0.4"], "a.png", True)
     assert parser.parse_args(["a.vtk", "-o", "a.png", "--clip", "-.5,1,0"]).clip == ["-.5,1,0"]
-
-
-@pytest.mark.parametrize("size", [(64, 64), (128, 96), (320, 160), (200, 600)])
-def test_a_picture_has_the_size_asked_for_with_room_for_the_bar_or_not(size):
-    assert sheet(grid(2), pixels=size).image().size == size
 
 
 def asked(mesh, *words):
@@ -238,20 +197,6 @@ def test_other_shapes_are_asked_for():
     )
 
 
-def test_nodes_that_no_hex_uses_do_not_count():
-    mesh = grid(4)
-    stray = Mesh(np.vstack([mesh.points, [[100.0, 0.0, 0.0]]]), mesh.hexes)
-    assert parse_plane("x").on(stray) == Plane((1, 0, 0), point=(2, 0, 0))
-
-
-def test_looks_are_values():
-    figures = measure(grid(2).points, grid(2).hexes)
-    assert figures.n_inverted == 0
-    assert Look() == Look()
-    with pytest.raises(ParameterError, match="expected a nonzero vector"):
-        Plane((0, 0, 0), point=(0, 0, 0))
-
-
 def test_a_picture_has_the_format_of_its_suffix(tmp_path, capsys):
     from hexmend.cli.main import main
 
@@ -283,17 +228,3 @@ def test_lines_are_as_thick_on_paper_in_every_size(panels, lines):
         shares.append((image < 150).mean())
     assert shares[0] > 5e-4
     assert shares[1] == pytest.approx(shares[0], rel=0.2)
-
-
-@pytest.mark.slow
-def test_each_caption_of_a_figure_stands_above_its_view():
-    grey = {"background": "#c0c0c0"}
-    drawn = np.asarray(sheet(*[grid(2)] * 4, pixels=(640, 430), bar=False, **grey).image().convert("L")).astype(int)
-    for column in (slice(0, 320), slice(320, 640)):
-        for top in (0, 215):
-            assert (drawn[top : top + 20, column] < 90).any()  # what is written
-    for left in (0, 322):
-        for top in (0, 217):
-            letters = (drawn[top : top + 20, left : left + 300] < 90).any(axis=0)
-            assert letters[:20].any()
-            assert not letters[180:].any()

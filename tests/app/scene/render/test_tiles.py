@@ -25,7 +25,7 @@ def images(scene, **how):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("supersampling", [1, 2, 3])
+@pytest.mark.parametrize(("supersampling", "background"), [(1, "transparent"), (3, "white")])
 @pytest.mark.parametrize(
     "tables",
     [
@@ -37,7 +37,6 @@ def images(scene, **how):
         {"panels": (PicturePanel(wipe=WipeLayout(2, 0.37)),)},
     ],
 )
-@pytest.mark.parametrize("background", ["white", "transparent"])
 def test_a_picture_in_tiles_equals_the_one_rendered_at_once(tables, background, supersampling):
     scene = Scene(page=Page(pixels=(601, 400), supersampling=supersampling, background=background), **tables)
     (whole,), (parts,) = (images(scene, **how) for how in ({}, {"at_once": FEW}))
@@ -53,8 +52,7 @@ def test_a_picture_in_tiles_equals_the_one_rendered_at_once(tables, background, 
 
 
 @pytest.mark.parametrize("size", [(16, 16), (6000, 4000), (16384, 4096), (8192, 8192), (17, 16384)])
-@pytest.mark.parametrize("fine", [1, 2, 4])
-@pytest.mark.parametrize("pen", [1.0, 40.0, 5000.0])
+@pytest.mark.parametrize(("fine", "pen"), [(1, 1.0), (2, 5000.0), (4, 40.0)])
 def test_tiles_cover_a_page_once_and_none_is_too_large(size, fine, pen):
     tiles = Tiles.of(size, fine, pen)
     assert max(tiles.drawn) <= 16384

@@ -1,7 +1,5 @@
 """Cuts that are drawn coarsely while they are dragged, and at rest as they are."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -10,10 +8,7 @@ from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.scene.views.frame import Frame
 from tests.app.scene.views.showing import MESH, figures_of, show
-from tests.core.curved_shell import curved_shell
 from tests.core.grids import scrambled
-
-SHELL = curved_shell(20, through=2, around=3, along=3)
 
 
 @pytest.mark.parametrize("style", list(CutStyle))
@@ -73,25 +68,3 @@ def test_a_coarse_cut_of_a_tangled_mesh_survives_what_comes_between_it_and_the_f
     viewport.clear()
     viewport.still()
     pixels()
-
-
-@pytest.mark.parametrize("style", list(CutStyle))
-def test_a_cut_through_curved_hexes_is_flat_while_it_moves_and_curved_at_rest(seen, monkeypatch, style):
-    viewport, pixels = seen
-    looks = [Look(cut=Cut.at((0, 0, 1), (0, 0, z), style)) for z in (0.4, 0.6)]
-    show(viewport, SHELL, looks[1])
-    viewport.still()
-    curved = pixels()
-    show(viewport, SHELL, replace(looks[1], structure=looks[1].structure.without("curved")))
-    viewport.still()
-    flat = pixels()
-    assert (flat != curved).any()
-    viewport.coarse_cuts = True
-    for limit, expected in ((1, flat), (10_000, curved)):
-        monkeypatch.setattr("hexmend_app.scene.views.moving_cut.CURVED_CUT_HEXES", limit)
-        show(viewport, SHELL, looks[0])
-        viewport.still()
-        viewport.draw(Frame(SHELL, viewport.frame.figures, look=looks[1]))
-        np.testing.assert_array_equal(pixels(), expected)
-        viewport.still()
-        np.testing.assert_array_equal(pixels(), curved)

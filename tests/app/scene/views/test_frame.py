@@ -7,11 +7,9 @@ import pytest
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.colours import Colours
+from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.picture.page import LineStyle
-from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame, same_hexes
 from hexmend_app.scene.views.pane import Pane
@@ -76,36 +74,6 @@ def test_moved_nodes_update_positions_only(watched):
     assert draw(Frame(MESH.with_points(MOVED.points), MOVED_FIGURES)) == {"move", "measure"}
     assert viewport.mesh_layer.faces is faces
     np.testing.assert_allclose(viewport.mesh_layer.whole.points, faces.places(MOVED.points), rtol=1e-6)
-
-
-def test_another_movement_is_measured(watched):
-    draw, viewport = watched
-    look = Look(colours=Colours(metric="moved-most"))
-    draw(Frame(MESH, FIGURES, None, look))
-    movement = Displacement(MESH, ReferenceState(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
-    assert draw(Frame(MESH, FIGURES, movement, look)) == {"move", "measure"}
-    np.testing.assert_array_equal(viewport.colours.values, movement.values("moved-most"))
-    assert draw(Frame(MESH, FIGURES, movement, look)) == set()
-
-
-def test_another_look_is_measured_only_if_its_colours_differ(watched):
-    draw, _ = watched
-    draw(Frame(MESH, FIGURES))
-    assert draw(Frame(MESH, FIGURES, look=Look(lines=LineStyle(edges=0.0)))) == {"rebuild"}
-    assert draw(Frame(MESH, FIGURES, look=Look(lines=LineStyle(edges=0.0), colours=Colours(metric="edge-ratio")))) == {
-        "rebuild",
-        "measure",
-    }
-
-
-def test_other_pins_are_drawn(watched):
-    draw, viewport = watched
-    look = Look(structure=Structure.of("free"), show=Show(peel=1))
-    draw(Frame(MESH, FIGURES, look=look))
-    pinned = np.zeros(MESH.n_nodes, bool)
-    pinned[62] = True  # the centre
-    assert draw(Frame(MESH.replace(pinned=pinned), FIGURES, look=look)) == {"move"}
-    assert draw(Frame(viewport.frame.mesh, FIGURES, look=look)) == set()
 
 
 def test_equality_of_hexes_does_not_depend_on_positions():

@@ -4,13 +4,9 @@ import numpy as np
 import pytest
 
 from hexmend.quality import measure
-from hexmend_app.picture import Page, Scene
 from hexmend_app.picture.appearance import Arrows, Look, Traces
 from hexmend_app.picture.colours import Colours, Range
-from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.displacement import Displacement, ReferenceState
-from hexmend_app.scene.page.page_mesh import PageMesh
-from hexmend_app.scene.page.page_renderer import draw_page
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.arrangement import columns, grid
 from hexmend_app.scene.views.frame import Frame
@@ -78,44 +74,6 @@ def test_each_view_shows_its_mesh_as_it_would_alone(panes, pixels):
     assert np.abs(both[:, 5:115] - both[:, 125:235]).max() < 16  # the same mesh, so the same picture, but for rounding
 
 
-@pytest.mark.parametrize("views", [1, 2, 4])
-def test_space_for_captions_is_reserved_above_each_of_several_views(panes, views):
-    panes.reserve_captions(16)
-    panes.show([shown(mesh) for mesh in OTHERS[: views - 1]])
-    expected = [(left, low, right, high - (0.1 if views > 1 else 0)) for left, low, right, high in grid(views)]
-    for view, place in zip(panes.all, expected, strict=True):
-        for layer in view.layers:
-            assert layer.GetViewport() == pytest.approx(place)
-    panes.show([shown(OTHERS[0])], Wipe(0, 1, 0.5))
-    assert panes.first.layers[0].GetViewport() == (0.0, 0.0, 0.5, 1.0)
-
-
-@pytest.mark.parametrize("views", [1, 2, 4])
-def test_space_for_the_legend_is_reserved_to_the_right_of_several_views(panes, views):
-    panes.show([shown(mesh) for mesh in OTHERS[: views - 1]])
-    panes.reserve_legend(60)
-    share = 0.75 if views > 1 else 1
-    for view, (left, low, right, high) in zip(panes.all, grid(views), strict=True):
-        assert view.layers[0].GetViewport() == pytest.approx((left * share, low, right * share, high))
-    fitted = panes.camera_controller.fitted
-    panes.reserve_legend(0)
-    assert fitted
-    assert panes.camera_controller.fitted
-    assert panes.first.layers[0].GetViewport() == pytest.approx(grid(views)[0])
-
-
-def test_all_views_share_a_camera(panes, pixels):
-    panes.show([shown(mesh) for mesh in OTHERS])
-    assert all(view.camera is panes.first.camera for view in panes.all)
-    before = pixels()
-    panes.first.camera.Azimuth(40)
-    panes.camera_controller.reset_depth()
-    after = pixels()
-    for left, low, right, high in grid(4):
-        part = np.s_[round((1 - high) * 160) : round((1 - low) * 160), round(left * 240) : round(right * 240)]
-        assert np.abs(after[part] - before[part]).max() > 50
-
-
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("at", [0.25, 0.5, 0.8])
 def test_both_halves_of_a_wipe_are_parts_of_one_picture(panes, at, parallel, pixels):
@@ -163,15 +121,6 @@ def test_a_fitted_range_of_colours_spans_all_views_and_shrinks_again(panes):
     assert (panes.first.colouring.low, panes.first.colouring.high) == alone
 
 
-def test_a_cut_leaves_the_same_elements_in_all_views(panes):
-    panes.show([shown(mesh) for mesh in OTHERS])
-    look_at(panes, Look(cut=Cut.at((1, 0, 0), (2, 2, 2))))
-    first, *others = (view.kept() for view in panes.all)
-    assert 0 < first.sum() < first.size
-    for kept in others:
-        np.testing.assert_array_equal(kept, first)
-
-
 def test_picking_uses_the_view_under_the_pointer(panes, pixels):
     other = MESH.with_points(1.02 * MESH.points)
     panes.show([shown(other)])
@@ -196,13 +145,6 @@ def found(panes, x):
     return hit.hex, hit.node
 
 
-def test_meshes_with_other_hexes_are_shown_too(panes):
-    small = hexes(2)
-    panes.show([shown(small)])
-    look_at(panes, Look(cut=Cut.at((1, 0, 0), (1, 0, 0))))
-    assert [view.kept().size for view in panes.all] == [MESH.n_hexes, small.n_hexes]
-
-
 def test_a_closed_view_leaves_nothing_behind(panes, pixels, stage):
     panes.first.axes.widget.EnabledOff()
     before, renderers = pixels(), stage.window.GetRenderers().GetNumberOfItems()
@@ -212,27 +154,6 @@ def test_a_closed_view_leaves_nothing_behind(panes, pixels, stage):
         panes.show([])
     assert stage.window.GetRenderers().GetNumberOfItems() == renderers
     np.testing.assert_array_equal(pixels(), before)
-
-
-def test_the_camera_fits_the_views_unless_the_user_has_moved_it(panes):
-    wide = np.array(panes.first.camera.GetPosition())
-    panes.show([shown(OTHERS[0])])
-    assert np.linalg.norm(panes.first.camera.GetPosition()) > np.linalg.norm(wide)
-    panes.first.camera.Dolly(2)
-    near = panes.first.camera.GetPosition()
-    panes.show([])
-    assert panes.first.camera.GetPosition() == near
-
-
-def test_a_page_shows_all_meshes_with_captions():
-    page_meshes = [PageMesh(name, *shown(mesh)) for name, mesh in zip("abcd", [MESH, *OTHERS], strict=True)]
-    four = np.asarray(draw_page(Scene(page=Page(pixels=(640, 480))), page_meshes).image()).astype(int)
-    assert four.shape == (480, 640, 3)
-    assert (four[:25].max(axis=2) < 90).any(axis=0)[:160].any()  # what is written above the first
-    colourful = four.max(axis=2) - four.min(axis=2) > 60
-    for rows in (slice(40, 220), slice(240, 420)):
-        for across in (slice(0, 320), slice(320, 640)):
-            assert colourful[rows, across].mean() > 0.1
 
 
 def test_all_views_have_the_same_reference_state(panes):
@@ -248,28 +169,3 @@ def test_all_views_have_the_same_reference_state(panes):
     look_at(panes, look, Displacement(MESH, ReferenceState(OTHERS[0].points, second, "later"), MESH.points, first))
     assert other.colouring.title.endswith("since later")
     np.testing.assert_array_equal(other.frame.movement.before.points, OTHERS[0].points)
-
-
-def test_a_view_that_is_no_longer_shown_leaves_the_window(stage, panes):
-    alone = stage.window.GetRenderers().GetNumberOfItems()
-    panes.show([shown(OTHERS[0])])
-    one = stage.window.GetRenderers().GetNumberOfItems()
-    for others in ([shown(OTHERS[0])] * 3, [shown(OTHERS[1])] * 2, [shown(OTHERS[2])]):
-        panes.show(others)
-    assert stage.window.GetRenderers().GetNumberOfItems() == one > alone
-    panes.show([])
-    assert stage.window.GetRenderers().GetNumberOfItems() == alone
-
-
-@pytest.mark.parametrize("dark", [False, True])
-def test_the_background_is_a_gradient_at_rest_and_uniform_in_fast_frames(panes, stage, dark):
-    panes.first.axes.widget.EnabledOff()
-    panes.set_dark(dark)
-    panes.moving()
-    uniform = stage.picture().astype(int)[:, 1]
-    assert np.ptp(uniform, axis=0).max() == 0
-    panes.still()
-    column = stage.picture().astype(int)[:, 1]
-    assert 8 < np.ptp(column, axis=0).max() < 30  # restrained
-    assert (np.diff(column.sum(axis=1)) <= 0).all()  # brighter above
-    assert np.abs(column.mean(axis=0) - uniform[0]).max() <= 2

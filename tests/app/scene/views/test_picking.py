@@ -47,8 +47,3 @@ def test_the_picked_point_on_a_section_lies_on_the_plane(seen):
     hit = seen.pick(100, 100)
     assert hit.place[2] == pytest.approx(2.3, abs=1e-6)
     assert MESH.points[MESH.hexes[hit.hex]][:, 2].tolist().count(2.0) == 4
-
-
-def test_nothing_is_picked_before_a_mesh_is_drawn():
-    with Stage((80, 60)) as stage:
-        assert Viewport(Pane(stage.window)).pick(40, 30) is None

@@ -3,16 +3,13 @@
 import numpy as np
 import pytest
 
-from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.colour.colouring import INVERTED
-from hexmend_app.scene.cutting.plane_widget import PlaneWidget
 from tests.app.scene.views.showing import MESH, figures_of, show
 from tests.core.grids import scrambled
 
@@ -67,22 +64,6 @@ def test_faces_turned_inside_out_are_seen(seen):
     assert magenta(pixels()) > 0.9 * drawn
 
 
-def test_a_vector_along_z_is_a_direction_like_any_other(seen, capfd):
-    viewport, pixels = seen
-    before = pixels()
-    viewport.view((0.0, 0.0, 2.0))
-    np.testing.assert_array_equal(pixels(), before)
-    assert capfd.readouterr().err == ""  # VTK would say that it had to turn the camera
-
-
-def test_edges_are_drawn_or_not(seen):
-    viewport, pixels = seen
-    middle = np.s_[40:110, 65:135]
-    assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) > 1
-    show(viewport, look=Look(lines=LineStyle(edges=0.0)))
-    assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) == 1
-
-
 def test_the_same_picture_however_its_look_was_reached(seen):
     viewport, pixels = seen
     tangled = scrambled(MESH, 0.6)
@@ -122,80 +103,6 @@ def test_inverted_elements_that_are_seen_are_outlined(seen, edges, cut):
     assert white(pixels()) > 30
     show(viewport, MESH)
     np.testing.assert_array_equal(pixels(), before)
-
-
-def test_an_outline_moves_with_its_element(seen):
-    viewport, pixels = seen
-    show(viewport)
-    background = pixels()[0, 0]
-    for size in (1, 0.5, 0.8):
-        mirrored = MESH.with_points(MESH.points * [-size, size, size] + [4, 0, 0])
-        show(viewport, mirrored)
-        image = pixels()[:, 60:]  # without the axes in the corner
-        drawn, outline = (np.argwhere(where) for where in ((image != background).any(axis=2), image.min(axis=2) > 250))
-        np.testing.assert_allclose(drawn.min(axis=0), outline.min(axis=0), atol=3)
-        np.testing.assert_allclose(drawn.max(axis=0), outline.max(axis=0), atol=3)
-
-
-def test_inverted_elements_that_are_hidden_are_not_outlined(seen):
-    viewport, pixels = seen
-    tangled = scrambled(MESH, 1.5)
-    show(viewport, tangled)
-    show(viewport, look=Look(show=Show(quality=(1.5, 2))))  # nothing
-    assert white(pixels()) == 0
-
-
-def test_a_fitted_range_follows_the_points(seen):
-    viewport, _ = seen
-    show(viewport, look=Look(colours=Colours(range=Range.FITTED)))
-    assert viewport.colouring.high - viewport.colouring.low < 1e-5
-    other = scrambled(MESH, 0.2)
-    figures = figures_of(other)
-    show(viewport, other)
-    assert (viewport.colouring.low, viewport.colouring.high) == (figures.q.min(), figures.q.max())
-    show(viewport, look=Look(colours=Colours(metric="scaled-jacobian", range=Range.FITTED)))
-    assert viewport.colouring.title == "Scaled Jacobian"
-    assert viewport.colouring.low == figures.scaled_jacobian.min()
-
-
-def test_nodes_that_no_hex_uses_do_not_count(seen):
-    viewport, pixels = seen
-    before = pixels()
-    stray = Mesh(np.vstack([MESH.points, [[100.0, 0.0, 0.0]]]), MESH.hexes)
-    show(viewport, stray)
-    viewport.view("+z")
-    assert viewport.bounds == (0, 4, 0, 4, 0, 4)
-    np.testing.assert_array_equal(pixels(), before)
-
-
-def test_setting_the_plane_does_not_report_a_drag(pane):
-    dragged = []
-    pane.window.Render()
-    widget = PlaneWidget(pane, dragged.append)
-    widget.set_bounds((0, 4, 0, 4, 0, 4))
-    for plane in (INSIDE.planes[0], Plane((1, 0, 0), point=(1, 0, 0)), None, INSIDE.planes[0]):
-        widget.set(plane)
-    assert dragged == []
-    widget.widget.InvokeEvent("InteractionEvent")  # what VTK does as the user drags
-    assert dragged == [INSIDE.planes[0]]
-    widget.close()
-
-
-def test_picking_finds_the_visible_hex(seen):
-    viewport, pixels = seen
-    pixels()
-    hit = viewport.pick(100, 75)
-    h, node = hit.hex, hit.node
-    assert h in np.flatnonzero(MESH.points[MESH.hexes][:, :, 2].max(axis=1) == MESH.points[:, 2].max())
-    assert node in MESH.hexes[h]
-    assert viewport.pick(1, 1) is None
-    show(viewport, look=Look(cut=INSIDE))  # cut through at z = 2: the section is what is seen
-    pixels()
-    below = viewport.pick(100, 75).hex
-    assert MESH.points[MESH.hexes[below]][:, 2].min() < 2
-    np.testing.assert_allclose(
-        MESH.points[MESH.hexes[below]].mean(axis=0)[:2], MESH.points[MESH.hexes[h]].mean(axis=0)[:2]
-    )
 
 
 def test_a_marked_hex_is_visible_through_the_mesh_and_its_values_if_it_is_large(seen, pane):

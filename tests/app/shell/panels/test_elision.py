@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QTabBar, QToolButton
 
@@ -13,6 +14,7 @@ def bars_of(window):
     return [bar for bar in window.findChildren(QTabBar) if bar.isVisible() and bar.count()]
 
 
+@pytest.mark.slow
 def test_tabs_are_elided_and_not_scrolled(window, qtbot):
     window.show_panel("runs")
     window.resize(window.minimumSizeHint())

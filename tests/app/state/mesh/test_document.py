@@ -22,14 +22,6 @@ def document(qtbot):
     return document
 
 
-def test_an_opened_mesh_is_not_modified_and_has_nothing_to_undo(document):
-    assert document.is_open
-    assert not document.modified
-    assert document.undo_title is None
-    assert document.redo_title is None
-    assert document.name == "a.vtu"
-
-
 def test_changes_are_undone_and_redone(document):
     start = document.now
     first = moved(start, 0.01)

@@ -1,7 +1,6 @@
 """Named groups of hexes, and their isolation."""
 
 import numpy as np
-import pytest
 
 from hexmend.quality import measure, summarise
 from hexmend_app.picture.colours import Colours
@@ -57,11 +56,6 @@ def test_a_displacement_defines_groups_by_former_and_present_validity():
     assert still | mended == set(np.flatnonzero(before.invalid).tolist())
     assert newly
     assert still
-
-
-def test_an_unknown_group_is_an_error():
-    with pytest.raises(KeyError, match="known are inverted, invalid"):
-        hexes_of_group("ugly", MESH, FIGURES)
 
 
 def test_isolated_hexes_are_shown_whatever_the_other_filters(qapp):

@@ -80,15 +80,6 @@ def test_a_result_is_exact():
     assert history.state(RecordedIteration(record, 0), MESH) is record.start
 
 
-def test_nothing_more_is_recorded_of_a_removed_run():
-    history = History()
-    record, _, seen = recorded(history)
-    history.clear()
-    history.add(record, seen[-1])
-    assert history.bytes == 0
-    assert len(record.rows) == len(seen)
-
-
 @given(count=st.integers(1, 25))
 def test_positions_meet_the_limit_and_the_first_and_last_stay(count):
     history = History(count * FREE)
@@ -98,16 +89,6 @@ def test_positions_meet_the_limit_and_the_first_and_last_stay(count):
     assert len(numbers) == 1 + min(count, 24)
     assert (numbers[0], numbers[-1]) == (0, 24)
     assert len(record.rows) == 25
-
-
-def test_older_positions_are_further_apart():
-    history = History(30 * FREE)
-    record, _, _ = recorded(history, 300)
-    gaps = np.diff(history.recorded_numbers(record))
-    assert gaps[-10:].max() <= 3
-    assert gaps.sum() == 300
-    early, late = gaps[: len(gaps) // 2].mean(), gaps[len(gaps) // 2 :].mean()
-    assert early > 4 * late
 
 
 def test_a_lower_limit_drops_positions_at_once_and_the_nearest_is_shown():

@@ -1,7 +1,5 @@
 """Snapshots of the open mesh."""
 
-import numpy as np
-
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.snapshots import MAX_SNAPSHOTS, Snapshots
 from tests.core.grids import grid, scrambled
@@ -29,14 +27,6 @@ def test_a_free_slot_is_reused_and_the_others_do_not_change(qtbot):
     assert [one.name for one in snapshots.all] == ["a", "see", "d"]
     snapshots.clear()
     assert not snapshots.all
-
-
-def test_points_are_shared_not_copied(qtbot):
-    snapshots = Snapshots(Document())
-    snapshots.add("a", STATE)
-    snapshots.rename(0, "b")
-    assert snapshots.all[0].points is STATE.mesh.points
-    np.testing.assert_array_equal(snapshots.all[0].inverted, STATE.figures.inverted)
 
 
 def test_only_changes_are_signalled(qtbot):

@@ -1,22 +1,16 @@
 """Short runs are shown eased; their result is recorded at once, and shown at once for whoever asks."""
 
-import threading
 from itertools import count
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from hexmend.iteration import Step
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
-from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.run import eased_view
-from hexmend_app.state.run.pace import REST, SHOWN, Easing, Pace
+from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase, RunController
-from tests.core.grids import grid
 from tests.patience import PATIENCE
 
 TEN = StoppingCriteria(max_iterations=10, tolerance=0)
@@ -40,23 +34,6 @@ def run(document):
 def run_and_wait(qtbot, run, stop=TEN, smoother=None):
     with qtbot.waitSignal(run.ended, timeout=PATIENCE):
         run.start(smoother or LocalSteepestDescent(), stop)
-
-
-@given(st.lists(st.floats(0.001, 0.5), min_size=1, max_size=40), st.integers(1, 500), st.floats(0, 4))
-def test_the_position_only_rises_and_arrives_in_time(times, result, ran):
-    now, easing, seen = 100.0, Easing(100.0), []
-    for step in times:
-        now += step
-        if now < 100 + ran:
-            seen.append(easing.position(now, result))
-    end = max(now, 100 + ran)
-    easing.finish(end)
-    rest = [easing.rest(end + share * (SHOWN + REST), result) for share in np.linspace(0, 1, 60)]
-    assert rest[-1] is None
-    seen += [one for one in rest if one is not None]
-    assert (np.diff(seen) >= 0).all()
-    assert 0 <= min(seen) <= max(seen) <= result
-    assert easing.rest(end + REST - 1e-6, result) is not None
 
 
 def test_the_result_is_recorded_at_once_and_shown_after_all_between(document, run, qtbot):
@@ -107,26 +84,6 @@ def test_the_result_is_there_for_who_goes_on(document, run, qtbot, act):
     assert document.now is result
 
 
-def test_undo_and_other_states_end_it(document, run, qtbot):
-    run_and_wait(qtbot, run)
-    document.undo()
-    assert not run.view.eased.active
-    assert document.now is document.start
-    document.redo()
-    run_and_wait(qtbot, run)
-    document.replace(State.of(grid(3)), None)
-    assert not run.view.eased.active
-
-
-def test_pausing_shows_the_iteration_at_which_it_pauses(document, run, qtbot):
-    run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=100_000))
-    qtbot.waitUntil(lambda: run.record.newest > 3, timeout=PATIENCE)
-    run.pause()
-    qtbot.waitUntil(lambda: run.phase is Phase.PAUSED, timeout=PATIENCE)
-    assert not run.view.eased.active
-    assert run.history.iteration_of(document.now).number == run.record.newest
-
-
 def test_steps_and_large_meshes_are_shown_as_they_are(document, run, qtbot, monkeypatch):
     run.start(LocalSteepestDescent(), TEN, iterations=2)
     assert not run.view.eased.active
@@ -137,31 +94,6 @@ def test_steps_and_large_meshes_are_shown_as_they_are(document, run, qtbot, monk
     run_and_wait(qtbot, run)
     assert not run.view.eased.active
     assert document.now is document.recorded
-
-
-class Worsening(LocalSteepestDescent):
-    """Method that inverts hexes step by step, and goes on after six steps once one is shown."""
-
-    shown = threading.Event()
-
-    def steps(self, mesh):
-        yield Step(mesh.points)
-        generator = np.random.default_rng(1)
-        for number in count():
-            assert number < 6 or self.shown.wait(PATIENCE / 1000)
-            yield Step(mesh.points + generator.normal(size=mesh.points.shape) * mesh.free[:, None])
-
-
-@pytest.mark.slow
-def test_a_run_without_a_better_iteration_ends_on_the_mesh_before_it(document, run, qtbot):
-    start = document.now
-    document.points_moved.connect(Worsening.shown.set)
-    run_and_wait(qtbot, run, stop=StoppingCriteria(max_iterations=12, tolerance=0), smoother=Worsening())
-    assert run.record.result == 0
-    assert run.view.eased.active
-    qtbot.waitUntil(lambda: not run.view.eased.active, timeout=PATIENCE)
-    assert document.now is document.recorded is start
-    assert not document.previews
 
 
 def test_a_run_stopped_while_it_prepares_leaves_the_mesh_alone(document, run, qtbot):

@@ -14,7 +14,6 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase, RunController
-from hexmend_app.state.run.worker import Mailbox
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
 from tests.app.driving import turn
 from tests.core.grids import grid
@@ -108,24 +107,6 @@ def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtb
     assert seen == sorted(set(seen))
 
 
-def test_stop_keeps_the_result(document, smoothing, qtbot):
-    smoothing.start(LocalSteepestDescent(), SLOW)
-    qtbot.waitUntil(phase_is(smoothing, Phase.RUNNING), timeout=PATIENCE)
-    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
-        smoothing.stop()
-    (result,) = ended.args
-    assert result.outcome.name == "STOPPED"
-    np.testing.assert_array_equal(document.now.mesh.points, result.mesh.points)
-
-
-def test_stop_ends_a_paused_run(document, smoothing, qtbot):
-    smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
-    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
-    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
-        smoothing.stop()
-    assert ended.args[0].iterations == 1
-
-
 @pytest.mark.parametrize("iterations", [1, float("inf")])
 def test_closing_leaves_no_thread(document, smoothing, qtbot, iterations):
     with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
@@ -157,15 +138,6 @@ def test_a_method_that_raises_leaves_its_last_iteration_which_can_be_undone(docu
     assert document.undo_title is not None
     document.undo()
     assert document.now is before
-
-
-def test_a_mailbox_has_the_newest_frame_only():
-    box = Mailbox()
-    assert box.take() is None
-    box.put("one")
-    box.put("two")
-    assert box.take() == "two"
-    assert box.take() is None
 
 
 def test_requested_metrics_are_computed_by_the_worker(document, smoothing, qtbot):

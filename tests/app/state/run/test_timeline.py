@@ -121,24 +121,6 @@ def test_playing_pauses_at_the_end(session, qtbot):
     assert not session.timeline.playing
 
 
-def test_of_several_requests_the_last_counts(session, qtbot):
-    record = run(qtbot, session)
-    shown = []
-    session.timeline.moved.connect(lambda: shown.append(session.timeline.shown_iteration.number))
-    for number in (3, 9, 5):
-        session.timeline.go_soon(record, number)
-    qtbot.waitUntil(lambda: shown == [5], timeout=PATIENCE)
-
-
-def test_another_mesh_has_no_history_yet(session, qtbot):
-    run(qtbot, session)
-    session.document.replace(State.of(grid(3)), Path("b.vtu"))
-    assert session.history.records == []
-    assert session.history.bytes == 0
-    assert session.timeline.record is None
-    assert session.timeline.shown_iteration is None
-
-
 def test_tagging_does_not_change_the_iteration_shown(session, qtbot):
     record = run(qtbot, session)
     commands = session.commands

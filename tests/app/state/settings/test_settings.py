@@ -34,10 +34,6 @@ def file(tmp_path, monkeypatch):
     return Path(path)
 
 
-def test_keys_are_unique():
-    assert len({setting.key for setting in ALL.values()}) == len(ALL)
-
-
 @pytest.mark.parametrize("name", ALL)
 def test_a_stored_value_is_read_unchanged(name, file):
     setting = ALL[name]

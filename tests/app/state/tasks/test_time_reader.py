@@ -88,20 +88,6 @@ def test_times_after_other_faces_are_left_out(case, session, qtbot):
     assert session.timeline.record.labels() == ["constant", "t = 0.002"]
 
 
-def test_the_folder_of_a_time_is_opened_alone(case, session, qtbot):
-    assert opened(qtbot, session, case / "0.5") == ()
-    assert session.history.records == []
-
-
-def test_the_memory_limit_of_the_history_holds(case, session, qtbot):
-    session.history.limit = 2 * 64 * 3 * 4
-    opened(qtbot, session, case)
-    assert session.history.bytes <= session.history.limit
-    record = session.timeline.record
-    assert len(record.rows) == 4
-    assert record.newest in session.history.recorded_numbers(record)
-
-
 def test_a_run_from_a_time_slides_on_the_boundary_of_that_time(case, session, qtbot):
     opened(qtbot, session, case)
     times = session.timeline.record

@@ -5,7 +5,6 @@ import threading
 import weakref
 
 import pytest
-from PySide6.QtCore import QObject
 
 from hexmend_app.state.tasks.ui_thread_gc import UiThreadGC
 from tests.patience import PATIENCE
@@ -64,20 +63,3 @@ def test_frozen_objects_are_not_examined_but_newer_ones_are(garbage):
     Cycle(collected)
     gc.collect()
     assert collected
-
-
-def test_little_garbage_is_not_collected(garbage):
-    collected = []
-    gc.collect()
-    Cycle(collected)
-    garbage.collect()
-    assert collected == []
-    gc.collect()
-
-
-def test_an_application_has_one_collector(garbage, qapp):
-    from hexmend_app.shell.start.program import application
-
-    assert application().findChildren(UiThreadGC) == [garbage]
-    assert isinstance(garbage, QObject)
-    assert not gc.isenabled()

@@ -9,7 +9,7 @@ from hexmend.errors import FileError, ParameterError
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera
-from hexmend_app.picture.named_cameras import MAX_CAMERAS, NamedCameras, cameras_of, merged
+from hexmend_app.picture.named_cameras import cameras_of, merged
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session import Session
@@ -48,32 +48,12 @@ def test_an_invalid_name_is_an_error(cameras, name):
     assert cameras.all == {}
 
 
-def test_the_number_of_cameras_is_limited(cameras):
-    for number in range(MAX_CAMERAS):
-        cameras.add(str(number), X)
-    with pytest.raises(ParameterError, match="101 entries: expected 100"):
-        cameras.add("one more", X)
-    cameras.add_all({"another": Y, "3": X})
-    assert len(cameras.all) == MAX_CAMERAS
-
-
 def test_cameras_of_a_scene_are_added_under_free_names(cameras):
     cameras.add("front", X)
     for _ in range(2):  # equal cameras are not added again
         cameras.add_all({"front": Y, "top": Y})
         assert cameras.all == {"front": X, "front (2)": Y, "top": Y}
     assert merged({}, {"front": Y}) == {"front": Y}
-
-
-def test_saved_cameras_are_not_modified(cameras):
-    cameras.add("front", X)
-    assert cameras.modified
-    cameras.mark_saved()
-    assert not cameras.modified
-    cameras.restore(NamedCameras({"top": Y}))
-    assert cameras.modified
-    cameras.mark_saved()
-    assert not cameras.modified
 
 
 @pytest.fixture

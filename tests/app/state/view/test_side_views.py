@@ -36,12 +36,6 @@ def test_there_are_at_most_three_side_views(views, states):
     assert [views.shows(state) for state in states] == [True, True, True, False]
 
 
-def test_a_view_with_the_same_name_is_reused(views, states):
-    for state in states:
-        assert views.show("iteration", state)
-    assert [view.state for view in views.all] == [states[-1]]
-
-
 def test_views_are_closed_by_number_or_all_or_with_the_mesh(views, states, document):
     for k, state in enumerate(states[:3]):
         views.show(str(k), state)
@@ -100,9 +94,3 @@ def test_a_view_has_a_snapshot_as_long_as_it_is_open(document, states):
     assert [snapshot.name for snapshot in snapshots.all] == ["second"]
     views.close_all()
     assert snapshots.all == ()
-
-
-def test_a_state_has_one_view_only(views, states):
-    assert views.show("first", states[0])
-    assert views.show("second", states[0])
-    assert [view.name for view in views.all] == ["first"]

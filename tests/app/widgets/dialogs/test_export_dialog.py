@@ -21,10 +21,6 @@ def dialog(qtbot, tmp_path):
     return dialog
 
 
-def test_the_initial_style_has_the_title_of_the_chart(dialog):
-    assert dialog.chosen() == ChartStyle(title="bridge")
-
-
 def test_edited_values_are_in_the_chosen_style(dialog):
     dialog.form.editor("width").set_value(85.0)
     dialog.title.setText("")
@@ -32,26 +28,6 @@ def test_edited_values_are_in_the_chosen_style(dialog):
     assert dialog.chosen() == ChartStyle(width=85.0, title="", names={"at the start": "as given"})
     dialog.accept()
     assert dialog.result() == ChartDialog.DialogCode.Accepted
-
-
-def test_the_preview_follows_the_style(dialog, qtbot):
-    qtbot.waitUntil(lambda: not dialog.preview.pixmap().isNull(), timeout=PATIENCE)
-    before = dialog.preview.pixmap().toImage()
-    dialog.names["at the start"].setText("a name that is much longer")
-    dialog.names["at the start"].textEdited.emit("")
-    qtbot.waitUntil(lambda: dialog.preview.pixmap().toImage() != before, timeout=PATIENCE)
-    dialog.target.line.setText("a.csv")
-    qtbot.waitUntil(lambda: "no preview" in dialog.preview.text(), timeout=PATIENCE)
-    assert not dialog.form.isEnabled()
-
-
-@pytest.mark.parametrize("file", ["~nobody-of-this-name/x.svg", "x" * 300 + ".svg"])
-def test_an_impossible_path_is_left_to_the_writer(dialog, qtbot, file):
-    dialog.target.line.setText(file)
-    qtbot.waitUntil(lambda: not dialog.preview.pixmap().isNull(), timeout=PATIENCE)
-    dialog.accept()
-    assert dialog.target.path().name.endswith("x.svg")
-    assert not dialog.isVisible()
 
 
 @pytest.mark.parametrize(("file", "problem"), [("", "Enter the name of the file"), ("a.gif", ".gif")])

@@ -51,18 +51,6 @@ def test_every_dialog_starts_in_the_folder_of_the_last_file(answers, tmp_path, n
     assert questions.folder() == other
 
 
-@pytest.mark.parametrize("name", [*SAVING, *OPENING])
-def test_a_cancelled_dialog_changes_nothing(answers, tmp_path, name):
-    questions.remember_folder(tmp_path / "mesh.vtu")
-    assert getattr(questions, name)(None, *SAVING.get(name, ())) == ""
-    assert questions.folder() == tmp_path
-
-
-def test_dialogs_do_not_start_in_a_deleted_folder(answers, tmp_path):
-    questions.remember_folder(tmp_path / "gone" / "mesh.vtu")
-    assert questions.folder().is_dir()
-
-
 @pytest.mark.parametrize(("terminal", "place"), [(True, "working"), (False, "home"), (None, "home")])
 def test_the_first_dialog_starts_in_the_working_directory_of_a_terminal(
     answers, tmp_path, monkeypatch, terminal, place
@@ -83,12 +71,6 @@ def test_a_name_without_a_suffix_gets_that_of_the_chosen_or_first_kind(answers, 
     assert getattr(questions, name)(None, *SAVING[name]).startswith(f"{answers.name}.")
     answers.kind = "Something (*.some)"
     assert getattr(questions, name)(None, *SAVING[name]) == f"{answers.name}.some"
-
-
-@pytest.mark.parametrize("name", SAVING)
-def test_another_suffix_is_left_to_the_writer(answers, tmp_path, name):
-    answers.name = str(tmp_path / "result.docx")
-    assert getattr(questions, name)(None, *SAVING[name]) == answers.name
 
 
 def test_replacing_a_file_is_asked_if_the_file_dialog_did_not(answers, tmp_path, monkeypatch):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from hexmend_app.widgets.inputs.combo import ComboBox
 from tests.app.theme.contrasts import painted
 
@@ -28,10 +26,6 @@ def test_a_long_text_is_elided(qtbot):
             break
     else:
         raise AssertionError("no beginning of the text with an ellipsis was drawn")
-
-
-def test_a_short_text_is_drawn_whole(qtbot):
-    assert not np.array_equal(drawn(qtbot, "short"), drawn(qtbot, "shor…"))
 
 
 def test_the_list_is_as_wide_as_its_texts(qtbot):

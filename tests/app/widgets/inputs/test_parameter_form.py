@@ -1,17 +1,14 @@
 """Forms of declared parameters of every type."""
 
 import dataclasses
-import gc
-import weakref
 from dataclasses import dataclass
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QToolButton
 
-from hexmend.errors import ParameterError
 from hexmend.parameters import Parametrised, declared, parameter
 from hexmend.smoothers import METHODS
 from hexmend_app.widgets.inputs.number_box import NumberBox
@@ -63,11 +60,6 @@ def type_into(editor, text):
     QTest.keyClicks(line, text)
 
 
-def test_initial_values_are_the_defaults(form):
-    assert AllKinds(**form.values()) == AllKinds()
-    assert not named(form, QToolButton, "Defaults").isEnabled()
-
-
 def test_set_values_are_returned_without_a_signal(form, changes):
     form.set_values(_OTHER)
     assert form.values() == AllKinds(**form.values()).values() == _OTHER
@@ -99,13 +91,6 @@ def test_an_invalid_text_is_explained_and_kept(form, text):
     assert form.values()["delta"] == 0.01  # as before the typing
 
 
-def test_a_valid_number_is_shortened_when_the_focus_leaves(form):
-    editor = form.editor("delta")
-    type_into(editor, "0.500")
-    QTest.keyClick(editor, Qt.Key.Key_Tab)
-    assert editor.lineEdit().text() == "0.5"
-
-
 @pytest.mark.parametrize("text", ["0", "201", "3.5"])
 def test_integers_have_bounds(form, text):
     type_into(form.editor("max_cuts"), text)
@@ -123,13 +108,6 @@ def test_every_type_is_edited_by_keys_and_clicks(form, changes):
     assert len(changes) == 4
 
 
-def test_tab_reaches_all_editors_in_order(form):
-    form.editor(_NAMES[0]).setFocus()
-    for name in _NAMES[1:]:
-        QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Tab)
-        assert QApplication.focusWidget() is form.editor(name)
-
-
 def test_a_modified_value_is_marked_and_reset_separately(form, changes):
     form.set_values(_OTHER)
     row = form.rows["delta"]
@@ -140,34 +118,6 @@ def test_a_modified_value_is_marked_and_reset_separately(form, changes):
     assert not row.label.font().bold()
     assert not row.reset.isVisible()
     assert len(changes) == 1
-
-
-def test_defaults_replace_invalid_texts_and_values(form, changes):
-    form.set_values(_OTHER)
-    type_into(form.editor("delta"), "x")
-    QTest.mouseClick(named(form, QToolButton, "Defaults"), _LEFT)
-    assert AllKinds(**form.values()) == AllKinds()
-    assert form.problems() == {}
-    assert not named(form, QToolButton, "Defaults").isEnabled()
-
-
-def test_help_is_a_tooltip_and_can_be_shown(form):
-    for declaration in declared(AllKinds):
-        assert declaration.help in form.editor(declaration.name).toolTip()
-        assert form.editor(declaration.name).accessibleName()
-        assert not form.rows[declaration.name].help.isVisible()
-    QTest.mouseClick(named(form, QToolButton, "Explain"), _LEFT)
-    for declaration in declared(AllKinds):
-        label = form.rows[declaration.name].help
-        assert label.isVisible()
-        assert label.text() == declaration.help
-
-
-def test_unknown_names_and_values_raise(form):
-    with pytest.raises(ParameterError, match="no parameter 'lambda'"):
-        form.set_values({"lambda": 1})
-    with pytest.raises(ParameterError, match="out of range"):
-        form.set_values({"delta": 11})
 
 
 def test_the_wheel_changes_only_focused_editors(form):
@@ -195,52 +145,6 @@ def test_the_wheel_changes_only_focused_editors(form):
     form.editor("max_cuts").setFocus()
     turn(form.editor("max_cuts"))
     assert form.values()["max_cuts"] == 31
-
-
-def test_other_declarations_replace_the_rows(form):
-    old = form.editor("delta")
-    form.set_declarations(declared(AllKinds)[:1])
-    assert list(form.values()) == ["delta"]
-    assert form.editor("delta") is not old
-    form.set_declarations(())
-    assert form.values() == {}
-    assert form.none.isVisible()
-    assert not any(button.isVisible() for button in form.findChildren(QToolButton))
-
-
-def test_equal_declarations_reuse_the_rows_at_their_defaults(form, changes):
-    old = form.editor("delta")
-    form.set_values({"delta": 2.0})
-    type_into(form.editor("max_cuts"), "many")
-    assert form.problems()
-    changes.clear()
-    form.set_declarations(declared(AllKinds))
-    assert form.editor("delta") is old
-    assert AllKinds(**form.values()) == AllKinds()
-    assert form.problems() == {}
-    assert changes == []
-
-
-def test_replaced_rows_are_deleted_at_once(form):
-    def widgets():
-        return len(form.findChildren(QWidget))
-
-    first = widgets()
-    old = weakref.ref(form.editor("delta"))
-    for _ in range(20):
-        form.set_declarations(declared(AllKinds)[1:])
-        form.set_declarations(declared(AllKinds))
-        assert widgets() == first
-    gc.collect()
-    assert old() is None
-
-
-def test_a_narrow_form_shows_every_word_of_a_name(form):
-    form.resize(form.minimumSizeHint())
-    for name in ("delta", "free_value", "max_cuts"):
-        label = next(one for one in form.findChildren(QLabel) if one.buddy() is form.editor(name))
-        words = label.text().partition("<br>")[0].split()
-        assert label.width() >= max(label.fontMetrics().horizontalAdvance(word) for word in words)
 
 
 @dataclass(frozen=True)
@@ -307,16 +211,3 @@ def test_advanced_parameters_are_shown_on_request_below_the_basic_ones(shown):
     assert shown_names(form) == ["goal"]
     QApplication.processEvents()
     assert form.sizeHint().height() == low
-
-
-def test_an_advanced_parameter_with_another_value_is_always_shown(shown):
-    form = shown(ParameterForm(declared(Mixed)))
-    form.set_values({"backtracks": 7})
-    assert shown_names(form) == ["goal", "backtracks"]
-    assert form.values() == {"goal": "shape", "c1": 0.1, "backtracks": 7}
-    form.set_values({"backtracks": 30})
-    assert shown_names(form) == ["goal"]
-
-
-def test_forms_without_advanced_parameters_have_no_button_for_them(form):
-    assert not named(form, QToolButton, "Advanced").isVisible()
