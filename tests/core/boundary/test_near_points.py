@@ -58,13 +58,6 @@ def test_a_sample_that_was_nowhere_is_near_nothing_at_the_origin():
         assert beyond.tolist() == [x != [0, 0, 5.0]]
 
 
-def test_a_sample_that_was_nowhere_is_near_nothing_at_the_origin_by_its_position_either():
-    trees, near = plane(PLANE + [0, 0, 5]), NearPoints(np.zeros(1, np.int32))
-    for x in [0, 0, 5.0], [np.nan, 0, 0], [0, 0, 0]:
-        beyond = near.beyond(trees, trees.points, np.array([x], dtype=float), np.ones(1))
-        assert beyond.tolist() == [x != [0, 0, 5.0]]
-
-
 def test_samples_are_beyond_a_plane_that_has_moved_by_their_distance_from_where_it_is_now():
     rng, trees, near = np.random.default_rng(9), plane(), NearPoints(np.zeros(2000, np.int32))
     x, limits = places(rng, 2000), rng.uniform(0.1, 1.0, 2000)

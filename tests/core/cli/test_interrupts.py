@@ -120,8 +120,11 @@ def ended(process):
     return process.returncode, [line for line in said.splitlines() if ": iteration " not in line]
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize("name", ["hexmend.cli.main", "argparse", "numpy", "hexmend.run.run"])
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [("hexmend.cli.main", signal.SIGINT), ("argparse", signal.SIGTERM), ("numpy", signal.SIGINT),
+     ("hexmend.run.run", signal.SIGTERM)],
+)  # fmt: skip
 def test_a_signal_during_an_import_is_one_line(smooth, tmp_path, name, number):
     status, said = ended(smooth(IMPORTS.format(name=name), number))
     assert (status, said) == (128 + number, ["hexmend: interrupted"])

@@ -52,7 +52,7 @@ def test_a_link_to_itself_cannot_be_read(mesh, capsys):
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names on this system")
-@pytest.mark.parametrize("words", WRITING.values(), ids=WRITING)
+@pytest.mark.parametrize("words", [WRITING["smooth"], WRITING["report of a run"]])
 def test_a_named_pipe_is_not_waited_for(words, mesh):
     os.mkfifo("pipe.vtu")
     done = run(shlex.join([*words, "pipe.vtu"]))
@@ -83,7 +83,7 @@ def test_empty_words_are_refused(words, mesh, capsys):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the shell of Windows does not close streams")
-@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("closed", ["<&- >&- 2>&-", pytest.param(">&-", marks=pytest.mark.slow)])
 def test_a_command_works_without_the_streams_that_are_closed(closed, mesh):
     done = run(f"smooth mesh.vtu -o out.vtu {closed}")
     assert (done.returncode, done.stderr) == (0, "")

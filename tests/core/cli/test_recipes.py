@@ -110,9 +110,9 @@ def test_recipes_that_one_would_take_for_each_other_are_not_compared(mesh, recip
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
-@pytest.mark.parametrize(("name", "scramble"), [("bridge-sharp", 0.4), ("five-side", 0.0), ("plane", 0.4)])
+@pytest.mark.parametrize(("name", "scramble"), [("bridge-sharp", 0.4), ("five-side", 0.0)])
 def test_the_recipes_that_come_with_hexmend_are_worth_running(path, name, scramble):
-    mesh = gallery.make(name, size=500 if name != "plane" else 2500, scramble=scramble)
+    mesh = gallery.make(name, size=500, scramble=scramble)
     recipe = read_recipe(path)
     result = smooth(mesh, recipe)
     assert result.after.inverted == 0
@@ -123,10 +123,6 @@ def test_the_recipes_that_come_with_hexmend_are_worth_running(path, name, scramb
         assert result.after.q_min > mended.q_min
     else:
         assert result.after.objective == pytest.approx(mended.objective, rel=1e-3)
-
-
-def test_recipes_come_with_hexmend():
-    assert {path.stem for path in SHIPPED} >= {"getme-then-mend", "mend-then-lift"}
 
 
 def test_a_recipe_of_the_package_is_found_by_name(mesh, monkeypatch, tmp_path):

@@ -69,7 +69,7 @@ def signalled(program, number, at, *words, again_at=None):
     return done.returncode, out, err
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_what_a_run_reached_is_written_and_nothing_else_is_left(mesh, tmp_path, number):
     words = ["smooth", mesh, "-o", tmp_path / "out.vtu", "--method", "laplacian"]
     status, _, err = signalled(
@@ -81,7 +81,7 @@ def test_what_a_run_reached_is_written_and_nothing_else_is_left(mesh, tmp_path, 
     assert sorted(path.name for path in tmp_path.iterdir()) == ["mesh.vtu", "out.vtu"]
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGHUP, marks=pytest.mark.slow)])
 def test_an_end_while_writing_leaves_the_old_file_whole(mesh, tmp_path, number):
     before = mesh.read_bytes()
     words = ["smooth", mesh, "-o", mesh, "--method", "laplacian"]

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend import kernels
@@ -12,7 +12,7 @@ from hexmend.kernels.conjugate_gradients import CoarsePattern
 from tests.core.grids import grid, scrambled
 
 seeds = st.integers(0, 2**32 - 1)
-parts = pytest.mark.parametrize("parts", [1, 2, 3])
+parts = pytest.mark.parametrize("parts", [1, 3])
 
 
 def assembled(mesh, parts=1, distance=2, shift=0.0, precision=np.float64):
@@ -71,6 +71,7 @@ def test_rows_meet_the_aggregates_of_their_blocks(parts):
 
 @parts
 @pytest.mark.parametrize("damping", [0.0, 0.3])
+@settings(max_examples=3)
 @given(seed=seeds)
 def test_the_solution_is_the_same(parts, damping, seed):
     matrix = assembled(scrambled(grid(14, 3, 3), 0.15, seed), parts, shift=0.5)
@@ -83,7 +84,7 @@ def test_the_solution_is_the_same(parts, damping, seed):
 
 
 @parts
-@pytest.mark.parametrize("iterations", [1, 2, 5])
+@pytest.mark.parametrize("iterations", [1, 5])
 def test_the_residual_has_no_part_that_the_coarse_space_can_solve(parts, iterations):
     matrix = assembled(scrambled(grid(14, 3, 3), 0.15), parts)
     right = random(matrix)

@@ -85,7 +85,7 @@ def test_quads_are_divided_and_the_outline_stays(times):
         assert area(points, quads) == pytest.approx(area(*coarse))
 
 
-@pytest.mark.parametrize("size", [5, 20, 60, 100, 300, 900, 3000, 250_000])
+@pytest.mark.parametrize("size", [5, 60, 900, 3000])
 def test_any_size_comes_near(size):
     mesh = make("five-side", size=size)
     assert mesh.n_hexes == pytest.approx(size, rel=0.35)

@@ -46,7 +46,7 @@ def test_the_boundary_is_the_box_and_the_aeroplane(plane):
     np.testing.assert_array_equal(on_plane, on_box)
 
 
-@pytest.mark.parametrize("size", [1000, 31760])
+@pytest.mark.parametrize("size", [1000, pytest.param(31760, marks=pytest.mark.slow)])
 def test_each_surface_is_closed_and_without_handles(size):
     mesh = make("plane", size=size)
     faces = mesh.topology.boundary_faces
@@ -106,7 +106,7 @@ def test_nodes_on_the_surfaces_stay_when_the_others_are_relaxed_and_displaced():
     assert relaxed.q_mean > summarise(mesh).q_mean
 
 
-@pytest.mark.parametrize("size", [3000, 8000])
+@pytest.mark.parametrize("size", [3000, pytest.param(8000, marks=pytest.mark.slow)])
 def test_local_descent_mends_all(size):
     mesh = make("plane", size=size)
     result = hx.smooth(mesh, "local-sd", StoppingCriteria(max_iterations=60))

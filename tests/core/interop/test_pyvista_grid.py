@@ -79,10 +79,6 @@ def test_neither_side_changes_the_other():
     assert mesh.points.any()
 
 
-def test_no_array_is_chosen_to_colour_a_grid():
-    assert hx.to_pyvista(with_all_data()).active_scalars_name is None
-
-
 @pytest.mark.parametrize("grid", [
     boxes(), pv.ImageData(dimensions=(3, 3, 3)), pv.RectilinearGrid(*[np.arange(3.0)] * 3),
     boxes().cast_to_explicit_structured_grid(), boxes().cast_to_unstructured_grid(),

@@ -22,8 +22,7 @@ def flat(growth=1.0, layers=6):
     return mesh.replace(node_sets={"floor": np.flatnonzero(mesh.points[:, 2] == 0), "keep": np.array([0])})
 
 
-@pytest.mark.parametrize("growth", [0.9, 1.0, 1.3])
-@pytest.mark.parametrize("name", ["plate", "floor"])
+@pytest.mark.parametrize(("name", "growth"), [("plate", 0.9), ("floor", 1.0), ("plate", 1.3)])
 def test_a_set_is_a_wall_whatever_the_growth(name, growth):
     mesh = flat(growth)
     (wall,) = layers_on_sets(mesh, [name]).walls

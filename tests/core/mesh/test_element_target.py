@@ -49,10 +49,6 @@ def test_lengths_are_read_only_and_independent_of_the_callers():
     assert not target.lengths.flags.writeable
 
 
-def test_a_mesh_has_no_target_unless_told(mesh):
-    assert mesh.element_target is None
-
-
 def test_derived_meshes_keep_the_target(mesh):
     target = Target(np.ones((mesh.n_hexes, 3)), 0.5, "given")
     aimed = mesh.with_element_target(target)

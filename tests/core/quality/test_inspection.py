@@ -90,8 +90,9 @@ def test_a_node_of_no_hex_is_unused_and_goes_nowhere():
     assert one.point.tolist() == [9, 9, 9]
 
 
-@pytest.mark.parametrize("count", [0, 1, 7, 100, 2_999, 3_000, 4_000])
-@pytest.mark.parametrize("levels", [2, 40, 10**9])
+@pytest.mark.parametrize(
+    ("count", "levels"), [(0, 2), (1, 40), (7, 2), (100, 10**9), (2_999, 40), (3_000, 2), (4_000, 40)]
+)
 def test_of_many_hexes_the_worst_are_found_without_sorting_all(count, levels):
     random = np.random.default_rng(count)
     q, scaled = (random.integers(0, levels, 3_000) / levels for _ in range(2))

@@ -10,7 +10,6 @@ from scipy.stats import special_ortho_group
 
 from hexmend.energy import ObjectiveNorm, energies, objective
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants, corner_qualities, locked_hexes, measure, summarise
 from tests.core.grids import grid, scrambled
 
@@ -167,14 +166,6 @@ def test_summary_of_a_tangled_mesh():
     assert summary.q_std == pytest.approx(figures.q.std())
 
 
-def test_summary_of_a_sound_mesh():
-    mesh = scrambled(grid(4), 0.1)
-    q = measure(mesh.points, mesh.hexes).q
-    summary = summarise(mesh)
-    assert summary.q_norm == pytest.approx(1 / np.sqrt(np.mean(1 / q**2)))
-    assert summary.objective == pytest.approx(np.sum(energies(mesh.points, mesh.hexes) ** 2))
-
-
 def test_a_corner_of_fixed_nodes_locks_its_hex():
     mesh = grid(2)
     points = mesh.points.copy()
@@ -187,10 +178,6 @@ def test_a_corner_of_fixed_nodes_locks_its_hex():
     assert free.locked_inverted == 0
     figures = measure(points, mesh.hexes)
     assert locked_hexes(points, mesh.hexes, np.zeros(27, bool), figures.inverted).sum() == 0
-
-
-def test_single_hex_mesh_summary():
-    assert summarise(Mesh(UNIT_CUBE, ONE)).q_mean == pytest.approx(1)
 
 
 def test_the_mean_of_the_corners_qualities_is_the_hexes():

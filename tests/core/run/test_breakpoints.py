@@ -67,13 +67,6 @@ def test_cuts_of_the_line_search():
     assert Breakpoints(backtracks=0).hit(cut, still, 1.0) is None
 
 
-@pytest.mark.parametrize(
-    "one", [{"inverts": True}, {"q_min_falls": True}, {"node": 0}, {"hex": 0}, {"cuts": 0}], ids=str
-)
-def test_each_of_them_alone_is_something_to_pause_at(one):
-    assert Breakpoints(**one).any
-
-
 def test_how_many_elements_inverted_is_said(run):
     def said(*hexes):
         sigma = np.ones(MESH.n_hexes)

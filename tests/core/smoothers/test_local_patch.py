@@ -167,18 +167,7 @@ def test_no_patch_raises_its_energy_nor_moves_a_node_of_others(seed, size, overl
     assert now <= before * (1 + 1e-9) + 1e-12
 
 
-@given(st.integers(0, 2**32 - 1), SIZES, OVERLAPS)
-def test_sweeps_lower_the_objective_and_never_leave_the_feasible_region(seed, size, overlap):
-    mesh = scrambled(grid(4), 0.2, seed)
-    if measure(mesh.points, mesh.hexes).n_inverted:
-        return
-    steps = itertools.islice(LocalPatch(patch=size, overlap=overlap).steps(mesh), 5)
-    values = [(measure(step.points, mesh.hexes).eta ** 2).sum() for step in steps]
-    assert np.isfinite(values).all()
-    assert (np.diff(values) <= 1e-12).all()
-
-
-@pytest.mark.parametrize(("size", "overlap"), [(1, 0), (8, 0), (8, 1), (216, 1)])
+@pytest.mark.parametrize(("size", "overlap"), [(1, 0), (8, 1)])
 def test_threads_do_not_matter(size, overlap):
     mesh = make("bridge-sharp", size=2048)
     smoother, most = LocalPatch(patch=size, overlap=overlap), kernels.threads()
@@ -190,8 +179,7 @@ def test_threads_do_not_matter(size, overlap):
         kernels.set_threads(most)
 
 
-@pytest.mark.parametrize("overlap", [0, 1])
-@pytest.mark.parametrize("size", [1, 8, 64, 216])
+@pytest.mark.parametrize(("size", "overlap"), [(1, 0), (8, 1), (64, 0), (216, 1)])
 def test_a_tangled_cube_becomes_the_perfect_grid(size, overlap):
     mesh = make("cube", size=216, scramble=0.9, seed=2)
     assert measure(mesh.points, mesh.hexes).n_inverted > 20

@@ -57,7 +57,7 @@ def test_normals_are_those_of_the_sides():
     np.testing.assert_allclose(sliding.outward, expected, atol=1e-12)
 
 
-@pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "local-sd", "global-nr", "mend"])
+@pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "mend"])
 def test_a_node_beyond_its_neighbour_finds_its_way_back(name):
     cube = grid(4)
     points = cube.points.copy()
@@ -95,7 +95,7 @@ def test_the_boundary_stays_in_its_room_both_ways(name, solid, amplitude, tolera
     assert surface_change(mesh, result.mesh).max <= tolerance * (1 + 1e-4)
 
 
-@pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "local-patch"])
+@pytest.mark.parametrize("name", ["laplacian", "local-nr"])
 def test_the_room_costs_little_of_what_is_reached(name):
     mesh = slid(wavy(grid(4), 0.3), 0.5, seed=2)
     stop = StoppingCriteria(max_iterations=20, keep_last=True)
@@ -116,7 +116,7 @@ def test_with_a_tolerance_of_0_the_boundary_stays_on_its_surface(name, solid, am
     assert abs(result.surface.volume_change) < 1e-7
 
 
-@pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "global-nr", "mend"])
+@pytest.mark.parametrize("name", ["laplacian", "local-nr", "mend"])
 def test_with_a_tolerance_of_0_nodes_slide_where_the_surface_is_flat(name):
     mesh = slid(grid(4), 0.3, seed=1)
     result = smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=0), StoppingCriteria(max_iterations=50))

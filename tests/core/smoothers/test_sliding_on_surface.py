@@ -15,7 +15,6 @@ from hexmend.boundary.closest_point import triangulate
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
 from hexmend.run import StoppingCriteria, smooth
-from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid
@@ -94,17 +93,6 @@ def test_the_distance_told_is_that_from_the_surface():
     assert 0.01 < nodes < 0.5
     assert result.surface == surface_change(mesh.sliding_on(target), result.mesh)
     assert surface_change(mesh, result.mesh.sliding_on(skin_of(mesh))).max_distance != nodes
-
-
-def test_all_stages_slide_on_it():
-    mesh, target = ball(3), skin_of(ball(12))
-    stages = [
-        Stage(METHODS[name](boundary="slide"), StoppingCriteria(max_iterations=4))
-        for name in ("getme", "local-sd", "mend")
-    ]
-    result = smooth(mesh.sliding_on(target), Recipe.of(*stages))
-    slides = SlidingBoundary(mesh.sliding_on(target)).nodes
-    assert target.distances(result.mesh.points[slides]).max() < 1e-9
 
 
 def test_a_boundary_that_stays_does_not_see_it():

@@ -45,10 +45,6 @@ def turned(mesh, seed=0):
     return mesh.with_points(mesh.points @ turn.T + 0.3)
 
 
-def test_every_optimiser_and_averaging_method_can():
-    assert set(SLIDING) == set(METHODS)
-
-
 @given(
     name=st.sampled_from(SLIDING),
     solid=st.sampled_from(sorted(SOLIDS)),
@@ -92,9 +88,9 @@ def test_a_flat_solid_keeps_its_surface_and_volume(name):
 
 @pytest.mark.parametrize("name", SLIDING)
 def test_the_number_of_threads_does_not_matter(name):
-    mesh, most, results = slid(cylinder(32, 6), 0.3), kernels.threads(), []
+    mesh, most, results = slid(cylinder(32, 3), 0.3), kernels.threads(), []
     try:
-        for threads in (1, 2, 3):
+        for threads in (1, 3):
             kernels.set_threads(threads)
             steps = METHODS[name](boundary="slide").steps(mesh)
             results.append(next(itertools.islice(steps, 3, None)).points)
@@ -105,25 +101,12 @@ def test_the_number_of_threads_does_not_matter(name):
 
 
 @pytest.mark.parametrize("name", SLIDING)
-def test_the_boundary_stays_unless_it_is_told_to_slide(name):
-    mesh = slid(grid(3), 0.3)
-    result = smooth(mesh, METHODS[name](), StoppingCriteria(max_iterations=3))
-    assert result.surface is None
-    np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
-
-
-@pytest.mark.parametrize("name", SLIDING)
 def test_one_layer_has_nodes_that_slide(name):
     mesh = slid(grid(4, 4, 1), 0.3)
     assert smooth(mesh, name).outcome is Outcome.NOTHING_FREE
     result = smooth(mesh, METHODS[name](boundary="slide"), StoppingCriteria(max_iterations=20))
     assert result.outcome is not Outcome.NOTHING_FREE
     assert result.after.q_min > result.before.q_min + 0.05
-
-
-def test_where_corners_are_all_there_is_nothing_moves():
-    result = smooth(grid(1), METHODS["mend"](boundary="slide"))
-    assert result.outcome is Outcome.NOTHING_FREE
 
 
 @given(st.sampled_from(["smart-laplacian", "getme", "getme-sequential"]), st.integers(0, 2**32 - 1))
@@ -208,18 +191,8 @@ def test_the_command_line_lets_it_slide_and_says_what_became_of_the_surface(tmp_
     path, out, report = tmp_path / "mesh.vtu", tmp_path / "out.vtu", tmp_path / "report.json"
     mesh = slid(cylinder(16, 3), 0.2)
     io.write(path, mesh)
-    words = [
-        "smooth",
-        str(path),
-        "-o",
-        str(out),
-        "--method",
-        "local-nr",
-        "--max-iterations",
-        "5",
-        "--json",
-        str(report),
-    ]
+    words = ["smooth", str(path), "-o", str(out), "--method", "local-nr", "--max-iterations", "5"]
+    words += ["--json", str(report)]
     assert main([*words, "--boundary", "slide"]) == 0
     assert "The boundary slid: " in capsys.readouterr().out
     said = json.loads(report.read_text())
@@ -230,16 +203,6 @@ def test_the_command_line_lets_it_slide_and_says_what_became_of_the_surface(tmp_
     assert "surface" not in json.loads(report.read_text())
     assert main([*words, "--boundary", "slide", "--set", "boundary=fixed"]) == 2
     assert "--set boundary" in capsys.readouterr().err
-
-
-def test_comparisons_let_every_method_slide(tmp_path, capsys):
-    path, folder = tmp_path / "mesh.vtu", tmp_path / "tables"
-    io.write(path, slid(grid(3), 0.2))
-    words = ["compare", str(path), "-o", str(folder), "--methods", "laplacian,global-nr", "--max-iterations", "5"]
-    assert main([*words, "--boundary", "slide"]) == 0
-    rows = json.loads((folder / "comparison.json").read_text())["rows"]
-    assert [row["parameters"]["boundary"] for row in rows] == ["slide", "slide"]
-    assert all(row["surface"]["max"] < 1e-9 for row in rows)
 
 
 def pushed_in():

@@ -22,7 +22,7 @@ def path(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("begin", "end"), [(0, 4), (3, 3), (5, 2), (65_000, 66_000), (10, 200_000), (299_990, 400_000), (400_000, 400_010)]
+    ("begin", "end"), [(5, 2), (65_000, 66_000), (10, 200_000), (299_990, 400_000), (400_000, 400_010)]
 )
 def test_slices_are_those_of_bytes(path, begin, end):
     data = FileBytes(path)

@@ -12,10 +12,8 @@ import pytest
 from hexmend import gallery, io
 from hexmend.errors import FileError
 from hexmend.io.archive.folder import ArchiveFolder
-from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.storage import temporary_files
 from hexmend.io.storage.atomic import atomic_write
-from hexmend.report import output_folder
 
 #: Begins to write a file, says so, and waits.
 WRITER = """
@@ -90,13 +88,6 @@ def test_only_new_arrays_of_a_folder_are_flushed_before_its_description_names_th
     assert recorded[4] == ("replace", temporary, "description.json")
 
 
-@needs_proc
-def test_new_folders_are_flushed_into_those_above_them(tmp_path, recorded):
-    output_folder(tmp_path / "a" / "b")
-    output_folder(tmp_path / "a" / "b")
-    assert recorded == [("fsync", "a"), ("fsync", tmp_path.name)]
-
-
 def test_a_disk_that_is_full_when_the_file_is_flushed_leaves_the_old_file(tmp_path, monkeypatch):
     path = tmp_path / "mesh.vtk"
     path.write_text("old")
@@ -136,24 +127,6 @@ def test_macos_flushes_the_cache_of_the_drive_too_where_it_can(tmp_path, monkeyp
     with atomic_write(tmp_path / "mesh.vtk") as temporary:
         temporary.write_text("new")
     assert calls == ([51, 51] if works else [51, "fsync", 51, "fsync"])
-
-
-def write_hdf5(path, mesh, encoding):
-    with pytest.importorskip("h5py").File(path, "w") as file:
-        file["points"] = mesh.points
-
-
-def write_netcdf(path, mesh, encoding):
-    with pytest.importorskip("netCDF4").Dataset(path, "w") as file:
-        file.createDimension("nodes", mesh.n_nodes)
-
-
-@pytest.mark.parametrize("write", [write_hdf5, write_netcdf])
-def test_a_format_of_another_distribution_may_lock_the_file_that_it_writes(tmp_path, monkeypatch, write):
-    monkeypatch.setattr(FORMATS, "_entries", dict(FORMATS))
-    FORMATS.add("mine", Format("mine", "Mine", (".mine",), ("binary",), read=io.read, write=write))
-    io.write(tmp_path / "mesh.mine", gallery.make("cube", size=8))
-    assert files(tmp_path) == ["mesh.mine"]
 
 
 @pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])

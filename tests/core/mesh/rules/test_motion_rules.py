@@ -137,13 +137,12 @@ def inner(name):
     return SIDES[name][((x > 0) & (x < 4)).sum(axis=1) == 2]
 
 
-@pytest.mark.parametrize("method", ["mend", "local-sd", "smart-laplacian", "getme"])
-def test_nodes_of_a_plane_move_in_it_and_those_of_its_rim_stay(method):
+def test_nodes_of_a_plane_move_in_it_and_those_of_its_rim_stay():
     mesh = CUBE.replace(node_sets=SIDES)
     moved = mesh.points.copy()
     moved[inner("z0"), :2] += np.random.default_rng(0).uniform(-0.3, 0.3, (len(inner("z0")), 2))
     mesh = scrambled(mesh.with_points(moved), 0.2)
-    after = smooth(mesh, method, plane="z0", max_iterations=50).mesh.points
+    after = smooth(mesh, "mend", plane="z0", max_iterations=50).mesh.points
     assert (after[SIDES["z0"], 2] == 0).all()
     assert np.abs(after - CUBE.points)[inner("z0")].max() < 0.3 * np.abs(moved - CUBE.points).max()
     others = np.setdiff1d(np.flatnonzero(mesh.topology.boundary), inner("z0"))

@@ -21,9 +21,7 @@ Mend = METHODS["mend"]
 SHAPE = Mend(goal="shape", p=1.0)
 MESHES = {
     "five-side": lambda: make("five-side", size=100),
-    "bridge-sharp": lambda: make("bridge-sharp", size=108),
     "plane": lambda: make("plane", size=150),
-    "grid": lambda: scrambled(grid(4), 0.3, 5),
     "cube, tangled": lambda: make("cube", size=125, scramble=1.0),
 }
 

@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.optimise.maxmin import envelope as envelopes
-from hexmend.optimise.maxmin.deviation import DeviationTracker
 from hexmend.optimise.maxmin.envelope import Envelope
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
@@ -75,27 +73,6 @@ def test_what_is_followed_bounds_as_what_is_looked_at_anew(sliding):
     assert one.slack.size
     assert (one.has_gain == 0).all()
     assert one.slack.min() == pytest.approx(other.slack.min())
-
-
-def test_where_a_move_was_allowed_its_distances_are_not_looked_up_anew(sliding, monkeypatch):
-    looked = []
-
-    class Counted(DeviationTracker):
-        def __init__(self, *given):
-            looked.append(1)
-            super().__init__(*given)
-
-    monkeypatch.setattr(envelopes, "DeviationTracker", Counted)
-    envelope = Envelope(sliding.mesh.n_nodes, sliding)
-    envelope.limit_to(sliding.mesh.mean_edge_length)
-    before, nodes = sliding.mesh.points, sliding.nodes[:3]
-    after = pushed(sliding, nodes, 0.1)
-    assert not envelope.leaves_band(before, after, nodes)
-    envelope.bounds(after, np.full(len(after), 0.1))
-    assert len(looked) == 1
-    assert envelope.leaves_band(after, pushed(sliding, nodes, 1.5), nodes)
-    envelope.bounds(after, np.full(len(after), 0.1))  # what was refused is not where it is
-    assert len(looked) == 1
 
 
 @pytest.mark.parametrize("share", [0.05, 0.3])

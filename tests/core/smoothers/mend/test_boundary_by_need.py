@@ -119,7 +119,9 @@ def check_freedom(mesh):
         assert slides.after.scaled_jacobian_min >= fixed.after.scaled_jacobian_min - MAXMIN.regained
 
 
-@pytest.mark.parametrize("name", SMALL)
+@pytest.mark.parametrize(
+    "name", ["cylinder", "five-side", *(pytest.param(n, marks=pytest.mark.slow) for n in ("ball", "block"))]
+)
 def test_a_boundary_that_slides_ends_no_lower_than_a_fixed_one(name):
     check_freedom(SMALL[name]())
 
@@ -194,7 +196,7 @@ def check_tolerances(mesh, tolerances=(0.0, 0.03, 0.1, 0.3, 1.0)):
     [pytest.param("ball", marks=pytest.mark.slow), pytest.param("cylinder", marks=pytest.mark.slow), "five-side"],
 )
 def test_a_larger_tolerance_ends_no_lower(name):
-    check_tolerances(SMALL[name]())
+    check_tolerances(SMALL[name](), (0.0, 0.1, 1.0))
 
 
 @pytest.mark.slow
@@ -214,10 +216,9 @@ def knob():
     return Mesh(np.vstack([mesh.points, above]), np.vstack([mesh.hexes, [*on_face, *top]]))
 
 
-@pytest.mark.parametrize("keep_last", [False, True])
-def test_a_result_with_an_inverted_hex_is_no_better_than_one_without(keep_last):
+def test_a_result_with_an_inverted_hex_is_no_better_than_one_without():
     """Within smaller tolerances the hex stays inverted, and the least of the corners that can be moved is 1."""
-    settings = {"goal": "scaled-jacobian", "boundary": "slide", "surface_tolerance": 0.3, "keep_last": keep_last}
+    settings = {"goal": "scaled-jacobian", "boundary": "slide", "surface_tolerance": 0.3, "keep_last": True}
     result = smooth(knob(), "mend", **settings)
     assert result.after.inverted == 0
     assert result.after.scaled_jacobian_min > 0.95
@@ -235,7 +236,7 @@ def test_a_tolerance_above_that_by_default_begins_at_its_result(real_mesh):
     check_tolerances(read(real_mesh("cap_in.mesh")), (0.3, 1.0))
 
 
-@pytest.mark.parametrize("goal", ["shape", "balanced", "time-step", "scaled-jacobian"])
+@pytest.mark.parametrize("goal", ["balanced", "scaled-jacobian"])
 def test_a_band_that_is_wider_by_rounding_is_no_other_band(monkeypatch, goal):
     """The mean edge length of a mesh on a target may differ by rounding once its nodes are projected again."""
     fine = ball(8)
@@ -288,16 +289,15 @@ def test_no_wider_band_is_tried_where_the_band_does_not_limit_the_least(monkeypa
     assert wider
 
 
-@pytest.mark.parametrize("name", ["ball", "cylinder", "five-side"])
-def test_nodes_that_do_not_limit_the_least_go_where_the_shape_is_best(name, monkeypatch):
+def test_nodes_that_do_not_limit_the_least_go_where_the_shape_is_best(monkeypatch):
     def without(stages, mesh, leaving, result):
         return result
         yield
 
     method = Mend(goal="scaled-jacobian", boundary="slide")
-    improved = smooth(SMALL[name](), method).after
+    improved = smooth(SMALL["five-side"](), method).after
     monkeypatch.setattr(Stages, "_improve_shape", without)
-    risen = smooth(SMALL[name](), method).after
+    risen = smooth(SMALL["five-side"](), method).after
     assert improved.scaled_jacobian_min >= risen.scaled_jacobian_min - MAXMIN.regained
     assert improved.q_mean > risen.q_mean + 0.005
     assert improved.q_min > risen.q_min
@@ -325,7 +325,7 @@ def test_edges_between_sets_are_left_only_with_a_tolerance_in_numbers():
 
 @pytest.mark.parametrize(
     ("settings", "passed_over"),
-    [({}, True), ({"surface_tolerance": 0.0}, False), ({"goal": "shape"}, False), ({"goal": "balanced"}, False)],
+    [({}, True), ({"surface_tolerance": 0.0}, False), ({"goal": "balanced"}, False)],
 )
 def test_sliding_is_passed_over_where_a_hex_is_mended_off_the_surface_only(monkeypatch, settings, passed_over):
     """The corner of a block is cut off, so that a hex has two faces on one flat patch."""

@@ -68,8 +68,7 @@ def pinned(mesh):
     return mesh.replace(pinned=np.random.default_rng(3).random(mesh.n_nodes) < 0.2)
 
 
-@pytest.mark.parametrize("amplitude", [0.0, 0.2, 0.7])
-@pytest.mark.parametrize("name", FIXED)
+@pytest.mark.parametrize(("name", "amplitude"), list(zip(FIXED, 2 * [0.0, 0.2, 0.7], strict=True)))
 def test_the_start_is_no_worse_than_the_given_points_and_keeps_fixed_nodes_and_planes(name, amplitude):
     whole = FIXED[name]()
     mesh = whole.with_points(whole.constrained(scrambled(whole, amplitude).points))

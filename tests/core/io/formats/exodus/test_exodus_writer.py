@@ -11,22 +11,6 @@ from tests.core.grids import grid
 from tests.core.io.formats.exodus.exodus_files import HEX27, letters, rich, written
 
 
-def test_all_data_of_the_capabilities_are_read_again(tmp_path):
-    mesh = rich()
-    assert io.unsupported_data(tmp_path / "r.exo", mesh) == []
-    io.write(tmp_path / "r.exo", mesh)
-    back = io.read(tmp_path / "r.exo")
-    np.testing.assert_array_equal(back.hexes, mesh.hexes)
-    for kind in ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets"):
-        mine, its = getattr(mesh, kind), getattr(back, kind)
-        assert set(mine) == set(its), kind
-        for name, values in mine.items():
-            np.testing.assert_array_equal(its[name], values, err_msg=name)
-    np.testing.assert_array_equal(back.pinned, mesh.pinned)
-    assert back.cells[0].sets["lid"].tolist() == [1]
-    assert back.cells[0].data["t"].tolist() == [1.5, 2]
-
-
 def test_hexes_of_both_orders_keep_their_data_and_sets(tmp_path):
     bare = grid(3, 1, 1)
     mids = np.full((3, 19), -1)

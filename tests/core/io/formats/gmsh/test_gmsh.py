@@ -51,8 +51,7 @@ def test_a_written_mesh_is_read_again(nodes, encoding, tmp_path):
     assert_same(mesh, io.read(tmp_path / "a.msh"), without=("node_sets", "side_sets"))
 
 
-@pytest.mark.parametrize("encoding", ["binary", "ascii"])
-@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize(("version", "encoding"), list(zip(VERSIONS, 2 * ["binary", "ascii"], strict=True)))
 @pytest.mark.parametrize("file", ["o1", "o2", "o2i"])
 def test_a_file_of_gmsh_survives(file, version, encoding, tmp_path):
     mesh = io.read(FILES / f"gmsh-{file}-{version}.msh")
@@ -137,28 +136,6 @@ def test_a_hex_in_two_groups_is_one_hex_and_claimed_counts_are_checked(tmp_path)
     (tmp_path / "b.msh").write_bytes(binary[:at] + (2**62).to_bytes(8, "little") * 2 + binary[at + 16 :])
     with pytest.raises(FileError):
         io.read(tmp_path / "b.msh")
-
-
-@pytest.mark.parametrize("encoding", ["binary", "ascii"])
-def test_data_and_pins_survive(encoding, tmp_path):
-    mesh, random = with_everything(20), np.random.default_rng(0)
-    pinned = random.random(mesh.n_nodes) < 0.5
-    mesh = mesh.replace(
-        node_data={
-            **mesh.node_data,
-            "heat": random.normal(size=mesh.n_nodes),
-            "flow": random.normal(size=(mesh.n_nodes, 3)),
-        },
-        hex_data={**mesh.hex_data, "stress": random.normal(size=(mesh.n_hexes, 9)), "part": np.arange(mesh.n_hexes)},
-        pinned=pinned,
-    )
-    io.write(tmp_path / "a.msh", mesh, encoding=encoding)
-    again = io.read(tmp_path / "a.msh")
-    assert_same(mesh, again, without=("node_sets", "side_sets"))
-    for kind, names in (("node_data", ("heat", "flow")), ("hex_data", ("stress", "part"))):
-        for name in names:
-            np.testing.assert_array_equal(getattr(again, kind)[name], getattr(mesh, kind)[name])
-    assert again.pinned[pinned].all()
 
 
 def test_data_of_some_nodes_are_nan_for_the_others(tmp_path):

@@ -112,12 +112,6 @@ def test_fields_other_than_natural_numbers_give_none(word):
     assert natural_numbers(np.array([b"1", word], "S8")) is None
 
 
-@pytest.mark.parametrize("text", ["BEGIN BULK", "BEGIN BULK\n", "SOL 101\nBEGIN BULK\n"])
-def test_a_file_without_cards_has_no_grid_points(text, tmp_path):
-    with pytest.raises(FileError, match="has no GRID"):
-        read(tmp_path, text)
-
-
 @pytest.mark.parametrize(("word", "value"), [
     ("1.5D1", 15), ("1.5d+1", 15), ("-1.5D-1", -0.15), ("1.5E1", 15), (".15+2", 15), ("-.15-1", -0.015), ("15.", 15),
 ])  # fmt: skip

@@ -7,7 +7,6 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
@@ -91,36 +90,6 @@ def test_corners_stay_as_they_were_though_hexes_share_their_bases(tmp_path):
     for rows in (hexes, hexes[:, turned]):  # the latter inside out
         io.write(tmp_path / "a.ovm", Mesh(mesh.points, rows))
         np.testing.assert_array_equal(io.read(tmp_path / "a.ovm", as_is=True).hexes, rows)
-
-
-def test_properties_sets_and_other_cells_are_read_again(tmp_path):
-    points = np.vstack([UNIT_CUBE, [[0.5, 0.5, 2], [0.5, 0.5, 3], [2, 0, 0], [2, 0, 1]]])
-    mesh = Mesh(
-        points,
-        np.arange(8)[None],
-        pinned=np.arange(12) == 3,
-        node_data={"heat": np.linspace(0, 1, 12), "flow x": points.astype(np.float32), "id": np.arange(12) * 2**40},
-        hex_data={"id": np.array([7]), "stress": np.array([[1, -2, 3, 4]])},
-        node_sets={"wall": np.array([0, 5])},
-        hex_sets={"part": np.array([0])},
-        cells=(
-            Cells("wedge", np.array([[1, 10, 2, 5, 11, 6]]), {"id": np.array([8])}),
-            Cells("pyramid", np.array([[4, 5, 6, 7, 8]]), {"id": np.array([9])}),
-            Cells("tetra", np.array([[5, 6, 8, 9]]), {"id": np.array([10])}),
-        ),
-    )
-    assert io.unsupported_data(tmp_path / "a.ovm", mesh) == []
-    io.write(tmp_path / "a.ovm", mesh)
-    back = io.read(tmp_path / "a.ovm")
-    for name, values in mesh.node_data.items():
-        np.testing.assert_array_equal(back.node_data[name], values)
-    for name, values in mesh.hex_data.items():
-        np.testing.assert_array_equal(back.hex_data[name], values)
-    assert back.node_sets["wall"].tolist() == [0, 5]
-    assert back.hex_sets["part"].tolist() == [0]
-    assert back.pinned[3]
-    found = {cells.kind: (cells.nodes.tolist(), cells.data["id"].tolist()) for cells in back.cells}
-    assert found == {cells.kind: (cells.nodes.tolist(), cells.data["id"].tolist()) for cells in mesh.cells}
 
 
 def test_what_the_format_has_no_type_for_is_named(tmp_path):

@@ -242,7 +242,7 @@ def test_pieces_that_a_copy_of_the_file_names_stay(tmp_path):
     assert io.read(tmp_path / "b.pvtu").n_hexes == 8
 
 
-@pytest.mark.parametrize("source", ["./a/a_0.vtu", "a//a_0.vtu", "a\\a_0.vtu", "x/../a/a_0.vtu", "link/a_0.vtu"])
+@pytest.mark.parametrize("source", ["a\\a_0.vtu", "x/../a/a_0.vtu", "link/a_0.vtu"])
 def test_pieces_that_another_file_names_by_another_path_stay(tmp_path, source):
     io.write(tmp_path / "a.pvtu", grid(2))
     if source.startswith("link"):
