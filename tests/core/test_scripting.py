@@ -97,11 +97,6 @@ def test_worst_hexes_need_a_better_end_and_a_count():
         MESH.worst(-1)
 
 
-def test_a_mesh_without_a_metric_gives_its_summary():
-    assert MESH.quality() == hx.summarise(MESH)
-    assert MESH.quality().inverted == int((hx.measure(MESH.points, MESH.hexes).sigma <= 0).sum())
-
-
 def test_a_figure_has_one_name():
     run = hx.iterate(MESH, "local-sd", max_iterations=2)
     for iteration in run:
@@ -116,10 +111,6 @@ def test_a_figure_has_one_name():
 def test_the_method_is_named_by_its_old_keyword_too():
     old, new = (hx.smooth(MESH, max_iterations=1, **{name: "laplacian"}) for name in ("smoother", "method"))
     assert old.method == new.method == hx.iterate(MESH, smoother="laplacian").smoother.name == "laplacian"
-
-
-def test_choices_are_named_with_underscores_too():
-    assert hx.iterate(MESH, goal="scaled_jacobian").smoother == hx.Mend(goal="scaled-jacobian")
 
 
 def test_a_representation_is_one_line_with_its_figures():

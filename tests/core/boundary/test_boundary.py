@@ -98,14 +98,6 @@ def touching(shared):
     return Mesh(places, number.ravel()[np.concatenate([cube.hexes, cube.hexes + 8])])
 
 
-def test_cubes_that_touch_in_a_node_have_a_corner_there():
-    mesh = touching(1)
-    boundary = classify(mesh.points, mesh.topology.boundary_faces, feature_angle=100)
-    (node,) = np.flatnonzero((mesh.points == 1).all(axis=1))
-    assert boundary.node_class[node] == NodeClass.CORNER
-    assert (counts(boundary)[0], boundary.n_patches) == (1, 2)
-
-
 def test_cubes_that_touch_in_an_edge_have_a_curve_there_however_large_the_angle():
     mesh = touching(2)
     boundary = classify(mesh.points, mesh.topology.boundary_faces, feature_angle=100)
@@ -191,25 +183,6 @@ def test_an_open_surface_ends_in_a_curve():
     assert (counts(boundary), boundary.n_curves, boundary.n_patches) == ([4, 16, 16], 4, 1)
     boundary = classify(points, quads.astype(np.int32), turn=100)
     assert (counts(boundary), boundary.n_curves) == ([0, 20, 16], 1)
-
-
-def test_a_collapsed_hex_has_kinds():
-    mesh = grid(3)
-    hexes = mesh.hexes.copy()
-    hexes[0, 3] = hexes[0, 0]  # an edge of a box's side is one node
-    collapsed = Mesh(mesh.points, hexes)
-    check(collapsed, boundary_of(collapsed))
-
-
-def test_kinds_do_not_depend_on_how_the_inside_lies():
-    before, after = (make("cube", size=125, scramble=amount) for amount in (0, 2))
-    np.testing.assert_array_equal(boundary_of(before).node_class, boundary_of(after).node_class)
-
-
-def test_a_surface_of_no_faces_has_no_patch_and_no_curve():
-    nothing = classify(np.zeros((3, 3)), np.empty((0, 4), np.int32))
-    assert (nothing.n_patches, nothing.n_curves) == (0, 0)
-    assert not nothing.node_class.any()
 
 
 def test_an_edge_is_a_feature_beyond_the_angle_and_not_at_it():

@@ -60,9 +60,3 @@ def test_one_bent_edge_divides_many_faces_less_often(limit, divisions, monkeypat
     surface = surface_of_boundary(mesh, points, boundary)
     pieces = 4 * len(boundary.faces) * divisions**2 + len(boundary.segments) * divisions
     assert len(surface.trees.pieces) == pieces
-
-
-def test_straight_edges_leave_the_surface_as_it_is():
-    mesh = with_mid_nodes(grid(2), False)
-    surface = surface_of_boundary(mesh, mesh.points, boundary_of(mesh))
-    assert len(surface.trees.pieces) == 4 * len(mesh.topology.boundary_faces) + len(boundary_of(mesh).segments)

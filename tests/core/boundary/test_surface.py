@@ -138,15 +138,6 @@ def test_nodes_of_a_box_stay_in_their_planes_and_on_their_edges(seed, far):
     np.testing.assert_allclose(np.abs(directions[~on_patch]), ~held[~on_patch], atol=1e-14)
 
 
-@given(st.integers(0, 999))
-def test_putting_back_twice_is_putting_back_once(seed):
-    mesh = cylinder()
-    _, surface, nodes = sliding(mesh)
-    x = mesh.points[nodes] + 0.2 * np.random.default_rng(seed).normal(size=(len(nodes), 3))
-    once, _ = project(surface, x, nodes)
-    np.testing.assert_allclose(project(surface, once, nodes)[0], once, atol=1e-14)
-
-
 def test_a_node_goes_to_its_own_patch_though_another_is_nearer():
     mesh = grid(4, 4, 1)
     _boundary, surface, nodes = sliding(mesh, (NodeClass.PATCH,))

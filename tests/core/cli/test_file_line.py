@@ -10,8 +10,7 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.cli.output.file_line import FileLine
-from hexmend.cli.output.progress import Progress
-from hexmend.io.storage.file_progress import FileAction, FileProgress, watch_files
+from hexmend.io.storage.file_progress import FileAction, FileProgress
 
 pty = pytest.importorskip("pty")
 
@@ -92,13 +91,3 @@ def test_a_terminal_that_has_gone_does_not_end_the_reading(monkeypatch):
         line.show(FileProgress(Path("a"), FileAction.READING, 0.1, seconds))
     line.show(FileProgress(Path("a"), FileAction.READING, 1.0, 4.0, ended=True))
     assert len(shown) == 1
-
-
-def test_files_within_a_run_have_no_line(folder):
-    seen = []
-    with watch_files(seen.append):
-        with Progress():
-            io.read(folder / "mesh.vtu")
-        assert not seen
-        io.read(folder / "mesh.vtu")
-    assert seen

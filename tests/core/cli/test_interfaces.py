@@ -100,15 +100,6 @@ def test_options_replace_the_interfaces_of_a_recipe(path, tmp_path):
     np.testing.assert_array_equal(again.mesh.points, after.points)
 
 
-def test_a_recipe_that_frees_a_set_moves_no_node_outside_the_region(path, tmp_path):
-    mesh = io.read(path)
-    recipe = tmp_path / "recipe.toml"
-    recipe.write_text('format = 2\n[motion]\nfree = ["high"]\n[[stage]]\nmethod = "mend"\n')
-    outside = np.setdiff1d(np.arange(mesh.n_nodes), mesh.hexes[mesh.hex_sets["low"]])
-    after = smoothed(path, "--recipe", str(recipe), "--only", "low", "--rings", "0")
-    np.testing.assert_array_equal(after.points[outside], mesh.points[outside])
-
-
 def test_an_unknown_set_is_an_error_that_lists_the_sets(path, capsys):
     assert main(["smooth", str(path), "-o", str(path.with_name("out.vtu")), "--slide", "nowhere"]) == 3
     assert "there is no set 'nowhere': there are 'floor', 'roof', 'low', 'high'" in capsys.readouterr().err

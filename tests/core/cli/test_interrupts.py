@@ -173,14 +173,6 @@ def test_a_second_signal_within_the_first_iteration_ends_without_a_result(smooth
     assert (tmp_path / "out.vtu").read_text() == "old"
 
 
-def test_a_second_signal_while_the_live_line_is_drawn_loses_nothing(smooth, tmp_path):
-    moment = CALLS.format(module="rich.console", kind="Console", name="push_render_hook", count=2)
-    status, said = ended(smooth(moment, env={"FORCE_COLOR": "1"}))
-    assert status == 0
-    assert not any("Traceback" in line for line in said)
-    assert io.read(tmp_path / "out.vtu").n_hexes == 125
-
-
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_after_the_last_line_changes_nothing(smooth, tmp_path, number):
     status, said = ended(smooth(ENDS, number))

@@ -43,12 +43,6 @@ def test_smooth_may_write_its_own_input(deck, capsys):
     assert deck.read_text().endswith(END)
 
 
-def test_rewrite_writes_anew(deck, tmp_path, capsys):
-    smooth(deck, tmp_path / "out.inp", "--rewrite")
-    assert "Coordinates replaced" not in capsys.readouterr().out
-    assert "** ours" not in (tmp_path / "out.inp").read_text()
-
-
 def test_another_format_warns_of_losses(deck, tmp_path, capsys):
     smooth(deck, tmp_path / "out.su2")
     said = capsys.readouterr()
@@ -85,14 +79,6 @@ def test_repair_does_not_replace_a_deck_by_one_without_its_materials(deck, tmp_p
     assert io.read(deck).n_nodes == io.read(tmp_path / "other.inp").n_nodes
 
 
-def test_repair_replaces_a_file_of_nothing_but_a_mesh(deck):
-    io.write(deck, io.read(deck))
-    n_nodes = io.read(deck).n_nodes
-    with_a_loose_node(deck)
-    assert main(["repair", str(deck), "-o", str(deck)]) == 0
-    assert io.read(deck).n_nodes == n_nodes
-
-
 PROPERTY = 'HFProp bool "marked"\n'
 
 
@@ -124,17 +110,6 @@ def test_a_result_beside_the_file_takes_the_name_of_no_other(deck, monkeypatch, 
         assert f"The result was saved to {deck.with_name(name)}." in capsys.readouterr().err
         assert io.read(deck.with_name(name)).n_nodes == io.read(deck).n_nodes
     assert taken.read_text() == "the only copy of something"
-
-
-def test_a_folder_as_output_is_named_as_such(deck, tmp_path, capsys):
-    (tmp_path / "folder").mkdir()
-    assert smooth(deck, tmp_path / "folder") == 3
-    assert capsys.readouterr().err.splitlines() == [
-        "hexmend: folder: is a folder: expected the name of a file to write. "
-        f"Name one, such as {tmp_path / 'folder' / 'deck.inp'}."
-    ]
-    assert main(["repair", str(deck), "-o", str(tmp_path / "folder")]) == 3
-    assert "is a folder" in capsys.readouterr().err
 
 
 def test_a_result_is_not_lost_where_the_input_has_changed_meanwhile(deck, monkeypatch, capsys):

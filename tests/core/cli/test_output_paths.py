@@ -44,13 +44,6 @@ def test_a_link_to_itself_cannot_be_written(words, mesh, capsys):
     assert sorted(os.listdir()) == ["loop.vtu", mesh]
 
 
-@pytest.mark.skipif(os.name == "nt", reason="Windows lets few users make links")
-def test_a_link_to_itself_cannot_be_read(mesh, capsys):
-    os.symlink("loop.vtu", "loop.vtu")
-    assert main(["smooth", "loop.vtu", "-o", "out.vtu"]) == 3
-    assert "loop.vtu: is a link to a file that does not exist." in capsys.readouterr().err
-
-
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names on this system")
 @pytest.mark.parametrize("words", [WRITING["smooth"], WRITING["report of a run"]])
 def test_a_named_pipe_is_not_waited_for(words, mesh):
@@ -58,12 +51,6 @@ def test_a_named_pipe_is_not_waited_for(words, mesh):
     done = run(shlex.join([*words, "pipe.vtu"]))
     assert done.returncode == 3
     assert "pipe.vtu: is a named pipe: expected the name of a file to write." in done.stderr
-
-
-@pytest.mark.skipif(not os.path.exists("/dev/stdout"), reason="there is no /dev/stdout on this system")
-def test_a_report_is_written_to_a_pipe_of_the_shell(mesh):
-    done = run("smooth mesh.vtu -o out.vtu --json /dev/stderr 2>&1 >/dev/null | cat")
-    assert '"method": "mend"' in done.stdout
 
 
 @pytest.mark.parametrize(

@@ -94,15 +94,6 @@ def test_the_residual_has_no_part_that_the_coarse_space_can_solve(parts, iterati
     np.testing.assert_allclose(sums, 0, atol=1e-10 * np.abs(right).sum())
 
 
-def test_a_solution_in_the_coarse_space_needs_no_iteration():
-    matrix = assembled(scrambled(grid(8), 0.1))
-    basis = translations(matrix.sparsity)
-    x = basis @ np.random.default_rng(0).normal(size=basis.shape[1])
-    solved = matrix.solve(matrix @ x, 1e-6, 50, deflated=True)
-    assert solved.iterations == 0
-    np.testing.assert_allclose(solved.x, x, atol=1e-8 * np.abs(x).max())
-
-
 @pytest.mark.parametrize("precision", [np.float32, np.float64])
 def test_long_waves_need_fewer_iterations(precision):
     matrix = assembled(scrambled(grid(40, 5, 5), 0.1), 2, distance=3, precision=precision)
@@ -124,10 +115,6 @@ def test_a_matrix_that_the_coarse_space_shows_to_be_indefinite_is_not_deflated()
     deflated, plain = (matrix.solve(right, 1e-3, 50, deflated=how) for how in (True, False))
     assert deflated.negative_curvature
     np.testing.assert_array_equal(deflated.x, plain.x)
-
-
-def test_small_matrices_have_no_coarse_space():
-    assert BlockSparsity(grid(6)).coarse_space is None
 
 
 @parts

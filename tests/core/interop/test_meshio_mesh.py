@@ -44,13 +44,6 @@ def test_sets_are_those_of_meshio():
     assert [members.tolist() for members in other.cell_sets["overlapping"]] == [[2, 3], [], [], [0], []]
 
 
-def test_sets_without_members_come_back():
-    none = np.empty(0, np.int64)
-    mesh = CUBE.replace(node_sets={"a": none}, hex_sets={"b": none}, side_sets={"c": np.empty((0, 2), np.int64)})
-    back = hx.from_meshio(hx.to_meshio(mesh))
-    assert (list(back.node_sets), list(back.hex_sets), list(back.side_sets)) == (["a"], ["b"], ["c"])
-
-
 def test_neither_side_changes_the_other():
     other = hx.to_meshio(with_all_data())
     back = hx.from_meshio(other)

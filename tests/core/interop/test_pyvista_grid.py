@@ -89,14 +89,6 @@ def test_every_grid_of_pyvista_with_hexes_is_taken(grid):
     assert mesh.quality("q").min() == pytest.approx(1)
 
 
-def test_a_grid_of_vtk_itself_is_taken():
-    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
-
-    grid = vtkUnstructuredGrid()
-    grid.DeepCopy(hx.to_pyvista(CUBE))
-    assert_round_trip(CUBE, hx.from_pyvista(grid))
-
-
 def mixed():
     """Six cells in this order: a quad, a hex, a tetrahedron, a hex, a polygon of five nodes, a voxel."""
     points = hx.gallery.make("cube", size=27).points

@@ -114,8 +114,3 @@ def test_a_line_search_passes_on_the_exceptions_of_the_energy():
 
 def test_the_rounding_of_a_negative_energy_ends_a_line_search():
     assert LineSearch()(lambda alpha: 0.0, -1.0, -1e-16) == (0.0, 0)
-
-
-def test_a_line_search_with_another_initial_step_keeps_the_rest():
-    search = LineSearch(0.5, 0.25, 0.1, 7).with_initial_step(2.0)
-    assert (search.initial_step, search.backtrack_factor, search.c1, search.max_backtracks) == (2.0, 0.25, 0.1, 7)

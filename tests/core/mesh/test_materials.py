@@ -84,14 +84,6 @@ def test_interfaces_are_the_nodes_and_faces_of_hexes_of_different_material(count
         assert set(MESH.hexes[one, FACES[face]]) == set(MESH.hexes[other, FACES[back]])
 
 
-def test_the_materials_of_a_mesh_with_other_points_are_not_found_anew():
-    mesh = MESH.replace(hex_sets=TWO)
-    found = mesh.materials
-    assert mesh.with_points(mesh.points + 1).materials is found
-    assert mesh.replace(pinned=mesh.topology.boundary).materials is found
-    assert mesh.replace(hex_sets={}).materials is None
-
-
 def test_the_ball_in_a_box_has_a_sphere_as_interface():
     mesh = make("materials", size=300, scramble=0.4)
     on = mesh.materials.interface_nodes

@@ -38,11 +38,6 @@ def test_every_gallery_mesh_is_padded_and_mended(name):
     assert padding.mesh.fixed[: mesh.n_nodes][mesh.topology.boundary].all()
 
 
-def test_hexes_have_one_face_on_the_boundary_at_most():
-    padded = hx.pad(grid(3), mend=False).mesh
-    assert (padded.topology.face_neighbours < 0).sum(axis=1).max() == 1
-
-
 def test_a_locked_hex_is_mended_with_the_boundary_as_it_is():
     mesh = grid(3)
     points = mesh.points.copy()

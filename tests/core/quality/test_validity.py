@@ -236,12 +236,6 @@ def test_a_degenerate_hex_counts_as_invalid(corners):
     assert measure(points, hexes).n_invalid == 1
 
 
-def test_one_hex_that_overflows_among_good_ones_is_seen():
-    points, hexes = separate([UNIT_CUBE, 1e300 * np.random.default_rng(2).normal(size=(8, 3)), UNIT_CUBE])
-    assert (certify(points, hexes) != Validity.VALID).tolist() == [False, True, False]
-    assert least_jacobian(points, hexes) <= 0
-
-
 @pytest.mark.parametrize("edge", [1e-100, 1e-60, 1e52, 1e100])
 def test_a_cube_of_any_size_whose_volume_is_a_number_is_valid(edge):
     assert certify(*separate([edge * UNIT_CUBE]))[0] == Validity.VALID
@@ -260,14 +254,6 @@ def test_the_field_of_a_hex_is_the_determinant_at_each_point():
     positions, determinants = jacobian_field(BETWEEN.astype(float), 4)
     np.testing.assert_allclose(determinants, values_on_grid(BETWEEN[None], 4)[0][0], rtol=1e-12, atol=1e-12)
     np.testing.assert_array_equal(positions[4, 0, 4], BETWEEN[5])
-
-
-def test_bounds_do_not_depend_on_the_corner_that_is_the_first():
-    points, hexes = separate(random_hexes(5000, 17, 28))
-    bounds = jacobian_bounds(points, hexes)
-    scale = np.abs(bounds).max(axis=1, keepdims=True)
-    for turned in rotations():
-        assert (np.abs(jacobian_bounds(points, np.ascontiguousarray(hexes[:, turned])) - bounds) <= 1e-12 * scale).all()
 
 
 def test_the_least_jacobian_is_a_lower_bound_and_depends_on_no_order_of_hexes():

@@ -140,18 +140,6 @@ def test_a_stage_goes_on_from_what_was_kept_and_a_recipe_can_ask_for_the_last(br
     assert begun_from(LAST) == 12
 
 
-def test_what_was_best_before_the_method_was_changed_is_still_kept(bridge):
-    run = iterate(bridge, "laplacian", LAST)
-    for _ in range(4):
-        next(run)
-    assert run.best.number == 4
-    run.switch_method("laplacian", SHORT)
-    assert run.best.number == 3
-    run.switch_method(METHODS["laplacian"](update="simultaneous"))
-    list(run)
-    assert (run.best.number, run.last.number) == (3, 12)
-
-
 def test_a_method_that_takes_over_goes_on_from_the_newest_and_may_end_better(bridge):
     run = iterate(bridge, "laplacian")
     for _ in range(6):
@@ -228,16 +216,3 @@ def test_smart_laplacian_does_not_spoil_the_worst_hex(real_mesh):
     result = smooth(mesh, "smart-laplacian")
     assert result.history[-1]["q_min"] < 0.1 < result.before.q_min <= result.after.q_min
     assert "was kept: " in result.message
-
-
-def test_a_method_that_takes_over_may_keep_where_it_begins(bridge):
-    """Of iterates that are as good an optimiser keeps the last, where Laplacian smoothing had kept an earlier one."""
-    run = iterate(bridge, "laplacian", SHORT)
-    for _ in range(12):
-        newest = next(run)
-        if run.best is not newest and newest.quality.q.min() > run.result().before.q_min:
-            break
-    kept = run.best
-    assert kept.number < newest.number
-    run.switch_method("local-sd", StoppingCriteria(max_iterations=newest.number))
-    assert run.best.number == newest.number

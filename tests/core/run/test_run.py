@@ -95,20 +95,6 @@ def test_iterations_are_read_only_and_carry_their_figures(mesh):
         assert it.row()["q_min"] == it.quality.q.min()
 
 
-def test_largest_move_is_in_mean_edge_lengths():
-    small, large = scrambled(grid(3), 0.2), scrambled(grid(3), 0.2)
-    large = large.with_points(large.points * 1000)
-    moves = [next(iterate(m, "laplacian")).largest_move for m in (small, large)]
-    assert moves[0] == pytest.approx(moves[1])
-
-
-def test_the_result_carries_what_the_mesh_carried(mesh):
-    named = mesh.replace(name="mine", node_data={"id": np.arange(mesh.n_nodes)})
-    result = smooth(named, "laplacian", StoppingCriteria(max_iterations=1))
-    assert result.mesh.name == "mine"
-    assert result.mesh.node_data is named.node_data
-
-
 def test_unknown_methods_and_wrong_limits_are_said(mesh):
     with pytest.raises(ParameterError, match="did you mean laplacian"):
         iterate(mesh, "laplacain")

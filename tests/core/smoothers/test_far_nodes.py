@@ -8,7 +8,6 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
 from hexmend.io import read, write
-from hexmend.quality import summarise
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid
@@ -73,9 +72,3 @@ def test_a_node_that_cannot_slide_is_named(wrong):
     said = rf"node {sliding.nodes[3]} cannot slide: no place of the surface is closest to \[.*{wrong}.*pin it\."
     with pytest.raises(MeshError, match=said.replace("+", r"\+")):
         sliding.project(x)
-
-
-def test_its_figures_are_numbers():
-    for place in PLACES:
-        figures = summarise(with_far_node(place, 1e30)[0]).to_dict()
-        assert all(value is None or np.isfinite(value) for value in figures.values())

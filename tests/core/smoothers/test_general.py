@@ -1,7 +1,5 @@
 """Algorithm 5.1: its two decisions, in words."""
 
-import itertools
-
 import numpy as np
 import pytest
 
@@ -61,8 +59,3 @@ def test_getme_comes_first_and_the_iterations_of_both_are_counted():
     getme = smooth(mesh, "getme", StoppingCriteria(max_iterations=7, tolerance=0))
     assert run.history[7]["objective"] == getme.history[7]["objective"]
     assert measure(run.mesh.points, mesh.hexes).n_inverted == 0
-
-
-def test_every_step_of_getme_says_that_more_is_to_come():
-    steps = list(itertools.islice(General(getme_iterations=3).steps(make("five-side", size=150)), 6))
-    assert [step.intermediate for step in steps] == [True] * 4 + [False] * 2

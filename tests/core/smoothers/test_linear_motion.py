@@ -161,15 +161,3 @@ def test_steps_of_methods_of_others_are_constrained(case):
         CHECKS[case](given, iteration.points, 4)
         assert iteration.quality.n_inverted == 0
         assert iteration.largest_move > 0
-
-
-def test_a_node_restricted_inside_keeps_its_line():
-    mesh = grid(4)
-    node = np.flatnonzero((mesh.points == 2).all(axis=1))
-    mesh = mesh.with_linear_motion(LinearMotion.along_lines(node, [1.0, 0, 0]))
-    scrambled = mesh.with_points(
-        mesh.points + 0.3 * np.random.default_rng(0).normal(size=(125, 3)) * mesh.free[:, None]
-    )
-    for method in ("mend", "laplacian", "getme", "local-sd"):
-        points = hx.smooth(scrambled, method).mesh.points
-        np.testing.assert_array_equal(points[node, 1:], [[2, 2]])

@@ -10,14 +10,9 @@ from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
 from hexmend import io, kernels
-from hexmend.boundary import NodeClass, SlidingBoundary, freed_by_sliding, surface_change
+from hexmend.boundary import NodeClass, SlidingBoundary, surface_change
 from hexmend.cli.main import main
-from hexmend.energy import SQUARES
-from hexmend.iteration import Outcome
-from hexmend.kernels import local
-from hexmend.kernels.line_search import LineSearch
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import locked_hexes, measure
+from hexmend.quality import measure
 from hexmend.report import record
 from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
@@ -100,15 +95,6 @@ def test_the_number_of_threads_does_not_matter(name):
         np.testing.assert_array_equal(results[0], result)
 
 
-@pytest.mark.parametrize("name", SLIDING)
-def test_one_layer_has_nodes_that_slide(name):
-    mesh = slid(grid(4, 4, 1), 0.3)
-    assert smooth(mesh, name).outcome is Outcome.NOTHING_FREE
-    result = smooth(mesh, METHODS[name](boundary="slide"), StoppingCriteria(max_iterations=20))
-    assert result.outcome is not Outcome.NOTHING_FREE
-    assert result.after.q_min > result.before.q_min + 0.05
-
-
 @given(st.sampled_from(["smart-laplacian", "getme", "getme-sequential"]), st.integers(0, 2**32 - 1))
 def test_guarded_methods_invert_no_hex_that_was_sound(name, seed):
     mesh = slid(ball(3), 0.4, seed)
@@ -142,18 +128,6 @@ def test_laplacian_takes_the_mean_over_the_neighbours_on_the_nodes_own_curve_or_
         ring = [other for other in mesh.topology.rings[node] if tuple(sorted((int(node), int(other)))) in along]
         assert all(part[other] == part[node] or kind[other] < kind[node] for other in ring)
         np.testing.assert_allclose(moved.points[node], mesh.points[ring].mean(axis=0), atol=1e-12)  # its sides are flat
-
-
-@pytest.mark.parametrize("direction", local.Direction)
-def test_nodes_that_do_not_slide_are_visited_as_ever(direction):
-    mesh = slid(ball(4), 0.2)
-    sliding, colours = SlidingBoundary(mesh), mesh.topology.colouring(mesh.free)
-    settings, swept = local.NodeStepSettings(direction, 0.01, SQUARES, LineSearch()), []
-    for surface in (), (sliding.sliding_surface, sliding.tangents(mesh.points)):
-        points = mesh.points.copy()
-        local.sweep(points, mesh.topology.hex_mesh, colours.start, colours.items, settings, *surface)
-        swept.append(points)
-    np.testing.assert_allclose(swept[0], swept[1], atol=1e-9)
 
 
 def test_all_stages_of_a_run_slide_on_the_surface_that_it_began_with():
@@ -203,40 +177,3 @@ def test_the_command_line_lets_it_slide_and_says_what_became_of_the_surface(tmp_
     assert "surface" not in json.loads(report.read_text())
     assert main([*words, "--boundary", "slide", "--set", "boundary=fixed"]) == 2
     assert "--set boundary" in capsys.readouterr().err
-
-
-def pushed_in():
-    """A hex whose corner is pushed in: the nodes around it slide away from it, if they may."""
-    mesh = grid(3)
-    points = mesh.points.copy()
-    points[0] += 0.7 * (points[mesh.hexes[0, 6]] - points[0])  # a corner whose neighbours slide
-    return mesh.with_points(points)
-
-
-def test_locked_hexes_that_sliding_frees_are_told_from_those_that_it_cannot(tmp_path, capsys):
-    mesh = pushed_in()
-    which = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, measure(mesh.points, mesh.hexes).inverted)
-    assert which.sum() == 1
-    assert (freed_by_sliding(mesh, which) == which).all()
-    pinned = np.zeros(mesh.n_nodes, dtype=bool)
-    pinned[mesh.hexes[0]] = True
-    assert not freed_by_sliding(mesh.replace(pinned=pinned), which).any()
-    io.write(tmp_path / "mesh.vtu", mesh)
-    assert main(["info", str(tmp_path / "mesh.vtu")]) == 0
-    assert "1 locked; sliding frees none; 1 undecided." in capsys.readouterr().out
-
-
-def test_a_hex_with_a_corner_in_a_flat_side_is_not_freed():
-    mesh = flattened()
-    which = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, measure(mesh.points, mesh.hexes).inverted)
-    assert which.any()
-    assert not freed_by_sliding(mesh, which).any()
-
-
-def flattened() -> Mesh:
-    """Two by two hexes on one layer; the corner of one is drawn to the middle of its sides, so that it is straight."""
-    mesh = grid(2, 2, 1)
-    points = mesh.points.copy()
-    for corner, one, other in (0, 1, 3), (9, 10, 12):
-        points[corner] = (points[one] + points[other]) / 2
-    return mesh.with_points(points)

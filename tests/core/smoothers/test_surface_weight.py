@@ -18,7 +18,6 @@ from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 from tests.core.linear_motions import planes
-from tests.core.smoothers.test_sliding_on_surface import skin_of
 
 WEIGHTED = sorted(name for name, method in METHODS.items() if hasattr(method, "surface_weight"))
 DESCENTS = [name for name in WEIGHTED if name != "local-patch"]
@@ -33,12 +32,6 @@ def sliding(name, weight, **values):
 def quads_of(mesh, points=None):
     """The corners of the quads of the boundary at some points, on the surface of a mesh."""
     return SurfaceQuads(SlidingBoundary(mesh), ObjectiveNorm(), 1.0).corners(mesh.points if points is None else points)
-
-
-@pytest.mark.parametrize("name", WEIGHTED)
-def test_without_weight_the_quads_are_not_recorded(name):
-    steps = itertools.islice(METHODS[name](boundary="slide").steps(slid(cylinder(16, 3), 0.3)), 4)
-    assert [step.surface for step in steps] == [None] * 4
 
 
 @pytest.mark.parametrize("name", WEIGHTED)
@@ -167,14 +160,6 @@ def test_with_a_target_the_quads_are_to_have_its_lengths(name):
     assert values[-1] < 0.01 * values[0]
 
 
-@pytest.mark.parametrize("name", ["local-nr", "global-sd"])
-def test_a_surface_of_its_own_gives_the_normals(name):
-    mesh = slid(ball(4), 0.2).sliding_on(skin_of(ball(8)))
-    run = iterate(mesh, sliding(name, 1.0), StoppingCriteria(max_iterations=5))
-    values = [it.surface.value for it in run]
-    assert values[-1] < 0.9 * values[0]
-
-
 @pytest.mark.parametrize("name", ["local-nr", "local-patch", "global-nr"])
 def test_nodes_with_a_linear_motion_keep_it(name):
     cube = grid(4)
@@ -187,10 +172,3 @@ def test_nodes_with_a_linear_motion_keep_it(name):
     ends = np.isin(cube.points[:, 0], (0, 4))
     np.testing.assert_array_equal(run.last.points[ends, 0], cube.points[ends, 0])
     assert run.history[-1]["objective"] < 0.5 * run.history[0]["objective"]
-
-
-def test_the_start_of_a_run_counts_the_quads_as_its_history_does():
-    run = iterate(slid(grid(3, 2, 4), 0.2), sliding("local-sd", 10.0), FEW)
-    assert run.start.row() == run.history[0]
-    next(run)
-    assert run.history[1]["objective"] < run.start.row()["objective"]

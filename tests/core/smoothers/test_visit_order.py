@@ -63,14 +63,6 @@ def test_nodes_of_a_wavefront_share_no_hex_and_neighbours_keep_their_order(nodes
         assert (first, later) not in pairs or group[first] < group[later]
 
 
-def test_the_wavefronts_of_colour_are_the_colours():
-    mesh = make("five-side", size=300)
-    colours = mesh.topology.colouring(mesh.free)
-    fronts = mesh.topology.wavefronts(colours.items)
-    np.testing.assert_array_equal(fronts.start, colours.start)
-    np.testing.assert_array_equal(fronts.items, colours.items)
-
-
 @given(
     st.sampled_from(LOCAL),
     st.sampled_from(sorted(ORDERS)),
@@ -116,14 +108,6 @@ def test_inward_goes_from_level_to_level():
     sequence = ORDERS["alternating"](mesh)
     np.testing.assert_array_equal(distance[sequence(mesh.points, 0)], there)
     np.testing.assert_array_equal(distance[sequence(mesh.points, 1)], back)
-
-
-def test_levels_that_nothing_leads_to_come_last():
-    mesh = grid(2)
-    assert (mesh.topology.levels(np.zeros(27, bool)) == 0).all()
-    start = np.zeros(27, bool)
-    start[0] = True
-    np.testing.assert_array_equal(mesh.topology.levels(start), mesh.points.sum(axis=1))
 
 
 def test_random_is_another_in_each_sweep_and_the_same_in_each_run():

@@ -8,8 +8,7 @@ import pytest
 
 from hexmend.errors import FileError
 from hexmend.gallery import make
-from hexmend.io import FORMATS, read, write, write_as_given
-from hexmend.io.coordinates.original import Original
+from hexmend.io import FORMATS, read, write
 from hexmend.io.storage import file_progress
 from hexmend.io.storage.file_progress import (
     FileAction,
@@ -65,14 +64,6 @@ def test_large_formats_report_what_is_read_and_written(tmp_path, mesh, suffix, e
     path = tmp_path / f"mesh{suffix}"
     check(reports_of(lambda: write(path, mesh, encoding=encoding)), path, FileAction.WRITING)
     check(reports_of(lambda: read(path)), path, FileAction.READING)
-
-
-def test_replacing_coordinates_is_one_operation_although_it_reads(tmp_path, mesh):
-    path, other = tmp_path / "mesh.meshb", tmp_path / "other.meshb"
-    write(path, mesh)
-    reports = reports_of(lambda: write_as_given(other, mesh.with_points(mesh.points + 1), Original(path, read(path))))
-    assert [one.ended for one in reports if one.action is FileAction.WRITING].count(True) == 1
-    assert {one.path for one in reports if one.action is FileAction.WRITING} == {other}
 
 
 @pytest.mark.parametrize(("suffix", "encoding"), LARGE)
@@ -137,17 +128,6 @@ def test_stages_divide_the_work_and_what_is_done_never_falls():
     for share in (0.25, 0.3125, 0.375, 0.9, 0.95, 1.0):
         assert np.isclose(shares, share).any(), share
     assert {one.path for one in reports} == {Path("a")}
-
-
-def test_reports_without_a_watcher_are_nothing():
-    report(0.5)
-    advance(1, 2)
-    with file_operation(Path("a"), FileAction.READING), stage(0.0, 0.5):
-        report(3, 0)
-    reports = []
-    with watch_files(reports.append), watch_files(None), file_operation(Path("a"), FileAction.READING):
-        report(0.5)
-    assert not reports
 
 
 @pytest.mark.parametrize(

@@ -78,24 +78,6 @@ def test_the_sides_of_a_wedge_are_rotated_copies():
         np.testing.assert_allclose(turn[~side], np.radians(2.5), atol=1e-13)
 
 
-def test_between_two_pairs_of_sides_nodes_move_along_a_line():
-    mesh = grid(6, 1, 1)
-    rows = np.array([(h, face) for h in range(6) for face in (2, 3, 4, 5)])
-    mesh = with_two_dimensional_motion(mesh.replace(side_sets={"sides": rows}, side_set_types={"sides": "empty"}))
-    assert mesh.free.sum() == 4 * 5
-    moved = inner_scrambled(mesh).points
-    np.testing.assert_array_equal(moved[:, 1:], mesh.points[:, 1:])
-    x = moved[:, 0].reshape(4, 7)
-    np.testing.assert_array_equal(x, np.tile(x[0], (4, 1)))
-
-
-def test_meshes_without_such_sides_have_no_motion():
-    assert two_dimensional_motion(grid(2)) is None
-    mesh = grid(2).replace(side_sets={"none": np.zeros((0, 2), int)}, side_set_types={"none": "empty"})
-    assert two_dimensional_motion(mesh) is None
-    assert with_two_dimensional_motion(mesh) is mesh
-
-
 def test_two_layers_are_refused_and_stay():
     mesh = grid(2).replace(side_sets={"low": np.array([(h, 4) for h in range(4)])}, side_set_types={"low": "empty"})
     with pytest.raises(MeshError, match="hex 0 has a face on 'low', of the type empty, and none opposite"):
@@ -119,12 +101,3 @@ def test_sides_that_are_no_copies_are_refused():
         two_dimensional_motion(mesh.with_points(points))
     with pytest.raises(MeshError, match="both sides of the wedge are in 'front'"):
         two_dimensional_motion(layer(kind="wedge"))
-
-
-def test_a_flat_plate_scrambled_in_its_plane_is_smoothed_in_it(real_mesh):
-    mesh = hx.read(real_mesh("flat_plate"))
-    assert mesh.free.sum() == 3430
-    moved = inner_scrambled(mesh, 1e-4)
-    result = hx.smooth(moved, max_iterations=3)
-    low, high = (result.mesh.points[mesh.points[:, 2] == z] for z in np.unique(mesh.points[:, 2]))
-    np.testing.assert_array_equal(np.sort(low[:, :2], axis=0), np.sort(high[:, :2], axis=0))

@@ -77,14 +77,6 @@ def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
     assert change.max_distance <= room * (1 + 1e-5)
 
 
-def test_while_a_boundary_is_brought_into_its_room_the_lowest_corners_are_moved_too():
-    mesh = slid(ball(3), 0.3, 1)
-    raising = lifted(SlidingBoundary(mesh), mesh.points, mesh.mean_edge_length, 4)
-    steps = list(raising.return_to_band(0.1 * mesh.mean_edge_length))
-    assert steps
-    assert all(step.corners > 0 for step in steps)
-
-
 def test_fixed_nodes_are_let_go_where_they_hold_an_inverted_corner_and_nowhere_else():
     """A corner of the solid, which has sharp edges, yields only where it would leave a hex without any volume."""
     mesh = grid(2)

@@ -6,7 +6,7 @@ from scipy.optimize import linprog
 
 from hexmend.optimise.maxmin.directions import StepDirections
 from hexmend.optimise.maxmin.linear_program import LinearConstraints, build_program, solve
-from hexmend.optimise.maxmin.vertex import Vertex, names_of_models, names_of_unknowns
+from hexmend.optimise.maxmin.vertex import Vertex
 
 AXES = np.concatenate([np.eye(3), -np.eye(3)])
 COUNT = 30
@@ -49,29 +49,3 @@ def test_the_vertex_of_another_program_changes_no_solution(seed):
         expected = linprog(program.cost, matrix, program.limits, bounds=bounds, method="highs-ipm").fun
         assert program.cost @ np.append(found.lengths, found.gain) == pytest.approx(expected, abs=1e-7)
         assert found.multipliers[models.has_gain > 0].sum() == pytest.approx(1)
-
-
-def test_what_is_known_of_a_vertex_is_found_by_name():
-    vertex = Vertex()
-    assert not vertex.is_known
-    assert vertex.unknowns(np.array([3, 4])).tolist() == [0, 0]
-    assert vertex.rows(np.array([3])).tolist() == [False]
-    vertex.remember(np.array([7, 3, 5]), np.array([2, 1, 0]), np.array([9, 8]), np.array([True, False]))
-    assert vertex.is_known
-    assert vertex.unknowns(np.array([3, 4, 5, 7, 99])).tolist() == [1, 0, 0, 2, 0]
-    assert vertex.rows(np.array([8, 9, 1])).tolist() == [False, True, False]
-
-
-def test_unknowns_are_named_by_node_and_number_of_the_direction_and_the_gain_comes_last():
-    nodes = np.array([4, 6])
-    of_two = StepDirections(np.array([0, 0, 1]), np.eye(3), np.eye(3))
-    assert names_of_unknowns(nodes, of_two).tolist() == [64, 65, 96, -1]
-    tied = StepDirections(np.array([0, 0, 1, 1]), np.ones((4, 3)), np.ones((4, 3)), np.array([0, 1, 0, 1]))
-    names = names_of_unknowns(nodes, tied)
-    assert names.size == 3
-    assert names[-1] == -1
-
-
-def test_models_of_the_least_and_bounds_of_the_same_nodes_have_different_names():
-    nodes = np.array([[1, 2, 3, 4], [1, 2, 3, 4], [2, 1, 3, 4]], dtype=np.int32)
-    assert len(set(names_of_models(nodes, np.array([1.0, 0.0, 1.0])).tolist())) == 3

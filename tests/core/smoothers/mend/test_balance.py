@@ -16,7 +16,6 @@ from hexmend.quality import measure, summarise
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.run import smooth
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.mend.balance import balance
 from hexmend.smoothers.mend.inversion import inverted_corners
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid, scrambled
@@ -155,33 +154,12 @@ def test_figures_of_a_hex_that_stays_inverted_do_not_count_but_those_of_the_othe
         assert ranked(name, others, 1.01) == mend.rank(start, start)
 
 
-def test_the_floors_rise_from_the_higher_of_two_starts():
-    mesh = make("five-side", size=60, scramble=0.25, seed=1)
-    energy = MeshEnergy(mesh, ObjectiveNorm(1.0))
-    high = smooth(mesh, Mend()).mesh.points
-    low = mesh.points
-    assert movable_least(mesh, high).jacobian > movable_least(mesh, low).jacobian + 0.2
-    for points, other in ((low, high), (high, low)):
-        steps = balance(energy, points, low, begin=other)
-        assert next(steps).diagnostics["least"] > movable_least(mesh, high).jacobian
-
-
 def test_the_result_is_said_with_what_was_possible():
     mesh = make("five-side", size=100)
     result = smooth(mesh, Mend())
     least = movable_least(mesh, result.mesh.points)
     assert "The minimum scaled Jacobian of the corners that can be moved reached " in result.message
     assert f"it is kept at {least.jacobian:.4f} at least, and the least q(H) at {least.quality:.4f}." in result.message
-
-
-def test_what_the_floors_cost_is_said_in_numbers():
-    mesh = make("kershaw", size=216)
-    result, shape = smooth(mesh, Mend()), smooth(mesh, Mend(goal="shape", p=1.0))
-    cost = shape.after.q_mean - result.after.q_mean
-    assert cost > 0.05
-    assert (
-        f"Both together cost {cost:.4f} of q mean, which would be {shape.after.q_mean:.4f} without." in result.message
-    )
 
 
 SLIDING = {

@@ -92,16 +92,6 @@ def test_freed_nodes_are_judged_by_nothing_and_the_others_as_before():
     np.testing.assert_array_equal(freed.project(points[freed.nodes]), points[freed.nodes])
 
 
-def test_at_rest_only_freed_nodes_move():
-    sliding = SlidingBoundary(grid(3))
-    node = np.flatnonzero(sliding.node_class == NodeClass.PATCH)[:1]
-    rests = sliding.without_nodes(node, 0.5).at_rest()
-    assert not rests.nodes.size
-    assert not rests.slides(sliding.nodes).any()
-    np.testing.assert_array_equal(np.flatnonzero(rests.mesh.free & ~rests.mesh.interior), node)
-    assert sliding.nodes.size == np.count_nonzero(sliding.mesh.free & ~sliding.mesh.interior)  # itself it still slides
-
-
 SMALL = {
     "ball": lambda: slid(ball(4), 0.5, 3),
     "cylinder": lambda: slid(cylinder(16, 3), 0.5, 3),
@@ -256,18 +246,6 @@ def test_a_band_that_is_wider_by_rounding_is_no_other_band(monkeypatch, goal):
     np.testing.assert_allclose(after.scaled_jacobian_min, expected.scaled_jacobian_min, rtol=1e-3)
 
 
-@pytest.mark.slow
-def test_without_a_limit_quads_may_be_further_from_the_surface_than_within_any():
-    mesh = wavy(ball(3), 0.05, 10)
-    within, unlimited = (
-        smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance=tolerance))
-        for tolerance in (1.0, "unlimited")
-    )
-    assert within.surface.max < 0.334
-    assert unlimited.surface.max > 0.35
-    assert unlimited.after.scaled_jacobian_min > within.after.scaled_jacobian_min + 0.01
-
-
 def test_the_boundary_is_no_further_away_than_pays():
     """A wider band is used only where the least gains a hundredth by it."""
     mesh = SMALL["five-side"]()
@@ -276,31 +254,6 @@ def test_the_boundary_is_no_further_away_than_pays():
         for tolerance in (3 * MAXMIN.bands[0], 0.3)
     )
     np.testing.assert_array_equal(narrow.mesh.points, wide.mesh.points)
-
-
-def test_no_wider_band_is_tried_where_the_band_does_not_limit_the_least(monkeypatch):
-    wider, with_band = [], SlidingBoundary.with_band
-    monkeypatch.setattr(
-        SlidingBoundary, "with_band", lambda sliding, width: wider.append(width) or with_band(sliding, width)
-    )
-    smooth(slid(grid(3, 2, 2), 0.2, 1), Mend(goal="scaled-jacobian", boundary="slide"))  # a block is flat
-    assert not wider
-    smooth(SMALL["five-side"](), Mend(goal="scaled-jacobian", boundary="slide"))
-    assert wider
-
-
-def test_nodes_that_do_not_limit_the_least_go_where_the_shape_is_best(monkeypatch):
-    def without(stages, mesh, leaving, result):
-        return result
-        yield
-
-    method = Mend(goal="scaled-jacobian", boundary="slide")
-    improved = smooth(SMALL["five-side"](), method).after
-    monkeypatch.setattr(Stages, "_improve_shape", without)
-    risen = smooth(SMALL["five-side"](), method).after
-    assert improved.scaled_jacobian_min >= risen.scaled_jacobian_min - MAXMIN.regained
-    assert improved.q_mean > risen.q_mean + 0.005
-    assert improved.q_min > risen.q_min
 
 
 def test_nodes_may_leave_a_surface_without_a_limit_of_the_distance():

@@ -73,11 +73,6 @@ def test_a_deck_written_by_hand_is_read(tmp_path):
     assert "*MATERIAL" in mesh.notes[0]
 
 
-def test_all_line_endings_read_the_same(tmp_path):
-    (tmp_path / "b.inp").write_bytes(DECK.replace("\n", "\r\n").encode())
-    assert_same(read(DECK, tmp_path), io.read(tmp_path / "b.inp"))
-
-
 @pytest.mark.parametrize("side", range(6))
 def test_the_sides_of_a_hex_are_those_of_the_manual(side, tmp_path):
     deck = f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*SURFACE, NAME=s\n1, S{side + 1}\n"

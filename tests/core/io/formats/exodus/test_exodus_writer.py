@@ -110,17 +110,6 @@ def test_ids_of_blocks_and_sets_are_kept(tmp_path):
     assert ids == {"eb": [300, 20], "ns": [101, 100], "ss": [200]}
 
 
-def test_rounded_whole_numbers_are_reported(tmp_path):
-    large = np.arange(8) + 2**53
-    mesh = grid(2).replace(hex_data={"exact": large - 8, "key": large, "low": -large}, node_data={"u": np.arange(27)})
-    told = ["whole numbers of cell data above 2^53, which are rounded (key, low)"]
-    assert io.unsupported_data(tmp_path / "a.exo", mesh) == told
-    kept = mesh.replace(hex_data={"exact": large - 8, "id": large})
-    assert io.unsupported_data(tmp_path / "a.exo", kept) == []
-    io.write(tmp_path / "a.exo", kept)
-    np.testing.assert_array_equal(io.read(tmp_path / "a.exo").hex_data["id"], large)
-
-
 def test_columns_with_the_names_of_other_data_are_renamed_together_and_that_is_reported(tmp_path):
     rng = np.random.default_rng(0)
     vector, pair, scalar = rng.normal(size=(27, 3)), rng.normal(size=(27, 2)), rng.normal(size=27)

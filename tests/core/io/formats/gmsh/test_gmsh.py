@@ -7,7 +7,6 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.mesh.cells import Cells
 from hexmend.quality import summarise
 from tests.core.grids import grid
 from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
@@ -159,15 +158,6 @@ def test_data_called_fixed_of_some_nodes_fix_these_alone(tmp_path):
     assert np.flatnonzero(io.read(tmp_path / "b.vtu").pinned).tolist() == [13]
 
 
-def test_data_of_any_width_are_read(tmp_path):
-    mesh = grid(1)
-    io.write(tmp_path / "a.msh", mesh, encoding="ascii")
-    rows = "".join(f"{k} {' '.join(str(k * j) for j in range(12))}\n" for k in range(1, 9))
-    with open(tmp_path / "a.msh", "a") as file:
-        file.write(f'$NodeData\n1\n"many"\n1\n0\n3\n0\n12\n8\n{rows}$EndNodeData\n')
-    np.testing.assert_array_equal(io.read(tmp_path / "a.msh").node_data["many"], np.outer(range(1, 9), range(12)))
-
-
 @pytest.mark.parametrize("encoding", ["ascii", "binary"])
 def test_data_of_other_widths_are_padded_or_left_out_and_that_is_reported(encoding, tmp_path):
     data = {"two": np.ones((8, 2)), "six": np.full((8, 6), 6), "ten": np.ones((8, 10)), "tensor": np.ones((8, 3, 3))}
@@ -197,28 +187,11 @@ def test_data_that_would_fill_the_memory_are_refused(tmp_path):
         io.read(path)
 
 
-def test_no_cells_have_no_data(tmp_path):
-    quads = Cells("quad", np.empty((0, 4), np.int32), {"q": np.empty((0, 3))})
-    io.write(tmp_path / "a.msh", grid(2).replace(cells=(quads,)))
-    assert io.read(tmp_path / "a.msh").n_hexes == 8
-
-
 def test_rounded_whole_numbers_are_reported(tmp_path):
     mesh = grid(2).replace(hex_data={"exact": np.arange(8) + 2**53 - 8, "key": np.arange(8) + 2**53})
     assert "whole numbers of cell data above 2^53, which are rounded (key)" in io.unsupported_data(
         tmp_path / "a.msh", mesh
     )
-
-
-def test_data_of_one_name_and_several_widths_are_reported(tmp_path):
-    quads = Cells("quad", grid(2).topology.boundary_faces[:2], {"d": np.ones((2, 3)), "e": np.ones(2)})
-    mesh = grid(2).replace(hex_data={"d": np.ones(8), "e": np.ones(8)}, cells=(quads,))
-    path = tmp_path / "a.msh"
-    assert io.unsupported_data(path, mesh) == ["names of cell data as they are (d)"]
-    io.write(path, mesh)
-    back = io.read(path)
-    assert set(back.hex_data) == {"d", "e", "id"}
-    assert set(back.cells[0].data) == {"d_2", "e", "id"}
 
 
 def test_skipped_sections_are_noted(tmp_path):

@@ -60,14 +60,6 @@ def test_a_written_mesh_is_read_again(nodes, tmp_path):
     assert_same(mesh, io.read(tmp_path / "a.med"), without=("side_sets",))
 
 
-def test_all_cells_of_a_level_have_families_where_one_has(tmp_path):
-    h5py = pytest.importorskip("h5py")
-    io.write(tmp_path / "a.med", with_everything())
-    with h5py.File(tmp_path / "a.med") as file:
-        (step,) = file["ENS_MAA/mesh"].values()
-        assert all("FAM" in cells for cells in step["MAI"].values())
-
-
 def changed(tmp_path, change):
     h5py = pytest.importorskip("h5py")
     path = tmp_path / "a.med"

@@ -1,6 +1,5 @@
 """Cases of OpenFOAM, as text and binary, become meshes with patches and zones as sets."""
 
-import gzip
 import shutil
 
 import numpy as np
@@ -197,12 +196,6 @@ def test_a_neighbour_list_of_old_versions_has_an_entry_for_every_face(tmp_path):
     labels += [b"-1"] * (36 - len(labels))
     path.write_bytes(head + b"}\n36\n(\n" + b"\n".join(labels) + b"\n)\n")
     np.testing.assert_array_equal(io.read(tmp_path / "case").hexes, mesh.hexes)
-
-
-def test_a_plain_file_is_preferred_to_a_compressed_one(tmp_path):
-    mesh = write_cube(tmp_path / "cube")
-    (mesh / "points.gz").write_bytes(gzip.compress(b"nonsense"))
-    assert io.read(tmp_path / "cube").n_hexes == 1
 
 
 def test_real_cases_are_read(real_mesh):

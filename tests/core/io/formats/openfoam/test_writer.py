@@ -79,17 +79,6 @@ def test_links_of_a_case_do_not_lead_back_to_it(tmp_path):
     assert not (tmp_path / "copy/constant/polyMesh").is_symlink()
 
 
-def test_a_foam_file_alone_in_its_folder_takes_a_copy(tmp_path):
-    write_cube(tmp_path / "cube")
-    given, out = io.read(tmp_path / "cube"), tmp_path / "mended/mended.foam"
-    out.parent.mkdir()
-    out.touch()
-    assert io.write_as_given(out, moved(given), Original(tmp_path / "cube", given)).replaced
-    np.testing.assert_array_equal(io.read(out).points, moved(given).points)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["cube", "mended"]
-    assert tree(out.parent).keys() == tree(tmp_path / "cube").keys() | {"mended.foam"}
-
-
 def test_a_later_time_is_written_as_the_mesh_of_the_copy(tmp_path):
     mesh = write_cube(tmp_path / "cube")
     (tmp_path / "cube/0.5/polyMesh").mkdir(parents=True)

@@ -109,20 +109,3 @@ def test_a_hex_with_a_node_twice_is_refused(tmp_path):
     with pytest.raises(FileError, match="hex 1 has a node twice"):
         io.write(tmp_path / "a.ovm", Mesh(grid(2, 1, 1).points, [[*range(8)], [1, 1, 2, 3, 4, 5, 6, 7]]))
     assert not list(tmp_path.iterdir())
-
-
-def test_data_of_one_column_are_written_as_numbers(tmp_path):
-    mesh = grid(2).replace(node_data={"one": np.arange(27.0)[:, None]})
-    assert not io.unsupported_data(tmp_path / "a.ovm", mesh)
-    io.write(tmp_path / "a.ovm", mesh)
-    np.testing.assert_array_equal(io.read(tmp_path / "a.ovm").node_data["one"], np.arange(27.0))
-
-
-def test_names_that_differ_in_capitals_alone_are_two(tmp_path):
-    mesh = grid(2).replace(
-        node_sets={"S": np.array([1]), "s": np.array([2])}, hex_data={"T": np.ones(8), "t": np.zeros(8)}
-    )
-    io.write(tmp_path / "a.ovm", mesh)
-    back = io.read(tmp_path / "a.ovm")
-    assert {name: members.tolist() for name, members in back.node_sets.items()} == {"S": [1], "s": [2]}
-    np.testing.assert_array_equal([back.hex_data["T"], back.hex_data["t"]], [np.ones(8), np.zeros(8)])

@@ -117,12 +117,6 @@ def test_unsigned_numbers_of_64_bits_come_back(tmp_path):
         np.testing.assert_array_equal(io.read(tmp_path / "a.vtk").node_data["most"], most)
 
 
-def test_arrays_of_one_name_are_all_kept(tmp_path):
-    scalars = "SCALARS a int\nLOOKUP_TABLE default\n{}\n"
-    (tmp_path / "a.vtk").write_text(old(more="CELL_DATA 1\n" + "".join(scalars.format(k) for k in range(3))))
-    assert [int(values[0]) for values in io.read(tmp_path / "a.vtk").hex_data.values()] == [0, 1, 2]
-
-
 @pytest.mark.parametrize("start", [b"", b"# vtk DataFile Version 3.0\n"])
 def test_a_file_of_zeros_is_refused_without_reading_more_than_it_has(start, tmp_path):
     path = tmp_path / "zeros.vtk"
