@@ -97,17 +97,6 @@ def test_trees_that_threads_build_in_parts_are_those_of_one_thread_and_find_the_
         assert found[i] == pytest.approx(np.linalg.norm(one.points[0] - x[i]), rel=1e-14)
 
 
-@given(st.integers(0, 2**31), st.integers(-60, 60))
-def test_the_closest_point_sees_the_whole_triangle_at_a_right_angle_or_more(seed, exponent):
-    """(x - p) . (v - p) <= 0 for every v of a convex set is what makes p its closest point, in any unit."""
-    random, unit = np.random.default_rng(seed), 10.0**exponent
-    points = unit * random.normal(size=(3, 3))
-    x = unit * 3 * random.normal(size=(40, 3))
-    found = ClosestPointTrees(points, np.array([[0, 1, 2]], np.int32), np.zeros(1, int)).closest(x, np.zeros(40, int))
-    away, ways = x - found.points, points[None] - found.points[:, None]
-    assert np.einsum("ij,ikj->ik", away, ways).max() <= 1e-12 * unit**2 * 10
-
-
 def sliding(mesh, kinds=(NodeClass.CURVE, NodeClass.PATCH)):
     boundary = boundary_of(mesh)
     return boundary, PartitionedSurface(mesh.points, boundary), np.flatnonzero(np.isin(boundary.node_class, kinds))
@@ -176,22 +165,6 @@ def test_normals_of_a_ball_come_nearer_to_its_radii_by_refinement_and_by_interpo
 
     assert error(16, True) < 0.4 * error(8, True)
     assert error(16, True) < 0.3 * error(16, False)
-
-
-def test_any_number_of_threads_gives_the_same():
-    mesh = wavy(grid(6), 0.2)
-    _, surface, nodes = sliding(mesh)
-    nodes = np.tile(nodes, 20)
-    x = mesh.points[nodes] + np.random.default_rng(0).normal(size=(len(nodes), 3))
-
-    def found(count):
-        kernels.set_threads(count)
-        return surface.trees.closest(x, surface.group_of(nodes))
-
-    with ThreadPoolExecutor(1) as own:
-        one, three = own.map(found, (1, 3))
-    for field in ("points", "pieces", "weights"):
-        np.testing.assert_array_equal(getattr(one, field), getattr(three, field))
 
 
 def test_nodes_that_do_not_slide_and_invalid_positions_are_refused():

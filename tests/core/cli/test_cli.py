@@ -1,8 +1,6 @@
 """The command line: contracts, exit statuses, one clear line for what is wrong."""
 
 import json
-import subprocess
-import sys
 
 import pytest
 
@@ -116,9 +114,3 @@ def test_help_lists_every_command(capsys):
     for name in commands():
         assert name in text
     assert main(["--version"]) == 0
-
-
-def test_the_program_runs_as_a_module(mesh):
-    done = subprocess.run([sys.executable, "-m", "hexmend", "info", mesh, "--json"], capture_output=True, text=True)
-    assert done.returncode == 0
-    assert json.loads(done.stdout)["hexes"] == 125

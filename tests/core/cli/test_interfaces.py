@@ -7,7 +7,6 @@ import pytest
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.mesh.rules import MotionRules
 from hexmend.run import smooth
 from hexmend.run.recipe_files import read_recipe
 from tests.core.grids import grid, scrambled
@@ -79,14 +78,6 @@ def test_info_names_the_materials_and_their_interface(path, capsys):
     found = json.loads(capsys.readouterr().out)
     assert {name: entry["hexes"] for name, entry in found["materials"].items()} == {"low": 32, "high": 32}
     assert found["interface_nodes"] == 25
-
-
-def test_a_recipe_has_the_rules_and_repeats_them(path, tmp_path):
-    recipe = tmp_path / "recipe.toml"
-    words = ["--interfaces", "slide", "--fix", "low", "--plane", "floor", "--periodic", "floor", "roof"]
-    first = smoothed(path, *words, "--save-recipe", str(recipe))
-    assert read_recipe(recipe).rules == MotionRules("slide", "low", plane="floor", periodic=[("floor", "roof")])
-    np.testing.assert_array_equal(smoothed(path, "--recipe", str(recipe)).points, first.points)
 
 
 def test_options_replace_the_interfaces_of_a_recipe(path, tmp_path):

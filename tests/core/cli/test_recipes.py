@@ -117,14 +117,6 @@ def test_the_recipes_that_come_with_hexmend_are_worth_running(path, name, scramb
         assert result.after.objective == pytest.approx(mended.objective, rel=1e-3)
 
 
-def test_a_recipe_of_the_package_is_found_by_name(mesh, monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
-    by_name, by_file = (smoothed(mesh, "--recipe", word)[1] for word in ("gentle", SHIPPED[0]))
-    assert SHIPPED[0].stem == "gentle"
-    assert by_name["after"] == by_file["after"]
-    assert [stage["method"] for stage in by_name["stages"]] == [stage["method"] for stage in by_file["stages"]]
-
-
 def test_a_misspelt_name_of_a_recipe_has_a_hint(mesh, capsys):
     assert smoothed(mesh, "--recipe", "gentel")[0] != 0
     error = capsys.readouterr().err

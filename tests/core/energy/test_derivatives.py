@@ -131,13 +131,3 @@ def test_derivatives_of_a_mesh_are_those_of_differences(seed, norm, delta):
     assert np.vdot(gradient, v) == pytest.approx(difference(energy.value), rel=1e-5, abs=1e-6)
     expected = difference(energy.gradient).ravel()
     np.testing.assert_allclose(hessian @ v.ravel(), expected, rtol=1e-4, atol=1e-5 * np.abs(expected).max())
-
-
-@given(seeds)
-def test_lengths_do_not_matter(seed):
-    here = scrambled(grid(3), 0.8, seed)
-    there = here.with_points(here.points * 1e3)
-    one, other = MeshEnergy(here), MeshEnergy(there)
-    assert one.value(one.to_edge_units(here.points), 0.01) == pytest.approx(
-        other.value(other.to_edge_units(there.points), 0.01)
-    )

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from hexmend import kernels
 from hexmend.energy.sparsity import BlockSparsity
-from hexmend.errors import MeshError
 from hexmend.kernels import incidence, sparsity, structure
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.mesh import Mesh
@@ -159,23 +158,3 @@ def test_more_items_than_there_are_numbers_for_are_refused_before_they_are_writt
         make(items)
         with pytest.raises(OverflowError, match=f"there are {items} items: expected {items - 1} at most"):
             make(items - 1)
-
-
-@pytest.mark.parametrize(
-    ("module", "most", "make", "words"),
-    [
-        (
-            "mesh.topology.topology",
-            39,
-            lambda: grid(2, 1, 1).topology.rings,
-            "neighbours of nodes, .* there are 40 items: .* divide",
-        ),
-        ("mesh.topology.topology", 19, lambda: grid(2, 1, 1).topology.edges, "edges, .* there are 20 items"),
-        ("energy.sparsity", 27, lambda: BlockSparsity(grid(3)).columns, "pairs of free nodes .* there are 28 items"),
-    ],
-)
-def test_a_mesh_whose_neighbours_cannot_be_numbered_is_to_be_divided(monkeypatch, module, most, make, words):
-    make()
-    monkeypatch.setattr(f"hexmend.{module}.MAX_ITEMS", most)
-    with pytest.raises(MeshError, match=f"the mesh has too many {words}"):
-        make()

@@ -81,13 +81,6 @@ def test_a_local_sweep_is_that_of_the_plain_loop(direction, seed, case, p, offse
     np.testing.assert_allclose(moved, expected, atol=1e-7 * mesh.mean_edge_length)
 
 
-@given(st.floats(-150, 150), st.integers(0, 2**32 - 1))
-def test_lengths_of_any_power_of_ten_give_the_same_energy(power, seed):
-    points, hexes = some(8, 0.2, seed)
-    scaled = points * 10.0 ** (power / 2)
-    np.testing.assert_allclose(energies(scaled, hexes), energies(points, hexes), rtol=1e-9, atol=1e-12)
-
-
 def test_flat_and_inverted_hexes_have_infinite_energy_and_no_other_has():
     mesh = scrambled(grid(5), 0.1)
     points = mesh.points.copy()

@@ -51,13 +51,6 @@ def test_a_terminal_shows_a_bar_that_is_removed():
 
 
 @pytest.mark.usefixtures("at_once")
-@pytest.mark.parametrize("option", [None, False])
-def test_nothing_is_written_where_nobody_watches(option):
-    assert smoothed(option) == ""
-    assert option is None or smoothed(option, Terminal()) == ""
-
-
-@pytest.mark.usefixtures("at_once")
 def test_lines_are_written_on_request():
     lines = smoothed(True).splitlines()
     assert [line.split(",")[0] for line in lines] == [

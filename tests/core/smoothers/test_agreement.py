@@ -79,13 +79,6 @@ def test_no_accepted_step_inverts_a_valid_mesh_or_climbs(name, seed, amplitude, 
     assert (np.diff(values) <= 1e-9 * values[0]).all()
 
 
-@pytest.mark.parametrize("name", [name for name in OPTIMISERS if name != "global-sd"])
-def test_optimisers_untangle_a_scrambled_cube(name):
-    mesh = make("cube", size=216, scramble=0.7, seed=5)
-    assert measure(mesh.points, mesh.hexes).n_inverted > 10
-    assert smooth(mesh, made(name, delta=0.05), StoppingCriteria(max_iterations=300)).after.inverted == 0
-
-
 @pytest.mark.parametrize("name", [name for name in OPTIMISERS if name.startswith("global")])
 def test_a_barrier_that_is_not_softened_is_said(name):
     tangled = make("cube", size=64, scramble=1.0, seed=1)

@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import kernels
 from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
 from hexmend.kernels.patches import PatchStepSettings, sweep
@@ -144,18 +143,6 @@ def test_no_patch_raises_its_energy_nor_moves_a_node_of_others(seed, size, overl
     energy = MeshEnergy(small, smoother.norm)
     before, now = energy.value(small.points, delta), energy.value(points[used] / unit, delta)
     assert now <= before * (1 + 1e-9) + 1e-12
-
-
-@pytest.mark.parametrize(("size", "overlap"), [(1, 0), (8, 1)])
-def test_threads_do_not_matter(size, overlap):
-    mesh = make("bridge-sharp", size=2048)
-    smoother, most = LocalPatch(patch=size, overlap=overlap), kernels.threads()
-    expected = after(mesh, smoother, 2)
-    try:
-        kernels.set_threads(1 if most > 1 else 2)
-        np.testing.assert_array_equal(after(mesh, smoother, 2), expected)
-    finally:
-        kernels.set_threads(most)
 
 
 @pytest.mark.parametrize(("size", "overlap"), [(1, 0), (8, 1), (64, 0), (216, 1)])

@@ -14,7 +14,6 @@ from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.original import difference
 from hexmend.io.coordinates.replacement import ChangedFileError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, fields_of_words
-from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.orientation import mirror_hexes
 from tests.core.grids import grid
 from tests.core.io.kept import assert_same, with_everything
@@ -133,17 +132,6 @@ def test_a_file_that_is_gone_is_written_anew_and_it_is_said(tmp_path):
     assert write_as_given(tmp_path / "b.vtu", given, Original(source, given)).notes == ()
 
 
-def test_nodes_that_were_put_between_their_neighbours_are_no_change_of_the_file(tmp_path):
-    source = tmp_path / "a.inp"
-    io.write(source, hx.Mesh(UNIT_CUBE, [np.arange(8)]))
-    text = source.read_text().replace("1, 0.0, 0.0, 0.0", "1, nan, 0.0, 0.0")
-    assert "nan" in text
-    source.write_text(text)
-    given = io.read(source, interpolate_missing=True)
-    assert write_as_given(source, given, Original(source, given)).replaced
-    np.testing.assert_array_equal(io.read(source).points, given.points)
-
-
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -182,16 +170,6 @@ def test_a_file_that_has_rounded_coordinates_can_be_replaced_again(name, tmp_pat
     second = moved(first, 3)
     assert write_as_given(tmp_path / name, second, Original(tmp_path / name, first)).replaced
     np.testing.assert_allclose(io.read(tmp_path / name).points, second.points, rtol=1e-10, atol=1e-13)
-
-
-def test_another_format_is_written_anew_without_a_word(tmp_path):
-    io.write(tmp_path / "a.inp", with_everything())
-    given = io.read(tmp_path / "a.inp")
-    written = write_as_given(tmp_path / "b.msh", given, Original(tmp_path / "a.inp", given))
-    assert not written.replaced
-    assert not written.notes
-    with pytest.raises(FileError, match=r"like a\.inp"):
-        io.write(tmp_path / "b.msh", given, like=tmp_path / "a.inp")
 
 
 def test_hexes_that_were_turned_on_reading_stay_as_the_file_has_them(tmp_path):

@@ -112,23 +112,6 @@ def test_a_file_system_that_cannot_flush_is_written_to(tmp_path, monkeypatch):
     assert (tmp_path / "mesh.vtk").read_text() == "new"
 
 
-@pytest.mark.parametrize("works", [True, False])
-def test_macos_flushes_the_cache_of_the_drive_too_where_it_can(tmp_path, monkeypatch, works):
-    calls = []
-
-    def control(handle, command):
-        calls.append(command)
-        if not works:
-            raise OSError(errno.ENOTSUP, os.strerror(errno.ENOTSUP))
-
-    monkeypatch.setattr(fcntl, "F_FULLFSYNC", 51, raising=False)
-    monkeypatch.setattr(fcntl, "fcntl", control)
-    monkeypatch.setattr(os, "fsync", lambda handle: calls.append("fsync"))
-    with atomic_write(tmp_path / "mesh.vtk") as temporary:
-        temporary.write_text("new")
-    assert calls == ([51, 51] if works else [51, "fsync", 51, "fsync"])
-
-
 @pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
 def test_nothing_is_left_beside_a_file_that_is_not_written_to_its_end(tmp_path, error):
     with pytest.raises(error), atomic_write(tmp_path / "mesh.vtk") as temporary:
@@ -173,16 +156,6 @@ def test_the_file_of_a_writer_at_work_is_not_removed(tmp_path, writer):
     _, temporary = writer(path)
     io.write(path, gallery.make("cube", size=8))
     assert os.path.exists(temporary)
-
-
-def test_leftovers_that_cannot_be_removed_are_ignored(tmp_path):
-    path = tmp_path / "mesh.vtk"
-    folder = temporary_files.TemporaryFile(path).lock_path
-    folder.mkdir()
-    link = temporary_files.TemporaryFile(path).lock_path
-    link.symlink_to(tmp_path / "elsewhere")
-    io.write(path, gallery.make("cube", size=8))
-    assert files(tmp_path) == sorted([folder.name, link.name, "mesh.vtk"])
 
 
 def test_a_file_system_without_locks_is_written_to_and_nothing_is_removed_from_it(tmp_path, monkeypatch):

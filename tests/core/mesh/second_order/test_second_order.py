@@ -40,11 +40,6 @@ def one(width, moved=None):
 
 
 @every_function
-def test_each_function_is_one_at_its_node_and_zero_at_the_others(functions, width):
-    np.testing.assert_allclose(functions(NODE_POSITIONS[:width], NODE_POSITIONS[:width])[0], np.eye(width), atol=1e-14)
-
-
-@every_function
 @given(at=places)
 def test_functions_place_every_point_where_it_is(functions, width, at):
     values, gradients = functions(at, NODE_POSITIONS[:width])

@@ -57,13 +57,6 @@ def test_parts_are_the_components_of_the_graph_of_nodes_that_share_a_hex(m, n, s
     assert topology.parts == connected_components(graph, directed=False)[0] - np.count_nonzero(~topology.used)
 
 
-def test_boundary_faces_point_outwards():
-    mesh = grid(3)
-    x = mesh.points[mesh.topology.boundary_faces]
-    normal = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
-    assert (np.einsum("ij,ij->i", normal, x.mean(axis=1) - 1.5) > 0).all()
-
-
 @st.composite
 def loose(draw):
     """Take some hexes of a grid, in any order."""

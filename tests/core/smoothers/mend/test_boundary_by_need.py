@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from hexmend.boundary import NodeClass, SkinSurface, SlidingBoundary
+from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.mesh.cells import Cells
@@ -14,9 +14,8 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.maxmin import MAXMIN
-from hexmend.smoothers.mend.stages import Stages
 from hexmend.smoothers.sliding_smoother import absolute_tolerance
-from tests.core.boundary.solids import ball, cylinder, slid, wavy
+from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 
 Mend = METHODS["mend"]
@@ -226,26 +225,6 @@ def test_a_tolerance_above_that_by_default_begins_at_its_result(real_mesh):
     check_tolerances(read(real_mesh("cap_in.mesh")), (0.3, 1.0))
 
 
-@pytest.mark.parametrize("goal", ["balanced", "scaled-jacobian"])
-def test_a_band_that_is_wider_by_rounding_is_no_other_band(monkeypatch, goal):
-    """The mean edge length of a mesh on a target may differ by rounding once its nodes are projected again."""
-    fine = ball(8)
-    given = SkinSurface(fine.points, fine.topology.boundary_faces)
-    low, mild = wavy(ball(2), 0.4, 159).sliding_on(given, check=False), slid(ball(4), 0.2, 1)
-    mesh = mild if goal == "scaled-jacobian" else low
-    method = Mend(goal=goal, boundary="slide")
-    expected, first = smooth(mesh, method).after, Stages.sliding_boundary
-
-    def narrower(stages, mesh):
-        sliding = first(stages, mesh)
-        return sliding.with_band(sliding.max_deviation * (1 - 1e-15))
-
-    monkeypatch.setattr(Stages, "sliding_boundary", narrower)
-    after = smooth(mesh, method).after
-    assert after.inverted == expected.inverted == 0
-    np.testing.assert_allclose(after.scaled_jacobian_min, expected.scaled_jacobian_min, rtol=1e-3)
-
-
 def test_the_boundary_is_no_further_away_than_pays():
     """A wider band is used only where the least gains a hundredth by it."""
     mesh = SMALL["five-side"]()
@@ -274,24 +253,3 @@ def test_edges_between_sets_are_left_only_with_a_tolerance_in_numbers():
     assert not holding.leavable[between].any()
     assert released.leavable[between & ~released.mesh.fixed].all()
     np.testing.assert_array_equal(holding.node_class, released.node_class)
-
-
-@pytest.mark.parametrize(
-    ("settings", "passed_over"),
-    [({}, True), ({"surface_tolerance": 0.0}, False), ({"goal": "balanced"}, False)],
-)
-def test_sliding_is_passed_over_where_a_hex_is_mended_off_the_surface_only(monkeypatch, settings, passed_over):
-    """The corner of a block is cut off, so that a hex has two faces on one flat patch."""
-    mesh, starts, start_sliding = grid(3), [], Stages.start_sliding
-
-    def start(*arguments):
-        found = yield from start_sliding(*arguments)
-        starts.append(found)
-        return found
-
-    monkeypatch.setattr(Stages, "start_sliding", start)
-    edge = (mesh.points[:, 0] == 0) & (mesh.points[:, 1] == 0)
-    points = np.where(edge[:, None], mesh.points + [0.5, 0.5, 0], mesh.points)
-    result = smooth(mesh.with_points(points), Mend(**{"goal": "scaled-jacobian", "boundary": "slide"} | settings))
-    assert [(found.passed_over, found.shape is None) for found in starts] == [(passed_over, passed_over)]
-    assert (result.after.inverted == 0) == (settings.get("surface_tolerance") != 0.0)

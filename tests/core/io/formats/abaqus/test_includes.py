@@ -186,22 +186,3 @@ def test_files_are_replaced_together_or_not_at_all(three, target, n_before, monk
     assert write_as_given(three.with_name(target), mesh, Original(three, given)).replaced
     np.testing.assert_array_equal(io.read(three.with_name(target)).points, mesh.points)
     assert not [path for path in three.parent.iterdir() if path.name.startswith(".")]
-
-
-def test_old_files_are_restored_where_the_file_system_has_no_links(three, monkeypatch):
-    given, mesh = moved(three)
-    before, replace = contents(three), os.replace
-
-    def no_link(*names):
-        raise OSError(errno.EPERM, "Operation not permitted")
-
-    def failing(source, path):
-        if path.name == "in.inp":
-            raise OSError(errno.EBUSY, "Device or resource busy", str(path))
-        replace(source, path)
-
-    monkeypatch.setattr(os, "link", no_link)
-    monkeypatch.setattr(os, "replace", failing)
-    with pytest.raises(FileError, match=r"in\.inp: cannot be replaced: .*; high\.inp, low\.inp are as before"):
-        write_as_given(three, mesh, Original(three, given))
-    assert contents(three) == before

@@ -9,7 +9,7 @@ from hexmend import io
 from hexmend.errors import FileError
 from hexmend.quality import summarise
 from tests.core.grids import grid
-from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
+from tests.core.io.kept import assert_same, middles_are_in_the_middle
 
 FILES = Path(__file__).parents[2] / "files"
 VERSIONS = ("2.2-a", "2.2-b", "4.1-a", "4.1-b")
@@ -42,14 +42,6 @@ def test_nodes_of_second_order_have_vtks_order(file, nodes, version):
     assert summarise(mesh).inverted == 0
 
 
-@pytest.mark.parametrize("encoding", ["binary", "ascii"])
-@pytest.mark.parametrize("nodes", [8, 20, 27])
-def test_a_written_mesh_is_read_again(nodes, encoding, tmp_path):
-    mesh = with_everything(nodes)
-    io.write(tmp_path / "a.msh", mesh, encoding=encoding)
-    assert_same(mesh, io.read(tmp_path / "a.msh"), without=("node_sets", "side_sets"))
-
-
 @pytest.mark.parametrize(("version", "encoding"), list(zip(VERSIONS, 2 * ["binary", "ascii"], strict=True)))
 @pytest.mark.parametrize("file", ["o1", "o2", "o2i"])
 def test_a_file_of_gmsh_survives(file, version, encoding, tmp_path):
@@ -65,15 +57,6 @@ def test_both_versions_and_encodings_give_the_same_mesh():
     other = io.read(FILES / "gmsh-o2i-4.1-a.msh")
     np.testing.assert_allclose(first.points, other.points, rtol=1e-12)  # Gmsh writes 16 digits, of which some need 17
     assert_same(first, other.rebuilt(points=first.points))
-
-
-@pytest.mark.parametrize(("file", "hexes", "sets"), [("sphere_r9.msh", 18944, 1), ("n10-id2_hex.msh", 4060, 10)])
-def test_real_files_are_read_and_survive(file, hexes, sets, real_mesh, tmp_path):
-    mesh = io.read(real_mesh(file))
-    assert (mesh.n_hexes, len(mesh.hex_sets), summarise(mesh).inverted) == (hexes, sets, 0)
-    assert any("numbered inside out" in note for note in mesh.notes) == (file == "n10-id2_hex.msh")
-    io.write(tmp_path / "a.msh", mesh)
-    assert_same(mesh, io.read(tmp_path / "a.msh"))
 
 
 def test_a_mesh_without_ids_is_numbered_from_1_and_ids_that_clash_are_not_used(tmp_path):

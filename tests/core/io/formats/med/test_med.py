@@ -52,14 +52,6 @@ def test_a_file_of_another_program_survives(file, tmp_path):
     assert ("id" in mesh.hex_data) == ("id" in again.hex_data)
 
 
-@pytest.mark.parametrize("nodes", [8, 20, 27])
-def test_a_written_mesh_is_read_again(nodes, tmp_path):
-    mesh = with_everything(nodes)
-    io.write(tmp_path / "a.med", mesh)
-    assert io.unsupported_data(tmp_path / "a.med", mesh) == ["side sets (inlet, outlet)"]
-    assert_same(mesh, io.read(tmp_path / "a.med"), without=("side_sets",))
-
-
 def changed(tmp_path, change):
     h5py = pytest.importorskip("h5py")
     path = tmp_path / "a.med"

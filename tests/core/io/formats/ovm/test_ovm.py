@@ -82,11 +82,6 @@ def test_other_polyhedra_are_left_out_and_said(tmp_path):
         io.read(tmp_path / "a.ovm")
 
 
-def test_a_real_file_is_read(real_mesh):
-    mesh = io.read(real_mesh("Cylinder.ovm"))
-    assert (mesh.n_hexes, mesh.n_nodes, summarise(mesh).inverted, mesh.notes) == (288, 399, 0, ())
-
-
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
