@@ -25,7 +25,7 @@ def with_mid_nodes(mesh, on_sphere):
     return Mesh(np.vstack([mesh.points, middles]), mesh.hexes, mid_nodes=mids)
 
 
-@pytest.mark.parametrize("method", ["mend", "local-sd"])
+@pytest.mark.parametrize("method", [pytest.param("mend", marks=pytest.mark.slow), "local-sd"])
 def test_corners_of_a_second_order_ball_slide_on_the_sphere_and_not_on_its_chords(method):
     mesh = with_mid_nodes(ball(6), True)
     result = smooth(mesh, method, boundary="slide", keep_last=True).mesh

@@ -102,14 +102,13 @@ def test_opposite_corners_have_a_block_only_where_the_energy_couples_them():
     assert opposite == 4 * 5**3  # a block above the diagonal for each diagonal of the hexes inside
 
 
-@pytest.mark.parametrize("parts", [1, 3])
-@settings(max_examples=3)
+@settings(max_examples=2)
 @given(seed=seeds)
-def test_parts_change_the_way_but_not_the_solution(parts, seed):
+def test_parts_change_the_way_but_not_the_solution(seed):
     hessian = hessian_of(scrambled(grid(14, 3, 3), 0.15, seed), shift=0.5)
     matrix = hessian.assembled(np.float64).matrix().toarray()
     right = np.random.default_rng(seed).normal(size=len(matrix))
-    assembled = by_parts(hessian, parts)
+    assembled = by_parts(hessian, 3)
     solved = assembled.solve(right, 1e-10, 500)
     solution, count = solved.x, solved.iterations
     np.testing.assert_allclose(solution, np.linalg.solve(matrix, right), atol=1e-7 * np.abs(solution).max())
@@ -117,7 +116,7 @@ def test_parts_change_the_way_but_not_the_solution(parts, seed):
     np.testing.assert_allclose(assembled @ right, matrix @ right, atol=1e-11 * np.abs(matrix).max())
 
 
-@pytest.mark.parametrize("parts", [1, 2, 3])
+@pytest.mark.parametrize("parts", [1, 3])
 def test_the_preconditioner_is_gauss_seidel_with_nothing_left_out(parts):
     """Conjugate gradients written out, with M as a dense matrix, take as many iterations to the same solution."""
     hessian = hessian_of(scrambled(grid(14, 3, 3), 0.15, 3), shift=0.5)

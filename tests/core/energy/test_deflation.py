@@ -71,7 +71,7 @@ def test_rows_meet_the_aggregates_of_their_blocks(parts):
 
 @parts
 @pytest.mark.parametrize("damping", [0.0, 0.3])
-@settings(max_examples=3)
+@settings(max_examples=1)
 @given(seed=seeds)
 def test_the_solution_is_the_same(parts, damping, seed):
     matrix = assembled(scrambled(grid(14, 3, 3), 0.15, seed), parts, shift=0.5)

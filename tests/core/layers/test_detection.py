@@ -89,6 +89,7 @@ def test_real_meshes_without_layers_have_none(name, real_mesh):
     assert not find_layers(read(real_mesh(name)))
 
 
+@pytest.mark.slow
 def test_layers_of_an_aerofoil_are_found(real_mesh):
     mesh = read(real_mesh("naca_viscous.cgns"))
     wall = find_layers(mesh).walls[0]

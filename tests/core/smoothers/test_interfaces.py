@@ -47,7 +47,7 @@ def test_nodes_between_materials_stay_to_the_last_bit(name, seed, parts):
 @pytest.mark.parametrize("name", SLIDING)
 def test_an_interface_that_slides_stays_on_itself_and_leaves_the_boundary(name):
     mesh = bumpy().with_rules(interfaces="slide")
-    after = smooth(mesh, name, max_iterations=30).mesh
+    after = smooth(mesh, name, max_iterations=60).mesh
     boundary = mesh.topology.boundary
     np.testing.assert_array_equal(after.points[boundary], mesh.points[boundary])
     on = mesh.materials.interface_nodes & ~boundary

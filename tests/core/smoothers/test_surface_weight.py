@@ -99,7 +99,7 @@ def with_a_flipped_quad():
     return cube.with_points(points), node
 
 
-@pytest.mark.parametrize("name", WEIGHTED)
+@pytest.mark.parametrize("name", WEIGHTED[::3])
 def test_a_flipped_quad_is_untangled(name):
     mesh, node = with_a_flipped_quad()
     assert (quads_of(mesh).sigma <= 0).any()

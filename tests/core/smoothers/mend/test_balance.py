@@ -108,7 +108,7 @@ def test_a_mean_that_would_fall_is_kept_by_going_back_towards_the_given_mesh():
     assert max(changes(result.before, result.after).values()) > 1e-3
 
 
-@pytest.mark.parametrize("name", ["five-side", "plane"])
+@pytest.mark.parametrize("name", ["five-side", pytest.param("plane", marks=pytest.mark.slow)])
 def test_a_tangled_mesh_ends_as_good_as_by_the_goals_it_balances(name):
     mesh = make(name, size=150, scramble=0.8, seed=3)
     assert summarise(mesh).inverted > 10
@@ -180,7 +180,7 @@ def check_freedom(mesh):
         check_nothing_falls(slides)
 
 
-@pytest.mark.parametrize("name", ["cylinder", "five-side"])
+@pytest.mark.parametrize("name", ["cylinder", pytest.param("five-side", marks=pytest.mark.slow)])
 def test_a_boundary_that_slides_ends_no_lower_than_a_fixed_one(name):
     check_freedom(SLIDING[name]())
 

@@ -77,7 +77,7 @@ def test_it_does_no_harm_wherever_it_is_stopped(name, goal, boundary, amplitude,
         np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
 
 
-@settings(max_examples=3)
+@settings(max_examples=1)
 @given(st.sampled_from(sorted(MESHES)), st.sampled_from(["fixed", "slide"]), st.integers(0, 2**32 - 1))
 @example("wavy", "slide", 9216)  # the band in which it began held the least down
 def test_the_least_ends_no_lower_than_at_the_optimum_of_shape(name, boundary, seed):

@@ -22,15 +22,12 @@ def optimum(energy, large, intermediate=True, max_p=1.0):
             return end.value.points, steps, end.value.outcome
 
 
-@pytest.mark.parametrize(
-    ("name", "size", "saves_steps"),
-    [("five-side", 920, False), ("bridge-sharp", 500, False), ("kershaw", 1_728, True)],
-)
-def test_the_optimum_is_the_same_in_no_more_steps(name, size, saves_steps):
+@pytest.mark.parametrize(("name", "size"), [("five-side", 920), ("bridge-sharp", 500), ("kershaw", 1_728)])
+def test_the_optimum_is_the_same_in_no_more_steps(name, size):
     energy = MeshEnergy(make(name, size=size), MEAN)
     (points, steps, outcome), (large_points, large_steps, large_outcome) = optimum(energy, False), optimum(energy, True)
     assert outcome is large_outcome is Outcome.CONVERGED
     value, large_value = (energy.value(energy.to_edge_units(at)) for at in (points, large_points))
     assert large_value == pytest.approx(value, rel=1e-8)
     np.testing.assert_allclose(large_points, points, atol=2e-3 * energy.unit)
-    assert len(large_steps) < len(steps) + (not saves_steps)
+    assert len(large_steps) <= len(steps)
