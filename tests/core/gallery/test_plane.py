@@ -106,6 +106,7 @@ def test_local_descent_mends_all(size):
     np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
 
 
+@pytest.mark.slow
 def test_laplacian_smoothing_lowers_the_mean_and_inverts_hexes_as_in_the_thesis(plane):
     smooth = hx.smooth(plane, "laplacian", StoppingCriteria(keep_last=True, max_iterations=300)).mesh
     before, after = (measure(points, plane.hexes) for points in (plane.points, smooth.points))

@@ -121,6 +121,8 @@ def test_summary_of_a_tangled_mesh():
     assert summary.locked_inverted == 0
     assert (summary.hexes, summary.nodes, summary.free_nodes) == (64, 125, 27)
     assert summary.q_std == pytest.approx(figures.q.std())
+    assert summary.q_norm == pytest.approx(np.mean(figures.q**-2) ** -0.5)
+    assert (summary.q_min, summary.scaled_jacobian_min) == (figures.q.min(), figures.scaled_jacobian.min())
 
 
 def test_a_corner_of_fixed_nodes_locks_its_hex():

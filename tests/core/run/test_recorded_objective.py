@@ -76,6 +76,7 @@ def test_a_run_goes_on_for_as_long_as_the_objective_of_its_method_falls(norm):
     assert falls == [True] * (len(falls) - 1) + [False]
 
 
+@pytest.mark.slow
 def test_stages_record_an_objective_each_and_are_not_compared(mesh, tmp_path):
     first, second = METHODS["local-sd"](), METHODS["local-sd"](p=4.0, offset=0.0)
     recipe = Recipe.of(
