@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
+from hexmend.optimise.maxmin import simplex
 from hexmend.optimise.maxmin.directions import StepDirections
 from hexmend.optimise.maxmin.linear_program import LinearConstraints, build_program, solve
 from hexmend.optimise.maxmin.vertex import Vertex
@@ -33,6 +34,20 @@ def changed(models, seed, share):
     return LinearConstraints(models.nodes, slack, slopes, models.has_gain)
 
 
+@pytest.fixture
+def steps_of_solver(monkeypatch):
+    """Counts the steps of the simplex."""
+    counts, solve_once = [], simplex.GrowingProgram.solve
+
+    def counting(program):
+        found = solve_once(program)
+        counts.append(program._solver.getInfo().simplex_iteration_count)  # noqa: SLF001
+        return found
+
+    monkeypatch.setattr(simplex.GrowingProgram, "solve", counting)
+    return counts
+
+
 @pytest.mark.parametrize("seed", range(2))
 def test_the_vertex_of_another_program_changes_no_solution(seed):
     nodes = np.arange(10, 10 + COUNT)
@@ -49,3 +64,16 @@ def test_the_vertex_of_another_program_changes_no_solution(seed):
         expected = linprog(program.cost, matrix, program.limits, bounds=bounds, method="highs-ipm").fun
         assert program.cost @ np.append(found.lengths, found.gain) == pytest.approx(expected, abs=1e-7)
         assert found.multipliers[models.has_gain > 0].sum() == pytest.approx(1)
+
+
+def test_a_program_that_has_changed_little_takes_few_steps_from_the_last_vertex(steps_of_solver):
+    nodes, vertex = np.arange(COUNT), Vertex()
+    models = random_models(1, nodes)
+    solve(nodes, directions_of(nodes), models, 0.1, vertex=vertex)
+    again = changed(models, 2, 0.02)
+    steps_of_solver.clear()
+    solve(nodes, directions_of(nodes), again, 0.1)
+    anew = sum(steps_of_solver)
+    steps_of_solver.clear()
+    solve(nodes, directions_of(nodes), again, 0.1, vertex=vertex)
+    assert sum(steps_of_solver) < anew / 2
