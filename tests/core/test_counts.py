@@ -11,18 +11,17 @@ from hexmend.boundary import SurfaceChange
 from hexmend.doctor import examine
 from hexmend.errors import MeshError
 from hexmend.gallery import make
-from hexmend.iteration import StoppingCriteria
 from hexmend.layers import find_layers, layer_report
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import was_turned, with_consistent_orientation
 from hexmend.mesh.rules.flat_sets import normal_of_set
-from hexmend.run import iterate, smooth
+from hexmend.run import smooth
 from hexmend.run.interface_messages import describe_interfaces, interface_message
 from hexmend.smoothers.mend.messages import freed_message, omission_message
 from hexmend.target import given_lengths
-from tests.core.grids import grid, scrambled
+from tests.core.grids import grid
 from tests.core.layers.stacks import stack
 
 #: A number 1 before a plural, or another one before a singular; "0 of 1 hexes" too.
@@ -97,14 +96,6 @@ def test_runs_on_small_meshes(n):
                 *(s.text for s in advice.suggestions),
             ):
                 checked(text)
-
-
-def test_limits_of_one_iteration():
-    mesh = scrambled(grid(3), 0.4)
-    checked(advise(smooth(mesh, "local-sd", StoppingCriteria(max_iterations=1, tolerance=0))).reason)
-    run = iterate(mesh, "laplacian", max_iterations=1)
-    list(run)
-    checked(run.message)
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])

@@ -73,22 +73,12 @@ def test_a_wrong_percentage_names_what_is_expected(wrong):
         Distance(most=wrong)
 
 
-def test_infinity_is_no_limit_however_it_is_written():
-    for value in (float("inf"), "inf", np.inf, np.float32("inf")):
-        assert Sample(most=value).most == "unlimited"
-
-
 @pytest.mark.parametrize("name", ["rho", "count", "kind", "strict", "most"])
 @pytest.mark.parametrize("value", [np.array([1.0, 2.0]), np.array([1.0]), np.array(["unlimited", "a"]), [1], None])
 def test_an_array_is_no_value_of_a_parameter(name, value):
     with pytest.raises(ParameterError, match=f"{name} = .* is .*: expected") as error:
         Sample(**{name: value})
     assert "\n" not in str(error.value)
-
-
-def test_numbers_take_their_declared_type():
-    assert isinstance(Sample(rho=1).rho, float)
-    assert Sample(count=4.0).count == 4
 
 
 @pytest.mark.parametrize(

@@ -97,11 +97,6 @@ def test_worst_hexes_need_a_better_end_and_a_count():
         MESH.worst(-1)
 
 
-def test_a_mesh_without_a_metric_gives_its_summary():
-    assert MESH.quality() == hx.summarise(MESH)
-    assert MESH.quality().inverted == int((hx.measure(MESH.points, MESH.hexes).sigma <= 0).sum())
-
-
 def test_a_figure_has_one_name():
     run = hx.iterate(MESH, "local-sd", max_iterations=2)
     for iteration in run:

@@ -5,7 +5,6 @@ import pytest
 
 from hexmend.quality import measure
 from hexmend_app.picture.displacement import (
-    DISPLACEMENT_QUANTITIES,
     MENDED,
     NEWLY_INVALID,
     STILL_INVALID,
@@ -43,13 +42,6 @@ def test_hexes_are_newly_invalid_still_invalid_or_mended_also_those_invalid_insi
     assert np.array_equal(moved(bad, bad).validity_changes == STILL_INVALID, invalid)
     assert moved(bad).counts.newly_invalid == moved(good, bad).counts.mended == invalid.sum()
     assert moved(bad).counts.worse == moved(good, bad).counts.better > 0
-
-
-def test_where_nothing_has_moved_all_is_zero():
-    movement = moved(MESH.points.copy())
-    for name in DISPLACEMENT_QUANTITIES:
-        assert not movement.values(name).any()
-    assert not any(vars(movement.counts).values())
 
 
 def test_what_slides_within_a_face_stays_on_the_surface():

@@ -6,8 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.boundary import NodeClass, PartitionedSurface, SkinSurface, boundary_of
-from hexmend.boundary.normals import triangle_normals, vertex_normals
-from hexmend.boundary.sliding.unlocking import freed_by_sliding
 from tests.core.grids import grid
 
 
@@ -54,30 +52,6 @@ def test_on_its_own_surface_each_node_slides_where_it_did(cube):
     np.testing.assert_array_equal(attached.node_class, boundary.node_class)
     on = boundary.node_class == NodeClass.CURVE
     np.testing.assert_array_equal(attached.component[on], boundary.component[on])
-
-
-def test_normals_at_the_vertices_of_a_patch_are_weighted_by_angles_and_do_not_mix_with_other_patches():
-    """Three faces of a cube: one patch, or three."""
-    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0]], float)
-    triangles = np.array([[0, 2, 4], [0, 4, 1], [0, 1, 3], [0, 3, 2]], np.int32)  # below in two halves
-    together = vertex_normals(vertices, triangles, np.zeros(4, np.int32))
-    np.testing.assert_allclose(together[:, 0], np.tile(-np.ones(3) / np.sqrt(3), (4, 1)), atol=1e-12)
-    apart = vertex_normals(vertices, triangles, np.array([0, 0, 1, 2]))
-    np.testing.assert_allclose(apart, np.repeat(triangle_normals(vertices, triangles)[:, None], 3, axis=1), atol=1e-12)
-
-
-def test_of_locked_hexes_those_are_freed_whose_inverted_corners_may_leave_their_plane_or_line():
-    mesh = grid(3)
-    boundary = boundary_of(mesh)
-    points = mesh.points.copy()
-    points[0] += 0.5  # a corner of the solid is kept, its three neighbours slide on its edges
-    pushed = mesh.with_points(points)
-    locked = np.zeros(27, bool)
-    locked[0] = True
-    freed = freed_by_sliding(pushed, locked)
-    assert boundary.n_patches == 6
-    assert freed.tolist() == [True] + [False] * 26
-    assert freed_by_sliding(mesh, np.zeros(27, bool)).tolist() == [False] * 27
 
 
 @given(st.integers(0, 2**32 - 1))

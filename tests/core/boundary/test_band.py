@@ -57,24 +57,6 @@ def test_samples_beyond_a_limit_are_found_and_no_others(shift):
         np.testing.assert_array_equal(behind.indices, np.flatnonzero(at_first > limit))
 
 
-def test_each_sample_may_have_a_limit_of_its_own():
-    mesh, band = band_of(0.25)
-    every = np.arange(len(band.samples))
-    far = band.target.distances(mesh.points[band.samples].mean(axis=1))
-    own = np.where(every % 2, 0.1, 0.3)
-    np.testing.assert_array_equal(band.boundary_deviation(mesh.points, every, own).indices, np.flatnonzero(far > own))
-
-
-def test_a_boundary_is_its_own_surface_where_no_other_is_given():
-    mesh, band = band_of(target=False)
-    far, nodes, _ = band.initial_surface_deviation
-    assert not far.any()
-    np.testing.assert_array_equal(nodes, band.samples)
-    points = mesh.points + [0, 0, 0.5]
-    assert band.boundary_deviation(points, np.arange(len(band.samples))).distances.max() == pytest.approx(0.5)
-    assert band.surface_deviation(points).distances.max() == pytest.approx(0.5)
-
-
 @pytest.mark.parametrize(("shift", "left"), [(0.3, True), (0.2, False)])
 def test_nodes_have_left_the_band_where_they_are_further_than_its_tolerance_and_than_at_first(shift, left):
     mesh, band = band_of(size=0.25)
@@ -138,21 +120,6 @@ def test_on_another_surface_interfaces_are_not_compared():
     end = mesh.points[:, 0] == 0
     points = mesh.points + 1.9 * end[:, None] * [1, 0, 0]  # near the interface
     assert {*np.flatnonzero(end)} <= {*band.nodes_outside_band(points)}
-
-
-def test_samples_of_interfaces_follow_those_of_the_boundary():
-    mesh, faces, inner = halves()
-    apart = Band(mesh.points, faces, mesh.points, None, 0.5, inner=inner).samples
-    outer = Band(mesh.points, faces[~inner], mesh.points, None, 0.5).samples
-    alone = Band(mesh.points, faces[inner], mesh.points, None, 0.5).samples
-    np.testing.assert_array_equal(apart, np.concatenate([outer, alone]))
-
-
-def test_midpoints_that_move_with_a_node_are_the_node_and_those_of_its_edges_and_faces():
-    _, band = band_of()
-    at = band.samples_at(np.array([0]))
-    assert (band.samples[at] == 0).any(axis=1).all()
-    assert len(at) == (band.samples == 0).any(axis=1).sum() == 7  # a corner: itself, three edges, three faces
 
 
 def test_the_tolerance_is_no_smaller_than_the_rounding_of_the_size_of_the_boundary():

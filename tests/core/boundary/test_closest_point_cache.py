@@ -1,6 +1,5 @@
 """Closest points of moving points: the pieces that are kept of each find exactly what a search of the whole tree does."""
 
-import pickle
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 
@@ -116,16 +115,6 @@ def test_points_that_creep_across_a_medial_surface(name):
         assert_same(trees, kept, (1 - t) * begin + t * end, group)
 
 
-def test_pieces_serve_some_slots_of_many_in_any_order_and_a_slot_several_times():
-    trees, random = made("smooth"), np.random.default_rng(2)
-    x, group = random.normal(size=(50, 3)), np.zeros(50, np.int64)
-    kept = ClosestPointCache(trees, group)
-    for _ in range(10):
-        slots = random.integers(0, 50, 30).astype(np.int32)
-        moved = x[slots] + 0.01 * random.normal(size=(30, 3))
-        assert_same(trees, kept, moved, group[slots], slots)
-
-
 def test_threads_share_a_cache():
     trees, random = made("creases"), np.random.default_rng(3)
     group, slots = np.zeros(3, np.int64), np.tile(np.arange(3, dtype=np.int32), 2000)
@@ -164,13 +153,3 @@ def test_sliding_nodes_are_projected_as_by_a_search_whatever_was_projected_befor
         np.testing.assert_array_equal(sliding.project(x), searched)
         some = slice(seed, None, 3)
         np.testing.assert_array_equal(sliding.project(x[some], sliding.nodes[some]), searched[some])
-
-
-def test_a_pickled_cache_begins_anew():
-    trees = curves_and_patches(cylinder(16, 3))
-    cache = ClosestPointCache(trees, np.zeros(5, np.int64))
-    x = np.random.default_rng(4).normal(size=(5, 3))
-    found = cache.closest(x)
-    again = pickle.loads(pickle.dumps(cache)).closest(x)
-    np.testing.assert_array_equal(again.points, found.points)
-    np.testing.assert_array_equal(again.pieces, found.pieces)

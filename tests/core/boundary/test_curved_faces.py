@@ -25,7 +25,7 @@ def with_mid_nodes(mesh, on_sphere):
     return Mesh(np.vstack([mesh.points, middles]), mesh.hexes, mid_nodes=mids)
 
 
-@pytest.mark.parametrize("method", ["mend", "local-sd"])
+@pytest.mark.parametrize("method", [pytest.param("mend", marks=pytest.mark.slow), "local-sd"])
 def test_corners_of_a_second_order_ball_slide_on_the_sphere_and_not_on_its_chords(method):
     mesh = with_mid_nodes(ball(6), True)
     result = smooth(mesh, method, boundary="slide", keep_last=True).mesh
@@ -60,9 +60,3 @@ def test_one_bent_edge_divides_many_faces_less_often(limit, divisions, monkeypat
     surface = surface_of_boundary(mesh, points, boundary)
     pieces = 4 * len(boundary.faces) * divisions**2 + len(boundary.segments) * divisions
     assert len(surface.trees.pieces) == pieces
-
-
-def test_straight_edges_leave_the_surface_as_it_is():
-    mesh = with_mid_nodes(grid(2), False)
-    surface = surface_of_boundary(mesh, mesh.points, boundary_of(mesh))
-    assert len(surface.trees.pieces) == 4 * len(mesh.topology.boundary_faces) + len(boundary_of(mesh).segments)

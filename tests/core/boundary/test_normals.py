@@ -29,10 +29,6 @@ def test_the_tangents_of_a_circle_stand_at_right_angles_to_its_radius(rims):
     np.testing.assert_allclose(np.einsum("sei,sei->se", curve_tangents(mesh.points, boundary), out), 0, atol=1e-12)
 
 
-def test_unit_vectors_have_length_1_or_are_0():
-    np.testing.assert_array_equal(unit_vectors(np.array([[0.0, 0, 0], [0, -2, 0]])), [[0, 0, 0], [0, -1, 0]])
-
-
 def weighted_by_angles(vertices, triangles, patch):
     """The definition: at each corner the mean of the normals of the triangles of its patch, weighted by their angles."""
     normals = np.zeros((len(triangles), 3, 3))

@@ -40,13 +40,6 @@ def test_places_directions_and_rejected_nodes_are_the_same(sliding):
     np.testing.assert_array_equal(numbers[alone.rejected_nodes(points[numbers], moved[numbers])], rejected)
 
 
-def test_only_nodes_of_the_boundary_are_kept(sliding):
-    alone, numbers = sliding.on_boundary()
-    assert numbers.size < sliding.mesh.n_nodes
-    assert set(numbers) == set(sliding.boundary.faces.ravel()) | set(sliding.boundary.segments.ravel())
-    assert alone.max_deviation == sliding.max_deviation
-
-
 def test_interfaces_are_apart_too_where_nodes_have_left_the_surface():
     mesh = grid(4, 3, 3)
     halves = mesh.points[mesh.hexes].mean(axis=1)[:, 0] > 2

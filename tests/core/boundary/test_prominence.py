@@ -6,21 +6,12 @@ import pytest
 from hexmend.boundary import NodeClass, boundary_of, classify
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.prominence import surrounding_angles
-from hexmend.gallery import make
 from hexmend.io import read
-from hexmend.mesh.mesh import Mesh
 from tests.core.boundary.solids import ball, cylinder, wavy
-from tests.core.grids import grid
 
 
 def counts(boundary):
     return [boundary.count(of) for of in (NodeClass.CORNER, NodeClass.CURVE, NodeClass.PATCH)]
-
-
-@pytest.mark.parametrize("size", [(1, 1, 1), (1, 1, 5), (6, 5, 1), (2, 2, 2), (4, 3, 5)])
-def test_a_block_has_its_twelve_edges_however_thin_it_is(size):
-    boundary = boundary_of(grid(*size))
-    assert (boundary.n_curves, boundary.n_patches, boundary.count(NodeClass.CORNER)) == (12, 6, 8)
 
 
 @pytest.mark.parametrize("around", [12, 16, 32])
@@ -75,16 +66,6 @@ def test_marked_edges_are_features_whatever_is_around_them():
     edge = mesh.topology.boundary_faces[0][:2]
     boundary = boundary_of(mesh, sharp=edge[None])
     assert (boundary.node_class[edge] == NodeClass.CORNER).all()
-
-
-@pytest.mark.parametrize("factor", [1e-6, 1e6])
-def test_features_depend_neither_on_the_unit_nor_on_the_numbering(factor):
-    mesh = make("bridge-sharp", size=60)
-    order = np.random.default_rng(0).permutation(mesh.n_nodes)
-    points = np.empty_like(mesh.points)
-    points[order] = factor * mesh.points
-    other = Mesh(points, order[mesh.hexes])
-    np.testing.assert_array_equal(boundary_of(other).node_class[order], boundary_of(mesh).node_class)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,6 @@ import pytest
 from hexmend.boundary import SkinSurface, SlidingBoundary
 from hexmend.boundary.sliding.quad_normals import QuadNormals
 from tests.core.boundary.solids import ball, cylinder, slid
-from tests.core.grids import grid
 from tests.core.smoothers.test_sliding_on_surface import skin_of
 
 
@@ -45,9 +44,3 @@ def test_the_triangles_of_a_target_may_face_either_way(reversed_):
     sliding = SlidingBoundary(mesh)
     found = QuadNormals(sliding)(sliding.mesh.points)
     assert np.einsum("fi,fi->f", found, centres(mesh, sliding)).min() > 0.8
-
-
-def test_a_block_too_small_for_numbers_has_the_normals_of_none():
-    mesh = grid(2)
-    sliding = SlidingBoundary(mesh.with_points(mesh.points * 1e-120))
-    assert np.linalg.norm(QuadNormals(sliding)(sliding.mesh.points), axis=1).max() < 0.5

@@ -5,7 +5,6 @@ import pytest
 
 from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SkinSurface
-from hexmend.errors import MeshError
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
 
@@ -52,13 +51,6 @@ def test_samples_at_a_spacing_leave_out_midpoints_of_shorter_edges_and_of_faces_
     )
 
 
-def test_a_skin_whose_nodes_have_moved_is_elsewhere_and_the_first_is_not(skin):
-    x = skin.samples()
-    moved = skin.with_points(skin.points + [0, 0, 7])
-    np.testing.assert_allclose(moved.distances(x + [0, 0, 7]), 0, atol=1e-12)
-    np.testing.assert_allclose(skin.distances(x), 0, atol=1e-12)
-
-
 @pytest.mark.parametrize("moves", [(0.0, 1e-3, 0.3, 0.3, 1e-3), (0.5, 0.0, 0.5)])
 def test_points_known_from_before_do_not_change_which_are_beyond_their_limits(moves):
     rng = np.random.default_rng(3)
@@ -82,17 +74,3 @@ def test_a_sample_that_is_nowhere_is_beyond_its_limit_before_and_after_one_is_kn
         x[0] = first
         expected = [not np.isfinite(first).all(), False, False]
         np.testing.assert_array_equal(skin.beyond(x, near, np.full(3, 1e-6)), expected)
-
-
-def test_each_face_has_a_group(skin):
-    with pytest.raises(MeshError, match="2 groups: expected one for each of"):
-        SkinSurface(skin.points, skin.faces, group=np.zeros(2, dtype=np.int64))
-
-
-def test_the_known_piece_of_each_sample_has_the_sample_on_it():
-    mesh = ball(4)
-    skin = SkinSurface(mesh.points, mesh.topology.boundary_faces)
-    samples = skin.samples()
-    corners = skin.trees.points[skin.trees.pieces[skin.pieces_of_samples]]
-    places = np.concatenate([corners, (corners + np.roll(corners, 1, axis=1)) / 2], axis=1)
-    assert np.linalg.norm(places - samples[:, None], axis=2).min(axis=1).max() == pytest.approx(0, abs=1e-12)

@@ -97,17 +97,6 @@ def test_trees_that_threads_build_in_parts_are_those_of_one_thread_and_find_the_
         assert found[i] == pytest.approx(np.linalg.norm(one.points[0] - x[i]), rel=1e-14)
 
 
-@given(st.integers(0, 2**31), st.integers(-60, 60))
-def test_the_closest_point_sees_the_whole_triangle_at_a_right_angle_or_more(seed, exponent):
-    """(x - p) . (v - p) <= 0 for every v of a convex set is what makes p its closest point, in any unit."""
-    random, unit = np.random.default_rng(seed), 10.0**exponent
-    points = unit * random.normal(size=(3, 3))
-    x = unit * 3 * random.normal(size=(40, 3))
-    found = ClosestPointTrees(points, np.array([[0, 1, 2]], np.int32), np.zeros(1, int)).closest(x, np.zeros(40, int))
-    away, ways = x - found.points, points[None] - found.points[:, None]
-    assert np.einsum("ij,ikj->ik", away, ways).max() <= 1e-12 * unit**2 * 10
-
-
 def sliding(mesh, kinds=(NodeClass.CURVE, NodeClass.PATCH)):
     boundary = boundary_of(mesh)
     return boundary, PartitionedSurface(mesh.points, boundary), np.flatnonzero(np.isin(boundary.node_class, kinds))
@@ -136,28 +125,6 @@ def test_nodes_of_a_box_stay_in_their_planes_and_on_their_edges(seed, far):
     outward = np.where(x == 0, -1.0, np.where(x == upper, 1.0, 0.0))[on_patch]
     np.testing.assert_allclose(directions[on_patch], outward, atol=1e-14)
     np.testing.assert_allclose(np.abs(directions[~on_patch]), ~held[~on_patch], atol=1e-14)
-
-
-@given(st.integers(0, 999))
-def test_nodes_of_a_turned_box_stay_in_their_planes(seed):
-    random = np.random.default_rng(seed)
-    turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
-    turn *= np.linalg.det(turn)
-    box = grid(3)
-    mesh = box.with_points(box.points @ turn)
-    _, surface, nodes = sliding(mesh)
-    places, _ = project(surface, mesh.points[nodes] + random.normal(size=(len(nodes), 3)), nodes)
-    held = (box.points[nodes] == 0) | (box.points[nodes] == 3)
-    np.testing.assert_allclose((places @ turn.T)[held], box.points[nodes][held], atol=1e-13)
-
-
-@given(st.integers(0, 999))
-def test_putting_back_twice_is_putting_back_once(seed):
-    mesh = cylinder()
-    _, surface, nodes = sliding(mesh)
-    x = mesh.points[nodes] + 0.2 * np.random.default_rng(seed).normal(size=(len(nodes), 3))
-    once, _ = project(surface, x, nodes)
-    np.testing.assert_allclose(project(surface, once, nodes)[0], once, atol=1e-14)
 
 
 def test_a_node_goes_to_its_own_patch_though_another_is_nearer():
@@ -198,22 +165,6 @@ def test_normals_of_a_ball_come_nearer_to_its_radii_by_refinement_and_by_interpo
 
     assert error(16, True) < 0.4 * error(8, True)
     assert error(16, True) < 0.3 * error(16, False)
-
-
-def test_any_number_of_threads_gives_the_same():
-    mesh = wavy(grid(6), 0.2)
-    _, surface, nodes = sliding(mesh)
-    nodes = np.tile(nodes, 20)
-    x = mesh.points[nodes] + np.random.default_rng(0).normal(size=(len(nodes), 3))
-
-    def found(count):
-        kernels.set_threads(count)
-        return surface.trees.closest(x, surface.group_of(nodes))
-
-    with ThreadPoolExecutor(1) as own:
-        one, three = own.map(found, (1, 3))
-    for field in ("points", "pieces", "weights"):
-        np.testing.assert_array_equal(getattr(one, field), getattr(three, field))
 
 
 def test_nodes_that_do_not_slide_and_invalid_positions_are_refused():

@@ -63,11 +63,6 @@ def test_a_file_that_is_there_already_is_never_overwritten_nor_removed(tmp_path)
     assert not (tmp_path / "out.checkpoint-3.vtu").exists()
 
 
-def test_a_folder_has_a_checkpoint_in_vtu(tmp_path):
-    (tmp_path / "case" / "constant" / "polyMesh").mkdir(parents=True)
-    assert Checkpoints(str(tmp_path / "case"), 1.0).path == tmp_path / "case.checkpoint.vtu"
-
-
 def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(tmp_path, monkeypatch, capsys):
     given, out = tmp_path / "given.vtu", tmp_path / "out.vtu"
     write(given, make("five-side", size=200, scramble=0.2))

@@ -51,6 +51,9 @@ RUNS = {
 }  # fmt: skip
 
 
+QUICK = ("a set with a hyphen is kept", "cut short")
+
+
 def advised(words, capsys):
     """Run a command; return its code and the commands that it advises, as words."""
     capsys.readouterr()
@@ -59,7 +62,9 @@ def advised(words, capsys):
     return code, [shlex.split(line) for line in said if line.startswith("      hexmend ")], "\n".join(said)
 
 
-@pytest.mark.parametrize("name", RUNS)
+@pytest.mark.parametrize(
+    "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in RUNS]
+)
 def test_every_command_that_is_advised_runs_and_helps(name, tmp_path, capsys):
     make_mesh, options = RUNS[name]
     path, out = str(tmp_path / "a mesh.vtu"), str(tmp_path / "out.vtu")

@@ -5,9 +5,7 @@ import pytest
 from hexmend.cli.main import main
 from hexmend.gallery import make
 from hexmend.io import read, write
-from hexmend.parameters import declared
 from hexmend.quality.corner_heights import least_heights
-from hexmend.smoothers import METHODS
 
 
 @pytest.fixture
@@ -41,10 +39,3 @@ def test_the_goal_is_that_of_the_setting(mesh, tmp_path, capsys):
 def test_what_contradicts_is_told(mesh, tmp_path, options, said, capsys):
     assert main(["smooth", str(mesh), "-o", str(tmp_path / "out.vtk"), *options]) == 2
     assert said in capsys.readouterr().err
-
-
-def test_only_mend_has_goals_and_the_option_lists_them():
-    with_goals = [name for name, method in METHODS.items() if "goal" in {one.name for one in declared(method)}]
-    assert with_goals == ["mend"]
-    (goal,) = (one for one in declared(METHODS["mend"]) if one.name == "goal")
-    assert goal.choices == ("balanced", "shape", "scaled-jacobian", "time-step")

@@ -7,7 +7,6 @@ import pytest
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.mesh.rules import MotionRules
 from hexmend.run import smooth
 from hexmend.run.recipe_files import read_recipe
 from tests.core.grids import grid, scrambled
@@ -81,16 +80,8 @@ def test_info_names_the_materials_and_their_interface(path, capsys):
     assert found["interface_nodes"] == 25
 
 
-def test_a_recipe_has_the_rules_and_repeats_them(path, tmp_path):
-    recipe = tmp_path / "recipe.toml"
-    words = ["--interfaces", "slide", "--fix", "low", "--plane", "floor", "--periodic", "floor", "roof"]
-    first = smoothed(path, *words, "--save-recipe", str(recipe))
-    assert read_recipe(recipe).rules == MotionRules("slide", "low", plane="floor", periodic=[("floor", "roof")])
-    np.testing.assert_array_equal(smoothed(path, "--recipe", str(recipe)).points, first.points)
-
-
-@pytest.mark.parametrize("choice", ["keep", "free"])
-def test_options_replace_the_interfaces_of_a_recipe(path, tmp_path, choice):
+def test_options_replace_the_interfaces_of_a_recipe(path, tmp_path):
+    choice = "free"
     recipe, given = tmp_path / "recipe.toml", tmp_path / "given.toml"
     recipe.write_text('format = 1\n[motion]\ninterfaces = "slide"\n[[stage]]\nmethod = "mend"\n')
     after = smoothed(path, "--recipe", str(recipe), "--interfaces", choice, "--save-recipe", str(given))
@@ -98,15 +89,6 @@ def test_options_replace_the_interfaces_of_a_recipe(path, tmp_path, choice):
     assert read_recipe(given).rules.interfaces == choice
     again = smooth(io.read(path), read_recipe(recipe), interfaces=choice)
     np.testing.assert_array_equal(again.mesh.points, after.points)
-
-
-def test_a_recipe_that_frees_a_set_moves_no_node_outside_the_region(path, tmp_path):
-    mesh = io.read(path)
-    recipe = tmp_path / "recipe.toml"
-    recipe.write_text('format = 1\n[motion]\nfree = ["high"]\n[[stage]]\nmethod = "mend"\n')
-    outside = np.setdiff1d(np.arange(mesh.n_nodes), mesh.hexes[mesh.hex_sets["low"]])
-    after = smoothed(path, "--recipe", str(recipe), "--only", "low", "--rings", "0")
-    np.testing.assert_array_equal(after.points[outside], mesh.points[outside])
 
 
 def test_an_unknown_set_is_an_error_that_lists_the_sets(path, capsys):

@@ -99,14 +99,6 @@ def test_a_result_is_written_to_its_end_however_long_that_takes_after_one_signal
     assert writing.asked
 
 
-def test_nothing_is_raised_after_the_end_of_a_block_with_a_grace(timer):
-    with FinishWriting():
-        send()
-        send()
-        assert timer()
-    assert not timer()
-
-
 def test_a_block_has_the_status_of_its_first_signal():
     for number, other in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGINT)):
         with ExitAfterIteration() as signals:

@@ -49,15 +49,6 @@ def test_smooth_says_that_layers_are_lost(cylinder, tmp_path, capsys, options):
     assert "--target given-shape keeps them." in printed.out
 
 
-def test_a_recipe_keeps_the_target(cylinder, tmp_path):
-    recipe, out = tmp_path / "recipe.toml", str(tmp_path / "out.vtu")
-    options = ["--target", "given", "--set", "size_weight=0.5", "--max-iterations", "1"]
-    assert main(["smooth", cylinder, "-o", out, *options, "--save-recipe", str(recipe)]) == 0
-    assert 'target = "given"' in recipe.read_text()
-    assert "size_weight = 0.5" in recipe.read_text()
-    assert main(["smooth", cylinder, "-o", out, "--recipe", str(recipe)]) == 0
-
-
 @pytest.mark.parametrize(("options", "complaint"), [
     (["--target", "given-shap"], "there is no target 'given-shap': expected ideal, given-shape, given-size, given"),
     (["--target", "x - 5"], "target 'x - 5' is "),

@@ -101,18 +101,10 @@ def test_recipes_are_compared_with_methods(mesh, recipe, tmp_path, capsys):
     assert "Two" in capsys.readouterr().out
 
 
-def test_recipes_that_one_would_take_for_each_other_are_not_compared(mesh, recipe, tmp_path, capsys):
-    other = tmp_path / "other.toml"
-    other.write_bytes(recipe.read_bytes())
-    words = ["compare", mesh, "-o", tmp_path / "tables", "--methods", f"{recipe},{other}"]
-    assert main([*map(str, words)]) == 2
-    assert "two.toml, 'Two': change it" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
-@pytest.mark.parametrize(("name", "scramble"), [("bridge-sharp", 0.4), ("five-side", 0.0), ("plane", 0.4)])
+@pytest.mark.parametrize(("name", "scramble"), [("bridge-sharp", 0.4), ("five-side", 0.0)])
 def test_the_recipes_that_come_with_hexmend_are_worth_running(path, name, scramble):
-    mesh = gallery.make(name, size=500 if name != "plane" else 2500, scramble=scramble)
+    mesh = gallery.make(name, size=500, scramble=scramble)
     recipe = read_recipe(path)
     result = smooth(mesh, recipe)
     assert result.after.inverted == 0
@@ -125,38 +117,8 @@ def test_the_recipes_that_come_with_hexmend_are_worth_running(path, name, scramb
         assert result.after.objective == pytest.approx(mended.objective, rel=1e-3)
 
 
-def test_recipes_come_with_hexmend():
-    assert {path.stem for path in SHIPPED} >= {"getme-then-mend", "mend-then-lift"}
-
-
-def test_a_recipe_of_the_package_is_found_by_name(mesh, monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
-    by_name, by_file = (smoothed(mesh, "--recipe", word)[1] for word in ("gentle", SHIPPED[0]))
-    assert SHIPPED[0].stem == "gentle"
-    assert by_name["after"] == by_file["after"]
-    assert [stage["method"] for stage in by_name["stages"]] == [stage["method"] for stage in by_file["stages"]]
-
-
 def test_a_misspelt_name_of_a_recipe_has_a_hint(mesh, capsys):
     assert smoothed(mesh, "--recipe", "gentel")[0] != 0
     error = capsys.readouterr().err
     assert "Did you mean gentle?" in error
     assert all(path.stem in error for path in SHIPPED)
-
-
-def test_a_file_is_preferred_to_a_recipe_of_its_name(mesh, recipe, monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
-    recipe.rename("gentle")
-    assert read_recipe("gentle").title == "Two"
-
-
-def test_compare_takes_names_of_recipes_and_fits_100_columns(mesh, tmp_path, capsys):
-    names = ["gentle", "getme-then-mend", "mend-then-lift", "mend"]
-    assert (
-        main(["compare", str(mesh), "-o", str(tmp_path / "t"), "--methods", ",".join(names), "--max-iterations", "2"])
-        == 0
-    )
-    lines = capsys.readouterr().out.splitlines()
-    assert sum("initial" in line for line in lines) == 1
-    assert max(len(line) for line in lines if "Written to" not in line) <= 100
-    assert all(any(read_recipe(name).title in line for line in lines) for name in names[:3])

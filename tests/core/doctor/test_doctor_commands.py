@@ -21,14 +21,6 @@ def test_info_says_where_and_by_which_command(tmp_path, capsys):
     assert "finds nothing" not in said
 
 
-def test_info_says_that_the_doctor_found_nothing(tmp_path, capsys):
-    io.write(tmp_path / "sound.vtu", SOUND)
-    assert main(["info", str(tmp_path / "sound.vtu")]) == 0
-    assert "The doctor finds" not in capsys.readouterr().out
-    assert main(["info", str(tmp_path / "sound.vtu"), "--doctor"]) == 0
-    assert "The doctor finds no problems" in capsys.readouterr().out
-
-
 def test_repair_writes_the_mended_mesh_and_says_what_was_done(tmp_path, capsys):
     io.write(tmp_path / "blocks.vtu", blocks())
     assert main(["repair", str(tmp_path / "blocks.vtu"), "-o", str(tmp_path / "whole.vtu")]) == 0
@@ -82,13 +74,6 @@ def test_smooth_gives_the_diagnosis_and_the_command(mesh, option, tmp_path, caps
     main(["smooth", str(tmp_path / "bad.vtu"), "-o", str(tmp_path / "out.vtu"), "--max-iterations", "1", *option])
     assert (tmp_path / "out.vtu").exists() is not bool(option)  # refused before a node moves
     assert f"Run: hexmend repair {tmp_path / 'bad.vtu'} -o OUT --only" in capsys.readouterr().err
-
-
-def test_a_report_does_not_replace_the_result(tmp_path, capsys):
-    io.write(tmp_path / "in.vtk", SOUND)
-    out = str(tmp_path / "out.vtk")
-    assert main(["smooth", str(tmp_path / "in.vtk"), "-o", out, "--json", out]) == 3
-    assert "another file to be written" in capsys.readouterr().err
 
 
 def test_places_have_the_numbers_of_the_file_too(tmp_path, capsys):

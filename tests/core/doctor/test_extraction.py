@@ -1,7 +1,6 @@
 """Some hexes of a mesh, as a mesh with what belongs to them."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -74,14 +73,3 @@ def test_mid_nodes_stay_with_their_hexes():
     part = extract_hexes(mesh, np.arange(M) == 5)
     assert part.n_nodes == 27
     np.testing.assert_array_equal(part.points[part.mid_nodes[0]], mesh.points[middle[5]])
-
-
-def test_materials_stay():
-    mesh = GRID.replace(hex_data={"material": np.arange(M) % 3})
-    part = extract_hexes(mesh, np.arange(M) < 5)
-    assert part.hex_data["material"].tolist() == [0, 1, 2, 0, 1]
-
-
-def test_no_hexes_are_no_mesh():
-    with pytest.raises(Exception, match="hex"):
-        extract_hexes(GRID, np.zeros(M, bool))

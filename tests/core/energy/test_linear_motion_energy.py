@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import LinearMotionEnergy, MeshEnergy, ObjectiveNorm, SlidingEnergy, energy_of
+from hexmend.energy import LinearMotionEnergy, ObjectiveNorm, SlidingEnergy, energy_of
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.optimise.floors.region import Region
 from tests.core.boundary.solids import cylinder
@@ -73,18 +73,6 @@ def test_the_assembled_hessian_has_the_same_products(name, seed, p):
         single = hessian.assembled(np.float32)
         np.testing.assert_allclose(single @ step.ravel(), product, atol=1e-4 * np.abs(product).max())
         matrix = hessian.assembled(np.float64, matrix)
-
-
-@pytest.mark.parametrize("name", sorted(MOTIONS))
-def test_steps_keep_the_constraints(name):
-    energy, x, step = at(name, 1, 2.0)
-    points = energy.to_mesh_units(energy.moved(x, step, 0.3))
-    np.testing.assert_allclose(energy.mesh.constrained(points), points, atol=1e-14)
-    np.testing.assert_allclose(points, energy.moved(x, step, 0.3) * energy.unit, atol=1e-13)
-
-
-def test_a_mesh_without_linear_motion_has_the_plain_energy():
-    assert type(energy_of(BLOCK)) is MeshEnergy
 
 
 def test_nodes_on_flat_parts_of_a_sliding_boundary_move_linearly_and_others_are_projected():

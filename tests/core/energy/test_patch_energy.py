@@ -44,23 +44,6 @@ def test_value_is_the_energy_of_the_attached_hexes(case):
 
 
 @given(CASES)
-def test_gradient_is_that_of_central_differences(case):
-    seed, amplitude, norm, soft = case
-    mesh = scrambled(grid(3), amplitude if soft else 0.15, seed)
-    delta = 0.05 if soft else 0.0
-    node = int(np.flatnonzero(mesh.free)[seed % 8])
-    star, patch = patch_of(mesh, node, delta, norm)
-    scale, f, gradient = patch.factor, patch.value, patch.gradient
-    assert f == pytest.approx(value(mesh, star, scale, np.zeros(3), delta, norm))
-    step = 1e-6
-    for k in range(3):
-        y = np.zeros(3)
-        y[k] = step
-        rise = value(mesh, star, scale, y, delta, norm) - value(mesh, star, scale, -y, delta, norm)
-        assert rise / (2 * step) == pytest.approx(gradient[k], rel=1e-5, abs=1e-5 * max(1, f))
-
-
-@given(CASES)
 def test_gradient_and_hessian_are_rows_and_blocks_of_the_meshs(case):
     seed, amplitude, norm, soft = case
     mesh = scrambled(grid(3), amplitude if soft else 0.15, seed)
@@ -74,16 +57,3 @@ def test_gradient_and_hessian_are_rows_and_blocks_of_the_meshs(case):
     np.testing.assert_allclose(np.multiply(patch.gradient, ratio), energy.gradient(x, delta)[k], rtol=1e-9, atol=1e-9)
     block = energy.hessian(x, delta).assembled(np.float64).diagonal_blocks[k]
     np.testing.assert_allclose(np.multiply(patch.hessian, ratio**2), block, rtol=1e-8, atol=1e-9 * np.abs(block).max())
-
-
-def test_a_perfect_patch_has_no_gradient():
-    mesh = grid(2)
-    _, patch = patch_of(mesh, 13, 0.0)
-    assert patch.value == pytest.approx(0, abs=1e-12)
-    assert patch.gradient == pytest.approx([0, 0, 0], abs=1e-12)
-
-
-def test_a_patch_without_extent_has_no_factor():
-    mesh = grid(2)
-    flat = mesh.with_points(np.zeros_like(mesh.points))
-    assert patch_of(flat, 13, 0.1)[1].factor == 0

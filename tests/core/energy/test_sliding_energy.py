@@ -11,7 +11,6 @@ from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.energy import ObjectiveNorm, SlidingEnergy, energy_of
 from hexmend.energy.floor_barrier import FloorBarrier
 from hexmend.energy.ranks import Ranks
-from hexmend.mesh.element_target import Target
 from hexmend.optimise.floors.region import Region
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
@@ -88,14 +87,6 @@ def test_off_the_surface_nothing_is_coupled_and_no_eigenvalue_is_an_extreme(soli
     assert beside.max() <= along.max() * (1 + 1e-9)
 
 
-@pytest.mark.parametrize("solid", sorted(SOLIDS))
-def test_the_gradient_leads_nowhere_off_the_surface(solid):
-    energy, x, _ = at(solid, 1, 2.0)
-    rows = np.searchsorted(energy.nodes, energy.sliding.nodes)
-    gradient = energy.gradient(x, 0.05)[rows]
-    np.testing.assert_allclose(np.einsum("kij,kj->ki", energy.projectors(x), gradient), gradient, atol=1e-12)
-
-
 def test_values_that_are_kept_are_those_of_another_energy_only_where_it_is_the_same():
     energy, x, _ = at("cylinder", 5, 2.0)
     floors = np.full(energy.mesh.n_hexes, -1.5)
@@ -115,19 +106,6 @@ def test_values_that_are_kept_are_those_of_another_energy_only_where_it_is_the_s
             assert values[-1] == fresh.value(x.copy(), delta) == of.value(x, delta)
             np.testing.assert_array_equal(of.with_barriers(x, delta), each)
     assert len(set(values)) == len(values) // 2
-
-
-def test_what_is_kept_at_a_place_is_not_that_of_another_target():
-    there = slid(SOLIDS["cylinder"](), 0.2, 5)
-    mesh = SOLIDS["cylinder"]()
-    mesh = mesh.with_element_target(Target(np.full((mesh.n_hexes, 3), 0.5 * mesh.mean_edge_length), 1.0))
-    energy = SlidingEnergy(SlidingBoundary(mesh), ObjectiveNorm(2.0))
-    x = energy.to_edge_units(there.points)
-    value, gradient = energy.value(x, 0.1), energy.gradient(x, 0.1)
-    other = energy.without_size()
-    assert other.value(x, 0.1) == other.value(x.copy(), 0.1) != value
-    np.testing.assert_array_equal(other.gradient(x, 0.1), other.gradient(x.copy(), 0.1))
-    assert (other.gradient(x, 0.1) != gradient).any()
 
 
 @pytest.mark.parametrize("solid", SOLIDS)

@@ -6,12 +6,12 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, ObjectiveNorm, energies
-from hexmend.energy.target import hex_sizes, node_sizes, wanted_lengths
+from hexmend.energy.target import wanted_lengths
 from hexmend.kernels import local, objective
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.element_target import Target
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES, UNIT_CUBE
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 from tests.core.native import extension
@@ -188,26 +188,6 @@ def test_a_mesh_like_its_target_has_no_energy_and_no_gradient(weight):
     x = energy.to_edge_units(mesh.points)
     assert energy.value(x) == pytest.approx(0, abs=1e-20)
     assert np.abs(energy.gradient(x)).max() == pytest.approx(0, abs=1e-6)
-
-
-def test_the_scale_of_a_shapes_lengths_does_not_matter():
-    mesh = scrambled(grid(3), 0.5, 1)
-    lengths = np.random.default_rng(0).uniform(0.5, 2, (mesh.n_hexes, 3))
-    scale = 10.0 ** np.random.default_rng(1).uniform(-3, 3, (mesh.n_hexes, 1))
-    one, other = (mesh.with_element_target(Target(each)) for each in (lengths, scale * lengths))
-    np.testing.assert_allclose(wanted_lengths(one), wanted_lengths(other))
-    np.testing.assert_allclose(hex_sizes(one), hex_sizes(other))
-
-
-def test_lengths_as_given_are_wanted_at_their_own_scale():
-    mesh = grid(3)
-    mesh = mesh.with_points(mesh.points * [1, 0.01, 3])
-    ends = mesh.points[mesh.hexes[:, EDGES]]
-    given_lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).reshape(-1, 3, 4).mean(axis=2)
-    aimed_mesh = mesh.with_element_target(Target(given_lengths))
-    np.testing.assert_allclose(wanted_lengths(aimed_mesh), given_lengths)
-    np.testing.assert_allclose(node_sizes(aimed_mesh), given_lengths.min())
-    assert node_sizes(mesh) == hex_sizes(mesh) == mesh.mean_edge_length
 
 
 @given(seeds, st.sampled_from([0.3, 2.0]))

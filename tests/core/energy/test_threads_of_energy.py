@@ -20,7 +20,7 @@ def energies_of(kind):
     return first, first.with_objective(POWERS[1], first.omitted)
 
 
-def answers(energy, x, steps=30):
+def answers(energy, x, steps=10):
     """Compute gradients and Hessian products at different points."""
     found = []
     for k in range(steps):

@@ -68,13 +68,6 @@ def test_a_pentagon_has_the_quads_asked_for_and_they_are_convex(quads, share, ji
     assert set(valence[:boundary]) == {1, 2}
 
 
-def test_a_pentagon_is_the_same_each_time_and_another_with_another_seed():
-    one, again, other = (pentagon(100, 44, seed=seed) for seed in (1, 1, 2))
-    for a, b in zip(one, again, strict=True):
-        np.testing.assert_array_equal(a, b)
-    assert (one[1] != other[1]).any()
-
-
 @pytest.mark.parametrize("times", [1, 2, 5])
 def test_quads_are_divided_and_the_outline_stays(times):
     for coarse in (fan(), pentagon(60, 34)):
@@ -85,7 +78,7 @@ def test_quads_are_divided_and_the_outline_stays(times):
         assert area(points, quads) == pytest.approx(area(*coarse))
 
 
-@pytest.mark.parametrize("size", [5, 20, 60, 100, 300, 900, 3000, 250_000])
+@pytest.mark.parametrize("size", [5, 60, 900, 3000])
 def test_any_size_comes_near(size):
     mesh = make("five-side", size=size)
     assert mesh.n_hexes == pytest.approx(size, rel=0.35)

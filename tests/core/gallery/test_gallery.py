@@ -6,7 +6,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.doctor import examine
-from hexmend.errors import ParameterError
 from hexmend.gallery import GALLERY, make
 from hexmend.parameters import declared
 from hexmend.quality import summarise
@@ -80,20 +79,8 @@ def test_entries_say_what_they_are(name):
     assert {"size", "scramble", "seed"} <= {one.name for one in declared(kind)}
 
 
-def test_what_is_not_admitted_is_said():
-    with pytest.raises(ParameterError, match="size = 0 is out of range"):
-        make("cube", size=0)
-    with pytest.raises(ParameterError, match="there is no gallery mesh"):
-        make("torus")
-
-
 def test_sets_and_layers_name_the_parts():
     five = make("five-side")
     assert len(five.node_sets["bottom"]) == len(five.node_sets["top"]) == 281
     assert np.bincount(five.hex_data["layer"])[1:].tolist() == [245] * 30
     assert len(make("bridge-sharp").node_sets["arch"]) == 41 * 41
-
-
-def test_a_parameter_that_is_nearly_right_is_suggested():
-    with pytest.raises(ParameterError, match=r"cube has no parameter 'sise': did you mean size\?"):
-        make("cube", sise=8)

@@ -19,10 +19,6 @@ def test_the_size_is_that_of_the_nearest_multiple_of_six(size, n):
     assert make("kershaw", size=size).n_hexes == n**3
 
 
-def test_eps_of_one_is_the_lattice():
-    np.testing.assert_allclose(kershaw_map(lattice(12), 1.0), lattice(12), atol=1e-15)
-
-
 @pytest.mark.parametrize("eps", [0.1, 0.3, 0.7])
 def test_the_box_and_the_planes_of_x_stay_and_no_hex_is_inverted(eps):
     given = lattice(12)

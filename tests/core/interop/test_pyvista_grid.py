@@ -79,10 +79,6 @@ def test_neither_side_changes_the_other():
     assert mesh.points.any()
 
 
-def test_no_array_is_chosen_to_colour_a_grid():
-    assert hx.to_pyvista(with_all_data()).active_scalars_name is None
-
-
 @pytest.mark.parametrize("grid", [
     boxes(), pv.ImageData(dimensions=(3, 3, 3)), pv.RectilinearGrid(*[np.arange(3.0)] * 3),
     boxes().cast_to_explicit_structured_grid(), boxes().cast_to_unstructured_grid(),
@@ -91,14 +87,6 @@ def test_every_grid_of_pyvista_with_hexes_is_taken(grid):
     mesh = hx.from_pyvista(grid)
     assert (mesh.n_hexes, mesh.n_nodes) == (8, 27)
     assert mesh.quality("q").min() == pytest.approx(1)
-
-
-def test_a_grid_of_vtk_itself_is_taken():
-    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
-
-    grid = vtkUnstructuredGrid()
-    grid.DeepCopy(hx.to_pyvista(CUBE))
-    assert_round_trip(CUBE, hx.from_pyvista(grid))
 
 
 def mixed():

@@ -19,11 +19,12 @@ def test_every_side_is_a_bit():
 @pytest.mark.parametrize(("to", "back", "library"), [
     (hx.to_pyvista, hx.from_pyvista, "pyvista"), (hx.to_meshio, hx.from_meshio, "meshio"),
 ])  # fmt: skip
-def test_the_side_sets_of_a_real_mesh_come_back(real_mesh, to, back, library):
+@pytest.mark.parametrize(("name", "count"), [("layered", 2), ("jet.exo", 5)])
+def test_the_side_sets_of_a_mesh_come_back(sample_mesh, name, count, to, back, library):
     pytest.importorskip(library)
-    mesh = hx.read(real_mesh("jet.exo"))
+    mesh = sample_mesh(name)
     found = back(to(mesh)).side_sets
-    assert len(mesh.side_sets) == 5
+    assert len(mesh.side_sets) == count
     assert {name: set(map(tuple, rows.tolist())) for name, rows in found.items()} == {
         name: set(map(tuple, rows.tolist())) for name, rows in mesh.side_sets.items()
     }

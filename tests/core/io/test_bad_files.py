@@ -91,16 +91,6 @@ def test_a_missing_file_is_said_with_its_nearest(tmp_path):
         io.read(tmp_path)
 
 
-def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path):
-    path = tmp_path / "old.vtk"
-    path.write_text("old")
-    with pytest.raises(ZeroDivisionError), atomic_write(path) as temporary:
-        temporary.write_text("half")
-        raise ZeroDivisionError
-    assert path.read_text() == "old"
-    assert os.listdir(tmp_path) == ["old.vtk"]
-
-
 def test_a_write_replaces_the_file_with_the_users_permissions(tmp_path):
     path = tmp_path / "new.vtk"
     with atomic_write(path) as temporary:
@@ -136,12 +126,10 @@ def test_a_byte_order_mark_is_no_part_of_the_text(suffix, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("compress", "program"), [(gzip.compress, "gzip"), (bz2.compress, "bzip2"), (lzma.compress, "xz")]
-)
-@pytest.mark.parametrize(
     "name", [*(f"a{one.suffixes[0]}" for one in FORMATS.values() if one.write and not one.place), "a.vtk.gz"]
 )
-def test_compressed_files_are_called_compressed_whatever_their_names(name, compress, program, tmp_path):
-    (tmp_path / name).write_bytes(compress(b"anything"))
-    with pytest.raises(FileError, match=f"is compressed by {program}. Decompress it first."):
-        io.read(tmp_path / name)
+def test_compressed_files_are_called_compressed_whatever_their_names(name, tmp_path):
+    for compress, program in ((gzip.compress, "gzip"), (bz2.compress, "bzip2"), (lzma.compress, "xz")):
+        (tmp_path / name).write_bytes(compress(b"anything"))
+        with pytest.raises(FileError, match=f"is compressed by {program}. Decompress it first."):
+            io.read(tmp_path / name)

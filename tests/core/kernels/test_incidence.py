@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from hexmend import kernels
 from hexmend.energy.sparsity import BlockSparsity
-from hexmend.errors import MeshError
 from hexmend.kernels import incidence, sparsity, structure
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.mesh import Mesh
@@ -93,15 +92,6 @@ def opposed(one, other):
     return any(one == (other[k:] + other[:k])[::-1] for k in range(len(other)))
 
 
-def test_a_hex_stored_twice_is_all_boundary_with_any_corner_first():
-    hexes = np.array([range(8), range(8), [1, 2, 3, 0, 5, 6, 7, 4]], np.int32)
-    for pair in ([0, 1], [0, 2]):
-        topology = Topology(hexes[pair], 8)
-        assert (topology.face_neighbours == -1).all()
-        assert topology.boundary.all()
-        assert topology.n_nonmanifold_faces == 12
-
-
 def test_more_than_64_colours_are_given_as_greedily_as_the_first():
     hexes = np.random.default_rng(0).integers(90, size=(4000, 8), dtype=np.int32)
     corners = Topology(hexes, 90).node_corners
@@ -138,13 +128,6 @@ def test_hexes_of_shares_are_those_at_their_slots_and_the_last_shares_are_kept()
         np.testing.assert_array_equal(at.slots, slots)
 
 
-def test_two_corners_that_are_one_node_have_no_block_above_the_diagonal():
-    hexes = np.array([[4, 4, 5, 1, 1, 6, 7, 0]], np.int32)
-    slots = np.array([[1, 1, -1, 0, 0, -1, -1, -1]], np.int32)
-    row_start, columns = sparsity.pattern(slots, np.array([1, 4], np.int32), *incidence.node_corners(hexes, 8))
-    assert (row_start.tolist(), columns.tolist()) == ([0, 1, 1], [1])
-
-
 def test_no_hexes_are_no_trouble():
     hexes = np.empty((0, 8), np.int32)
     for n in (0, 5):
@@ -175,23 +158,3 @@ def test_more_items_than_there_are_numbers_for_are_refused_before_they_are_writt
         make(items)
         with pytest.raises(OverflowError, match=f"there are {items} items: expected {items - 1} at most"):
             make(items - 1)
-
-
-@pytest.mark.parametrize(
-    ("module", "most", "make", "words"),
-    [
-        (
-            "mesh.topology.topology",
-            39,
-            lambda: grid(2, 1, 1).topology.rings,
-            "neighbours of nodes, .* there are 40 items: .* divide",
-        ),
-        ("mesh.topology.topology", 19, lambda: grid(2, 1, 1).topology.edges, "edges, .* there are 20 items"),
-        ("energy.sparsity", 27, lambda: BlockSparsity(grid(3)).columns, "pairs of free nodes .* there are 28 items"),
-    ],
-)
-def test_a_mesh_whose_neighbours_cannot_be_numbered_is_to_be_divided(monkeypatch, module, most, make, words):
-    make()
-    monkeypatch.setattr(f"hexmend.{module}.MAX_ITEMS", most)
-    with pytest.raises(MeshError, match=f"the mesh has too many {words}"):
-        make()

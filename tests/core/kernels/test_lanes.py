@@ -7,11 +7,10 @@ from hypothesis import strategies as st
 
 from hexmend import kernels
 from hexmend.energy import SQUARES, BlockSparsity, MeshEnergy, ObjectiveNorm, energies
-from hexmend.energy.hex_energy import pack_corners, unpack_corners
+from hexmend.energy.hex_energy import pack_corners
 from hexmend.kernels import LANES, element_step, local, objective, step_limits
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
-from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 from tests.core.native import extension
 
@@ -85,13 +84,6 @@ def test_a_local_sweep_is_that_of_the_plain_loop(direction, seed, case, p, offse
     np.testing.assert_allclose(moved, expected, atol=1e-7 * mesh.mean_edge_length)
 
 
-@given(st.floats(-150, 150), st.integers(0, 2**32 - 1))
-def test_lengths_of_any_power_of_ten_give_the_same_energy(power, seed):
-    points, hexes = some(8, 0.2, seed)
-    scaled = points * 10.0 ** (power / 2)
-    np.testing.assert_allclose(energies(scaled, hexes), energies(points, hexes), rtol=1e-9, atol=1e-12)
-
-
 def test_flat_and_inverted_hexes_have_infinite_energy_and_no_other_has():
     mesh = scrambled(grid(5), 0.1)
     points = mesh.points.copy()
@@ -101,11 +93,6 @@ def test_flat_and_inverted_hexes_have_infinite_energy_and_no_other_has():
     assert eta[7] == np.inf
     assert np.isfinite(eta[~touched]).all()
     assert np.isfinite(energies(points, mesh.hexes, 0.01)).all()
-
-
-def test_a_batch_of_no_hexes_is_none():
-    energy = MeshEnergy(grid(2))
-    assert energies(energy.mesh.points, np.empty((0, 8), np.int32)).shape == (0,)
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.05]))
@@ -142,38 +129,6 @@ def test_an_inverted_tetrahedron_that_is_left_out_makes_no_energy_infinite():
     assert np.isfinite(energy.hessian(x).assembled().off_diagonal).all()
 
 
-def energy_in_numpy(x, delta, norm, omitted):
-    """Sum of max(eta(H), 0)^p over hexes with corners x (m, 8, 3), complex or not, as the book writes it."""
-    edges = x[:, CORNER_TETRAHEDRA[:, 1:]] - x[:, CORNER_TETRAHEDRA[:, :1]]
-    sigma = np.linalg.det(edges)
-    h = (sigma + np.sqrt(sigma * sigma + 4 * delta * delta)) / 2
-    eta = (edges * edges).sum(axis=(2, 3)) / (3 * h ** (2 / 3))
-    energy = np.where(unpack_corners(omitted), 1.0, eta).mean(axis=1) - norm.offset
-    return np.where(energy.real > 0, energy, 0.0) ** norm.p
-
-
-@given(**cases)
-def test_energy_and_gradient_are_those_of_numpy(count, case, p, offset, seed, share):
-    points, hexes = some(count, case[0], seed)
-    delta, omitted = case[1], some_left_out(count, share, seed)
-    x = points[hexes]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        expected = energy_in_numpy(x, delta, ObjectiveNorm(p, offset), omitted)
-        sound = np.isfinite(expected)
-        eta, shares = energies(points, hexes, delta, omitted, offset), np.empty((count, 8, 3))
-        np.testing.assert_allclose(eta[sound] ** p, expected[sound], rtol=1e-9, atol=1e-11)
-        objective.gradient(points, hexes, delta, ObjectiveNorm(p, offset), omitted, shares)
-        for corner, axis in ((0, 0), (3, 1), (6, 2)):
-            there = x.astype(complex)
-            there[:, corner, axis] += 1e-30j
-            slope = energy_in_numpy(there, delta, ObjectiveNorm(p, offset), omitted).imag / 1e-30
-            clear = sound & (eta > 1e-6)  # at zero, p = 1 has a kink
-            size = np.abs(shares[clear]).max(initial=1e-300)
-            np.testing.assert_allclose(
-                shares[clear, corner, axis], slope[clear], rtol=1e-7, atol=max(1e-9 * size, 1e-15)
-            )
-
-
 def bad_hexes():
     """Points and hexes of which none has a finite energy at delta = 0, however they went wrong."""
     cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1.0]])
@@ -208,26 +163,6 @@ def test_a_node_beside_a_collapsed_corner_is_left_alone():
     settings = local.NodeStepSettings(local.Direction.STEEPEST_DESCENT, 0.0, SQUARES, LineSearch())
     local.sweep(moved, mesh.topology.hex_mesh, np.array([0, 1], np.int32), np.array([node], np.int32), settings)
     np.testing.assert_array_equal(moved, points)
-
-
-def test_arrays_that_do_not_fit_are_refused():
-    mesh = grid(2)
-    for omitted, eta in ((np.zeros(3, np.uint8), np.empty(8)), (np.zeros(8, np.uint8), np.empty(7))):
-        with pytest.raises(ValueError, match="one for each hex"):
-            objective.energies(mesh.points, mesh.hexes, 0.0, 1.0, omitted, eta)
-    with pytest.raises(TypeError):
-        objective.energies(mesh.points.astype(np.float32), mesh.hexes, 0.0, 1.0, np.zeros(8, np.uint8), np.empty(8))
-    with pytest.raises(ValueError, match="no patch"):
-        local.patch_energy(mesh.points, mesh.hexes, np.empty(0, np.int32), 0.0, 0.0, SQUARES)
-
-
-def test_public_functions_take_any_whole_numbers_and_order():
-    mesh = scrambled(grid(3), 0.2)
-    points, hexes = np.asfortranarray(mesh.points), mesh.hexes.astype(np.int64)
-    np.testing.assert_array_equal(energies(points, hexes), energies(mesh.points, mesh.hexes))
-    np.testing.assert_array_equal(measure(points, hexes.tolist()).q, measure(mesh.points, mesh.hexes).q)
-    energy = MeshEnergy(mesh)
-    assert energy.value(energy.to_edge_units(points)) == energy.value(energy.to_edge_units(mesh.points))
 
 
 @pytest.mark.parametrize("parts", [1, 3])

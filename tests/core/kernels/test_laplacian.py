@@ -36,24 +36,3 @@ def test_rings_of_which_only_one_node_is_in_the_others(seed):
     items = np.concatenate(rings).astype(np.int32)
     nodes = rng.permutation(n)[: rng.integers(0, n + 1)].astype(np.int32)
     assert_equal_sweeps(rng.normal(size=(n, 3)), start, items, nodes)
-
-
-def test_points_of_another_mesh_are_refused():
-    mesh = grid(3)
-    ring, nodes = mesh.topology.rings, np.flatnonzero(mesh.free).astype(np.int32)
-    sweeps = laplacian.LaplacianSweeps(mesh.points, ring.start, ring.items, nodes)
-    with pytest.raises(ValueError, match="points: another number of nodes"):
-        sweeps.next(np.zeros((2, 3)))
-
-
-def test_most_nodes_wait_for_the_one_before_them_along_the_rows_of_a_grid_and_none_by_colours():
-    mesh = grid(5)
-    ring = mesh.topology.rings
-    assert laplacian.most_wait(ring.start, ring.items, ORDERS["natural"](mesh)(mesh.points, 0))
-    assert not laplacian.most_wait(ring.start, ring.items, ORDERS["colour"](mesh)(mesh.points, 0))
-
-
-def test_a_long_row_is_swept_in_several_stretches():
-    mesh = scrambled(grid(700, 2, 2), 0.3)
-    ring = mesh.topology.rings
-    assert_equal_sweeps(mesh.points, ring.start, ring.items, np.flatnonzero(mesh.free).astype(np.int32))

@@ -170,21 +170,6 @@ print(os.waitstatus_to_exitcode(status), call() == first)
     assert program(BEGIN + child).split() == ["0", "True"]
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="other systems tell the states of threads differently")
-def test_threads_that_wait_sleep():
-    idle = """
-import threading
-from pathlib import Path
-def states():
-    others = [at for at in Path("/proc/self/task").iterdir() if at.name != str(threading.get_native_id())]
-    return [(at / "stat").read_text().rpartition(")")[2].split()[0] for at in others]
-while set(states()) != {"S"}:
-    time.sleep(0.01)
-print(len(states()) >= 2)
-"""
-    assert program(BEGIN + idle) == "True\n"
-
-
 @pytest.mark.slow
 def test_a_process_ends_quietly_while_threads_wait_or_work():
     assert program(BEGIN) == ""

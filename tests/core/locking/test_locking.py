@@ -101,12 +101,6 @@ def test_a_corner_whose_four_nodes_stay_is_locked_by_fixed_nodes():
     assert find_locking(around).unmendable.any()  # fixed nodes inside
 
 
-def test_flat_interior_nodes_are_not_locked():
-    mesh = moved(grid(2), {13: (0, 0, 0)})
-    assert not find_locking(mesh).hexes.size
-    assert find_locking(grid(3)).phrase == ""
-
-
 @pytest.mark.parametrize("seed", range(4))
 def test_no_hex_that_needs_a_layer_is_mended_by_sliding(seed):
     mesh = flat_corner()
@@ -139,10 +133,3 @@ def test_info_prints_what_frees_locked_hexes_and_lists_the_proofs(tmp_path, caps
     values = json.loads(capsys.readouterr().out)["locking"]
     assert (values["need_layer"], values["unmendable"]) == ([9], [0, 18])
     assert all(len(one["nodes"]) == 4 for one in values["corners"])
-
-
-def test_info_says_nothing_of_locked_hexes_where_there_are_none(tmp_path, capsys):
-    path = tmp_path / "sound.vtu"
-    io.write(path, scrambled(grid(3), 1.5))
-    assert main(["info", str(path), "--json"]) == 0
-    assert "locking" not in json.loads(capsys.readouterr().out)

@@ -51,12 +51,6 @@ def test_hexes_on_one_side_of_two_faces_with_the_same_edges_are_found_and_named(
     assert not finding.mendable
 
 
-@pytest.mark.parametrize("hexes", [[(0, 1), (1, 1)], [(0, -1), (1, -1)], [(0, 1), (0, -1), (1, 1)]])
-def test_two_hexes_on_one_side_suffice(hexes):
-    mesh = around_two_faces(*hexes)
-    assert hexes_without_valid_position(mesh).tolist() == [k for k, one in enumerate(hexes) if one[1] == hexes[0][1]]
-
-
 @pytest.mark.parametrize("hexes", [[(0, 1), (0, -1)], [(0, 1), (1, -1)], [(1, 1), (0, -1)]])
 def test_hexes_on_both_sides_of_one_face_or_of_a_gap_between_two_are_none(hexes):
     assert not hexes_without_valid_position(around_two_faces(*hexes)).size

@@ -1,7 +1,6 @@
 """Targets of elements: their checks, and the meshes that carry them."""
 
 import copy
-import pickle
 
 import numpy as np
 import pytest
@@ -49,10 +48,6 @@ def test_lengths_are_read_only_and_independent_of_the_callers():
     assert not target.lengths.flags.writeable
 
 
-def test_a_mesh_has_no_target_unless_told(mesh):
-    assert mesh.element_target is None
-
-
 def test_derived_meshes_keep_the_target(mesh):
     target = Target(np.ones((mesh.n_hexes, 3)), 0.5, "given")
     aimed = mesh.with_element_target(target)
@@ -68,20 +63,6 @@ def test_derived_meshes_keep_the_target(mesh):
     assert aimed.topology is mesh.topology
 
 
-def test_a_rebuilt_mesh_and_one_without_target_have_none(mesh):
-    aimed = mesh.with_element_target(Target(np.ones((mesh.n_hexes, 3))))
-    assert aimed.rebuilt(name="other").element_target is None
-    assert aimed.with_element_target(None).element_target is None
-
-
 def test_a_target_of_other_hexes_is_refused(mesh):
     with pytest.raises(MeshError, match="target is for 1 hex: the mesh has 8"):
         mesh.with_element_target(Target(np.ones((1, 3))))
-
-
-def test_a_pickled_mesh_has_its_target(mesh):
-    aimed = mesh.with_element_target(Target(np.full((mesh.n_hexes, 3), 2.0), 0.5, "given"))
-    target = pickle.loads(pickle.dumps(aimed)).element_target
-    assert (target.lengths == 2).all()
-    assert not target.lengths.flags.writeable
-    assert (target.size_weight, target.name) == (0.5, "given")

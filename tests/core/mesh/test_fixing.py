@@ -11,8 +11,7 @@ from hexmend.errors import MeshError
 from hexmend.mesh.fixing import fix, fix_outside, unfix
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.rules.named_sets import nodes_in_set
-from hexmend.run import smooth
-from tests.core.grids import grid, scrambled, with_edge_midpoints
+from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(5), 0.4).replace(
     node_sets={"some": np.array([100, 101])}, hex_sets={"part": np.array([62])}, side_sets={"side": np.array([[62, 3]])}
@@ -60,14 +59,6 @@ def test_of_a_region_and_its_rings_alone_nodes_are_free(rings):
     np.testing.assert_array_equal(free, expected & MESH.free)
 
 
-def test_of_a_region_of_second_order_the_same_corners_are_free():
-    quadratic = with_edge_midpoints(MESH)
-    part = fix_outside(quadratic, [62])
-    np.testing.assert_array_equal(part.free[: MESH.n_nodes], fix_outside(MESH, [62]).free)
-    after = smooth(part, "laplacian", max_iterations=2, keep_last=True).mesh.points
-    assert (after[: MESH.n_nodes] != MESH.points).any()
-
-
 def test_the_command_keeps_sets_and_moves_regions(tmp_path, capsys):
     path, out, report = tmp_path / "a.vtu", tmp_path / "b.vtu", tmp_path / "c.json"
     io.write(path, MESH)
@@ -80,14 +71,3 @@ def test_the_command_keeps_sets_and_moves_regions(tmp_path, capsys):
     capsys.readouterr()
     assert main([*words, "--only", "parts"]) == 3
     assert "there is no element set 'parts': did you mean part? there are 'part', 'inverted'" in capsys.readouterr().err
-
-
-def test_several_sets_are_fixed_by_name():
-    fixed = fix(MESH, ["some", "part"])
-    expected = np.union1d(nodes_in_set(MESH, "some"), nodes_in_set(MESH, "part"))
-    np.testing.assert_array_equal(np.flatnonzero(fixed.pinned), expected)
-
-
-def test_a_region_is_given_by_numbers_or_marks():
-    marks = np.arange(MESH.n_hexes) == 62
-    np.testing.assert_array_equal(fix_outside(MESH, marks).pinned, fix_outside(MESH, [62]).pinned)

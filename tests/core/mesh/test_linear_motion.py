@@ -10,6 +10,7 @@ from hexmend.errors import MeshError
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.linear_motion.constrained_points import admissible_displacements
 from tests.core.grids import grid
+from tests.core.linear_motions import planes, turn
 
 MESH = grid(4)
 FACES = {
@@ -17,26 +18,8 @@ FACES = {
 }
 
 
-def planes(mesh=MESH):
-    """The faces of a block of hexes as planes."""
-    motion = LinearMotion()
-    for axis in range(3):
-        for end in (mesh.points[:, axis].min(), mesh.points[:, axis].max()):
-            motion = motion.merge(LinearMotion.in_planes(np.flatnonzero(mesh.points[:, axis] == end), np.eye(3)[axis]))
-    return motion
-
-
-def turn(degrees, axis=0):
-    """Rotation about an axis."""
-    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
-    matrix = np.eye(3)
-    i, j = (axis + 1) % 3, (axis + 2) % 3
-    matrix[i, i], matrix[i, j], matrix[j, i], matrix[j, j] = c, -s, s, c
-    return matrix
-
-
 def test_nodes_of_two_planes_move_along_a_line_and_corners_stay():
-    motion = planes()
+    motion = planes(MESH)
     sides = sum(np.isin(np.arange(MESH.n_nodes), nodes).astype(int) for nodes in FACES.values())
     np.testing.assert_array_equal(3 - motion.ranks, sides[motion.nodes])
     np.testing.assert_array_equal(MESH.with_linear_motion(motion).fixed, sides == 3)
@@ -102,7 +85,7 @@ def test_pinned_nodes_stay_and_what_is_tied_to_them():
 
 
 def test_the_motion_stays_with_the_mesh_until_it_is_ended():
-    mesh = MESH.with_linear_motion(planes())
+    mesh = MESH.with_linear_motion(planes(MESH))
     for other in (
         mesh.with_points(mesh.points + 0.0),
         mesh.with_fixed(mesh.fixed),

@@ -59,13 +59,13 @@ def test_a_mesh_without_a_division_has_one_material_and_keeps_its_free_nodes(fie
 
 
 @pytest.mark.parametrize("name", ["MaterialIds", "material", "medit:ref", "Region Id", "block", "nastran:pid"])
-@pytest.mark.parametrize("as_type", [np.int8, np.float64])
-def test_numbers_under_a_usual_name_are_materials(name, as_type):
-    numbers = np.full(64, 7, as_type)
-    numbers[HIGH] = 12
-    found = of(hex_data={name: numbers})
-    assert found.names == ("7", "12")
-    np.testing.assert_array_equal(np.flatnonzero(found.of_hex), HIGH)
+def test_numbers_under_a_usual_name_are_materials(name):
+    for as_type in (np.int8, np.float64):
+        numbers = np.full(64, 7, as_type)
+        numbers[HIGH] = 12
+        found = of(hex_data={name: numbers})
+        assert found.names == ("7", "12")
+        np.testing.assert_array_equal(np.flatnonzero(found.of_hex), HIGH)
 
 
 @given(st.integers(2, 5), st.integers(0, 10**6))
@@ -82,14 +82,6 @@ def test_interfaces_are_the_nodes_and_faces_of_hexes_of_different_material(count
         assert numbers[one] < numbers[other]
         assert across[one, face] == other
         assert set(MESH.hexes[one, FACES[face]]) == set(MESH.hexes[other, FACES[back]])
-
-
-def test_the_materials_of_a_mesh_with_other_points_are_not_found_anew():
-    mesh = MESH.replace(hex_sets=TWO)
-    found = mesh.materials
-    assert mesh.with_points(mesh.points + 1).materials is found
-    assert mesh.replace(pinned=mesh.topology.boundary).materials is found
-    assert mesh.replace(hex_sets={}).materials is None
 
 
 def test_the_ball_in_a_box_has_a_sphere_as_interface():

@@ -20,14 +20,6 @@ def test_with_points_shares_topology_and_leaves_the_original():
     assert moved.points[0, 0] == 1
 
 
-def test_replace_carries_and_does_not_move():
-    mesh = grid(2)
-    assert mesh.replace(name="other").name == "other"
-    assert mesh.replace(name="other").topology is mesh.topology
-    with pytest.raises(MeshError, match="with_points"):
-        mesh.replace(points=mesh.points)
-
-
 @pytest.mark.parametrize(
     ("points", "hexes", "words"),
     [

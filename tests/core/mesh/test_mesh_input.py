@@ -144,15 +144,6 @@ def test_the_callers_points_stay_writable_and_later_changes_do_not_reach_the_mes
         mesh.points[0, 0] = 1
 
 
-def test_a_read_only_view_does_not_let_its_owner_change_the_mesh():
-    mine = TWO.points.copy()
-    view = mine.view()
-    view.flags.writeable = False
-    mesh = TWO.with_points(view)
-    mine[0] = 99
-    np.testing.assert_array_equal(mesh.points, TWO.points)
-
-
 @pytest.mark.parametrize(
     ("field", "value"),
     [
@@ -167,24 +158,6 @@ def test_everything_else_that_is_given_stays_the_callers_too(field, value):
     mine[...] = 1
     kept = getattr(mesh, field)
     np.testing.assert_array_equal(kept["a"] if table else kept, value)
-
-
-def test_with_fixed_leaves_the_callers_array_alone():
-    mine = np.ones(12, bool)
-    mesh = TWO.with_fixed(mine)
-    mine[0] = False
-    assert mesh.fixed.all()
-
-
-def test_points_that_nobody_can_change_are_shared():
-    moved = TWO.with_points(TWO.points + 1)
-    assert TWO.with_points(moved.points).points is moved.points
-    assert moved.rebuilt(name="other").points is moved.points
-    other = moved.rebuilt(name="other").hexes
-    assert np.shares_memory(other, TWO.hexes)
-    assert other is not TWO.hexes  # which says that the one mesh was made of the other
-    for iteration in hx.iterate(grid(3), "laplacian", max_iterations=2):
-        assert grid(3).with_points(iteration.points).points is iteration.points
 
 
 @dataclass(frozen=True)

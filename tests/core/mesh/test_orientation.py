@@ -13,7 +13,6 @@ from hexmend.mesh.orientation import (
     had_mixed_numbering,
     left_handed_hexes,
     mirror_hexes,
-    parts_of,
     was_turned,
     with_consistent_orientation,
 )
@@ -68,14 +67,6 @@ def test_faces_of_side_sets_stay_where_they_are():
     np.testing.assert_array_equal(mesh.side_sets["all"], rows)  # the given mesh is as it was
 
 
-def test_turning_changes_the_sign_of_every_determinant_of_these_hexes_alone():
-    mesh, which = grid(2), np.arange(8) < 3
-    before, after = (corner_determinants(one.points, one.hexes) for one in (mesh, mirror_hexes(mesh, which)))
-    assert (before > 0).all()
-    assert (after[which] < 0).all()
-    assert (after[~which] > 0).all()
-
-
 @pytest.mark.parametrize("which", [[0, 1, 2, 3, 4, 5, 6, 7], [8], list(range(9))])
 def test_whole_parts_are_turned_and_a_note_counts_them(which):
     mesh = two_grids()
@@ -115,13 +106,6 @@ def test_left_handed_hexes_of_a_lattice_are_renumbered_exactly_and_a_note_counts
     assert had_mixed_numbering(back)
 
 
-def test_components_are_renumbered_each_by_itself():
-    which = np.isin(np.arange(9), [2, 5, 8])
-    wrong = mirrored(two_grids(), which)
-    np.testing.assert_array_equal(left_handed_hexes(wrong), which)
-    np.testing.assert_array_equal(with_consistent_orientation(wrong).hexes, two_grids().hexes)
-
-
 @pytest.mark.parametrize("flat", [[0, 1, 2, 3], [4, 5, 6, 7]])
 def test_flat_hexes_follow_their_neighbours(flat):
     mesh = grid(2, 2, 3)
@@ -153,16 +137,6 @@ def test_a_node_far_outside_does_not_turn_the_whole_mesh():
     assert with_consistent_orientation(mesh) is mesh
 
 
-def test_a_tangled_hex_that_shares_no_face_is_left_as_it_is():
-    mesh = two_grids()
-    points = mesh.points.copy()
-    points[mesh.hexes[8, 4:]] -= [[0, 0, 1.5]] * 3 + [[0, 0, 0.5]]  # three of the four upper corners below the lower
-    mesh = mesh.with_points(points)
-    signs = np.sign(corner_determinants(mesh.points, mesh.hexes)[8])
-    assert signs.sum() < 0 < signs.max()
-    assert with_consistent_orientation(mesh) is mesh
-
-
 def test_mid_nodes_and_side_sets_follow_their_hexes():
     mesh, which = grid(4, 3, 3), lattice_pattern("checkerboard")
     rows = np.array([(hexa, face) for hexa in range(36) for face in range(6)])
@@ -178,14 +152,3 @@ def test_a_run_refuses_left_handed_hexes_and_names_the_remedy():
     with pytest.raises(MeshError, match=r"1 hex, unlike its neighbours, is numbered inside out .* hexmend repair"):
         iterate(wrong)
     assert smooth(repair(wrong)[0]).after.inverted == 0
-
-
-def test_parts_hang_together_by_nodes_and_are_counted_from_0():
-    assert parts_of(two_grids()).tolist() == [0] * 8 + [1]
-    one = grid(1)
-    far = one.points + 1  # it has a node in common with the first
-    points = np.concatenate([one.points, far[1:], one.points + 9])
-    shared = np.concatenate([[7], np.arange(8, 15)])
-    assert np.allclose(one.points[7], far[0])
-    mesh = Mesh(points, np.stack([one.hexes[0], shared[one.hexes[0]], 15 + one.hexes[0]]))
-    assert parts_of(mesh).tolist() == [0, 0, 1]

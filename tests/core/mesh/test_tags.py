@@ -38,14 +38,6 @@ def test_what_is_no_set_is_refused():
         remove_set(add_set(MESH, "inlet", nodes=np.arange(4)), "inlt")
 
 
-def test_members_of_a_set_are_marked_or_numbered():
-    mesh = MESH
-    marks = np.arange(27) % 5 == 0
-    np.testing.assert_array_equal(add_set(mesh, "some", hexes=marks).hex_sets["some"], [0, 5, 10, 15, 20, 25])
-    with pytest.raises(MeshError, match="some"):
-        add_set(mesh, "some", hexes=marks[:-1])
-
-
 def test_a_set_of_other_cells_is_removed_too():
     quads = MESH.topology.boundary_faces[:4]
     mesh = MESH.replace(cells=(Cells("quad", quads, sets={"wall": [0, 1], "inlet": [2]}),))

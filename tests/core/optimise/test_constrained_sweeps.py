@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
+from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.element_target import Target
 from hexmend.optimise.constrained_sweeps import ConstrainedSweeps, newton_steps, steepest_descents
@@ -17,9 +17,16 @@ def with_target(mesh, size_weight):
     return mesh.with_element_target(Target(lengths, size_weight))
 
 
-@pytest.mark.parametrize("directions", [steepest_descents, newton_steps])
-@pytest.mark.parametrize("size_weight", [None, 0.0, 1.0])
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(
+    ("case", "size_weight", "directions"),
+    [
+        ("planes", None, steepest_descents),
+        ("periodic", 0.0, newton_steps),
+        ("layer", 1.0, steepest_descents),
+        ("wedge", None, newton_steps),
+        ("wedge", 1.0, steepest_descents),
+    ],
+)
 def test_sweeps_lower_the_energy_and_move_only_what_is_chosen(case, size_weight, directions):
     mesh = scrambled_within(CASES[case](4), 0.2)
     if size_weight is not None:
@@ -35,17 +42,3 @@ def test_sweeps_lower_the_energy_and_move_only_what_is_chosen(case, size_weight,
     moved, roots = (x != start).any(axis=1), motion.roots(mesh.n_nodes)
     assert not moved[~np.isin(roots, roots[chosen])].any()
     np.testing.assert_allclose(mesh.constrained(x * energy.unit), x * energy.unit, atol=1e-13)
-
-
-@pytest.mark.parametrize("size_weight", [None, 1.0])
-def test_many_sweeps_end_where_the_gradient_of_the_swept_nodes_vanishes(size_weight):
-    mesh = scrambled_within(CASES["layer"](4), 0.2)
-    if size_weight is not None:
-        mesh = with_target(mesh, size_weight)
-    energy = energy_of(mesh)
-    x = energy.to_edge_units(mesh.points)
-    before = np.abs(energy.gradient(x)).max()
-    sweeps = ConstrainedSweeps(energy.energy, mesh.free)
-    for _ in range(60):
-        sweeps(x, 0.0, newton_steps, SEARCH)
-    assert np.abs(energy.gradient(x)).max() < 1e-4 * before

@@ -73,21 +73,6 @@ def test_a_direction_that_does_not_descend_gives_way_to_steepest_descent(factor,
     assert energy.value(taken.x, 0.0) < taken.value
 
 
-def test_a_step_from_perfect_cubes_stays():
-    mesh = grid(3)
-    energy = MeshEnergy(mesh)
-    x = energy.to_edge_units(mesh.points)
-    taken = descend(energy, x, 0.0, steepest_descent, LineSearch())
-    assert taken.x is x
-    assert (taken.alpha, taken.slope, taken.backtracks) == (0.0, 0.0, 0)
-
-
-def test_from_an_infinite_energy_there_is_no_step():
-    _, energy, x = problem(1, 2.0)
-    assert not np.isfinite(energy.value(x, 0.0))
-    assert descend(energy, x, 0.0, steepest_descent, LineSearch()) is None
-
-
 @pytest.mark.parametrize("delta", [0.0, 0.1])
 def test_only_what_rounding_leaves_is_perfect(delta):
     energy = MeshEnergy(grid(3))

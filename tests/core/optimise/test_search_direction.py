@@ -51,16 +51,6 @@ def test_the_tolerance_follows_the_square_of_what_is_left_of_the_gradient_in_any
     assert found == pytest.approx([0.5, 0.9 / 4, 0.9 / 100, 0.9 / 25])
 
 
-@pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
-def test_no_more_is_asked_than_leaves_enough_of_the_first_gradient(unit):
-    lengths = [1.0, 20 * CONFIG.gradient_floor, 5 * CONFIG.gradient_floor]
-    assert tolerances(lengths, unit, loosest=0.9, tightest=1e-12)[1:] == pytest.approx([1 / 20, 1 / 5])
-
-
-def test_the_tolerance_stays_within_its_bounds():
-    assert tolerances([1.0, 1.0, 1e-3, 0.0], loosest=0.3, tightest=0.01) == [0.3, 0.3, 0.01, 0.3]
-
-
 def test_after_a_definite_matrix_the_tolerance_may_have_another_bound():
     lengths = [1.0, 1.0, 1.0]
     assert tolerances(lengths, loosest=0.3, loosest_definite=0.1) == [0.3, 0.1, 0.1]
@@ -90,13 +80,6 @@ def test_damping_rises_until_the_curvature_is_positive_and_falls_again():
     assert [damping for *_, damping in matrix.asked] == [SECOND, SECOND / CONFIG.damping_decay, 0.0]
 
 
-def test_damping_is_raised_so_often_and_no_oftener():
-    find, matrix = TruncatedNewton(), Matrix(needed=np.inf)
-    shift = FIRST * CONFIG.damping_growth ** (CONFIG.max_damping_increases - 1)
-    assert find(1.0, np.ones((1, 3)), matrix).shift == shift
-    assert len(matrix.asked) == CONFIG.max_damping_increases + 1
-
-
 def test_a_direction_that_was_of_no_use_is_damped_more_and_the_next_begins_there():
     find, matrix, gradient = TruncatedNewton(), Matrix(), np.array([[1.0, -2.0, 3.0]])
     find(1.0, gradient, matrix)
@@ -105,26 +88,6 @@ def test_a_direction_that_was_of_no_use_is_damped_more_and_the_next_begins_there
     np.testing.assert_array_equal(find.damped(gradient, matrix).vector, -gradient / 2)
     find(1.0, gradient, matrix)
     assert matrix.asked[-1][-1] == CONFIG.damping_growth * SECOND
-
-
-def test_directions_are_damped_until_the_curvature_is_positive_and_so_often_in_a_step():
-    find, matrix, gradient = TruncatedNewton(), Matrix(), np.ones((1, 3))
-    find(1.0, gradient, matrix)
-    matrix.needed = SECOND
-    found = find.damped(gradient, matrix)
-    assert (found.shift, found.solver_iterations) == (SECOND, 6)
-    matrix.needed = np.inf
-    assert find.damped(gradient, matrix) is None
-    assert len(matrix.asked) == CONFIG.max_damping_increases + 1
-
-
-def test_damping_that_led_to_no_direction_is_not_kept():
-    find, matrix, gradient = TruncatedNewton(), Matrix(), np.ones((1, 3))
-    find(1.0, gradient, matrix)
-    while find.damped(gradient, matrix):
-        pass
-    find(1.0, gradient, matrix)
-    assert matrix.asked[-1][-1] == 0.0
 
 
 def test_a_matrix_that_has_lent_its_memory_is_assembled_again():

@@ -23,8 +23,10 @@ def cubes(*places):
     return Mesh(nodes, number.reshape(-1, 8))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["cube", "bridge-sharp", "five-side", "kershaw", "layered", "materials", "plane"])
+SLOW = [pytest.param(name, marks=pytest.mark.slow) for name in ("cube", "five-side", "kershaw", "layered", "plane")]
+
+
+@pytest.mark.parametrize("name", ["bridge-sharp", "materials", *SLOW])
 def test_every_gallery_mesh_is_padded_and_mended(name):
     mesh = hx.gallery.make(name, size=200)
     if name == "plane":
@@ -34,11 +36,6 @@ def test_every_gallery_mesh_is_padded_and_mended(name):
     assert len(padding.layer) == len(mesh.topology.boundary_faces)
     assert padding.after.inverted == 0
     assert padding.mesh.fixed[: mesh.n_nodes][mesh.topology.boundary].all()
-
-
-def test_hexes_have_one_face_on_the_boundary_at_most():
-    padded = hx.pad(grid(3), mend=False).mesh
-    assert (padded.topology.face_neighbours < 0).sum(axis=1).max() == 1
 
 
 def test_a_locked_hex_is_mended_with_the_boundary_as_it_is():
@@ -52,6 +49,7 @@ def test_a_locked_hex_is_mended_with_the_boundary_as_it_is():
     assert len(padding.layer) < len(mesh.topology.boundary_faces)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("around", [None, "locked", "inverted"])
 def test_the_bunny_is_mended_at_distance_0(real_mesh, around):
     mesh = hx.read(real_mesh("bunny.vtk"))
@@ -214,7 +212,7 @@ def test_an_edge_at_which_the_mesh_crosses_itself_is_named():
         hx.pad(cubes(*around))
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(5))
 def test_layers_of_random_blocks_are_conforming_or_refused(seed):
     random = np.random.default_rng(seed)
     whole = grid(3)

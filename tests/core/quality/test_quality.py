@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.stats import special_ortho_group
 
-from hexmend.energy import ObjectiveNorm, energies, objective
+from hexmend.energy import energies
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import corner_determinants, corner_qualities, locked_hexes, measure, summarise
+from hexmend.quality import corner_determinants, locked_hexes, measure, summarise
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]
@@ -30,15 +28,6 @@ def by_the_book(x):
     return np.mean(q), min(sigma), min(jacobian), np.mean(eta) - 1
 
 
-def test_the_cube_is_perfect():
-    figures = measure(UNIT_CUBE, ONE)
-    assert figures.q[0] == pytest.approx(1, abs=1e-14)
-    assert figures.scaled_jacobian[0] == 1
-    assert figures.sigma[0] == 1
-    assert figures.eta[0] == pytest.approx(0, abs=1e-14)
-    assert figures.n_inverted == 0
-
-
 @pytest.mark.parametrize("flat", [UNIT_CUBE * [1, 1, 0], UNIT_CUBE * [1, 0, 0], UNIT_CUBE * 0])
 def test_a_collapsed_hex_is_inverted_and_has_no_quality(flat):
     figures = measure(flat, ONE)
@@ -47,21 +36,6 @@ def test_a_collapsed_hex_is_inverted_and_has_no_quality(flat):
     assert figures.scaled_jacobian[0] == 0
     assert figures.eta[0] == np.inf
     assert figures.n_inverted == 1
-
-
-def test_a_mirrored_cube_is_inside_out():
-    figures = measure(UNIT_CUBE * [-1, 1, 1], ONE)
-    assert figures.q[0] == 0
-    assert figures.scaled_jacobian[0] == -1
-    assert figures.eta[0] == np.inf
-
-
-def test_one_corner_pushed_through_inverts_some_corners_only():
-    x = UNIT_CUBE.copy()
-    x[6] = [0.2, 0.2, 0.2]
-    figures = measure(x, ONE)
-    assert figures.n_inverted == 1
-    assert 0 < figures.q[0] < 1
 
 
 @given(st.integers(0, 2**32 - 1), st.floats(0, 1.5))
@@ -127,17 +101,6 @@ def test_a_mesh_of_no_hexes_has_no_figures():
     assert corner_determinants(UNIT_CUBE, none).shape == (0, 8)
 
 
-@given(st.integers(0, 2**32 - 1), st.integers(-60, 60))
-def test_quality_does_not_depend_on_position_rotation_or_size(seed, exponent):
-    random = np.random.default_rng(seed)
-    x = UNIT_CUBE + random.uniform(-0.25, 0.25, (8, 3))
-    turned = (x @ special_ortho_group.rvs(3, random_state=random).T) * 10.0**exponent
-    here, there = measure(x, ONE), measure(turned, ONE)
-    for name in ("q", "scaled_jacobian"):
-        np.testing.assert_allclose(getattr(here, name), getattr(there, name), rtol=1e-9, atol=1e-12)
-    np.testing.assert_allclose(energies(x, ONE), energies(turned, ONE), rtol=1e-7, atol=1e-12)
-
-
 def test_energy_is_softened_by_delta_and_unsoftened_at_zero():
     x = UNIT_CUBE.copy()
     x[6] = [0.2, 0.2, 0.2]
@@ -149,13 +112,6 @@ def test_energy_is_softened_by_delta_and_unsoftened_at_zero():
     assert energies(UNIT_CUBE * 1.1, ONE, 1e-9)[0] == pytest.approx(0, abs=1e-9)
 
 
-@given(st.floats(1, 8), st.floats(0, 1))
-def test_objective_is_the_p_norm(p, offset):
-    mesh = scrambled(grid(3), 0.1)
-    eta = energies(mesh.points, mesh.hexes) + 1 - offset
-    assert objective(mesh.points, mesh.hexes, norm=ObjectiveNorm(p, offset)) == pytest.approx((eta**p).sum() ** (1 / p))
-
-
 def test_summary_of_a_tangled_mesh():
     mesh = scrambled(grid(4), 0.9)
     summary = summarise(mesh)
@@ -165,14 +121,8 @@ def test_summary_of_a_tangled_mesh():
     assert summary.locked_inverted == 0
     assert (summary.hexes, summary.nodes, summary.free_nodes) == (64, 125, 27)
     assert summary.q_std == pytest.approx(figures.q.std())
-
-
-def test_summary_of_a_sound_mesh():
-    mesh = scrambled(grid(4), 0.1)
-    q = measure(mesh.points, mesh.hexes).q
-    summary = summarise(mesh)
-    assert summary.q_norm == pytest.approx(1 / np.sqrt(np.mean(1 / q**2)))
-    assert summary.objective == pytest.approx(np.sum(energies(mesh.points, mesh.hexes) ** 2))
+    assert summary.q_norm == pytest.approx(np.mean(figures.q**-2) ** -0.5)
+    assert (summary.q_min, summary.scaled_jacobian_min) == (figures.q.min(), figures.scaled_jacobian.min())
 
 
 def test_a_corner_of_fixed_nodes_locks_its_hex():
@@ -187,17 +137,6 @@ def test_a_corner_of_fixed_nodes_locks_its_hex():
     assert free.locked_inverted == 0
     figures = measure(points, mesh.hexes)
     assert locked_hexes(points, mesh.hexes, np.zeros(27, bool), figures.inverted).sum() == 0
-
-
-def test_single_hex_mesh_summary():
-    assert summarise(Mesh(UNIT_CUBE, ONE)).q_mean == pytest.approx(1)
-
-
-def test_the_mean_of_the_corners_qualities_is_the_hexes():
-    mesh = scrambled(grid(4), 0.6, 3)
-    corners = corner_qualities(mesh.points, mesh.hexes)
-    np.testing.assert_allclose(corners.mean(axis=1), measure(mesh.points, mesh.hexes).q, atol=1e-12)
-    assert (corner_qualities(np.zeros((8, 3)), np.arange(8)[None]) == 0).all()
 
 
 def test_a_released_quality_is_measured_again_and_its_pickle_has_the_values_alone():

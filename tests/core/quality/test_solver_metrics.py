@@ -8,7 +8,6 @@ import pytest
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS, jacobian_range
-from hexmend.quality import METRICS
 from hexmend.quality.corner_heights import least_heights
 from hexmend.quality.validity import Validity, certify
 
@@ -87,9 +86,3 @@ def test_the_ratio_counts_nodes_and_gauss_points():
     assert (
         certify(mesh.points, mesh.hexes, mesh.mid_nodes)[0] == Validity.INVERTED
     )  # at the corner whose edge is curved
-
-
-def test_hexes_of_eight_nodes_have_no_offset():
-    mesh = Mesh(UNIT_CUBE, ONE)
-    assert mesh.quality("mid-node-offset").tolist() == [0]
-    assert METRICS["mid-node-offset"].of(mesh.points, mesh.hexes, None).tolist() == [0]

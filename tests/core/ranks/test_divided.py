@@ -27,7 +27,6 @@ from tests.core.ranks.test_ranks import (
     figures,
     needs_mpi,
     on_ranks,
-    plate_with_a_block,
 )
 
 OPTIONS = "--goal", "shape", "--tolerance", "1e-10"
@@ -65,13 +64,6 @@ def reaches_the_figures_of_one_process(given, source, out, ranks):
 @needs_mpi
 def test_two_ranks_reach_the_optimum_of_one_process(given, tmp_path):
     reaches_the_figures_of_one_process(given, given / "given.vtu", tmp_path / "out.pvtu", 2)
-
-
-@needs_mpi
-@pytest.mark.slow
-@pytest.mark.parametrize("ranks", [4, 7])
-def test_more_ranks_reach_it_too(given, tmp_path, ranks):
-    reaches_the_figures_of_one_process(given, given / "given.vtkhdf", tmp_path / "out.pvtu", ranks)
 
 
 @needs_mpi
@@ -259,15 +251,6 @@ def test_more_ranks_than_hexes_are_too_many(tmp_path):
     assert run.returncode != 0
     assert run.stderr.count("2 ranks are too many for 1 hexes") == 1
     assert not (tmp_path / "out.pvtu").exists()
-
-
-@needs_mpi
-@pytest.mark.slow
-def test_a_rank_without_free_nodes_takes_part(tmp_path):
-    write(tmp_path / "plate.vtu", plate_with_a_block())
-    run = on_ranks(2, tmp_path / "plate.vtu", "-o", tmp_path / "out.pvtu", "--goal", "shape", "--layers", "off")
-    assert run.returncode == 0, run.stderr
-    assert "rank 0 reads" not in run.stderr
 
 
 @needs_mpi

@@ -22,7 +22,6 @@ from hexmend.report import (
     write_documents,
 )
 from hexmend.report.comparison import LINES
-from hexmend.report.documents import write_document
 
 AWKWARD = "a_b & 50 % of #1 {x} ~ $y$ ^ \\ | <i>*[z]*</i> `c`"
 TABLE = Table(AWKWARD, ["", AWKWARD, "µ"], [[AWKWARD, "1", "–"], ["q min", "0.5", AWKWARD]], [AWKWARD])
@@ -133,13 +132,6 @@ def test_documents_hold_the_same_table(tmp_path):
     assert paths[1].read_text(encoding="utf-8") == markdown(TABLE)
     assert paths[2].read_text(encoding="utf-8") == latex(TABLE)
     assert json.loads(paths[3].read_text(encoding="utf-8")) == {"rows": rows}
-
-
-def test_a_document_of_another_suffix_is_refused(tmp_path):
-    for name in ("t.doc", "t"):
-        with pytest.raises(FileError, match=r"\.csv, \.md, \.tex or \.json"):
-            write_document(tmp_path / name, TABLE, [], {})
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_table_is_written_as_a_whole_or_not_at_all(tmp_path):

@@ -47,13 +47,6 @@ def test_what_is_compared_with_the_tolerance_is_the_way_or_the_greatest_change_o
     assert result.history[1]["largest_move"] == pytest.approx(0.25)  # the way, whatever ends the run
 
 
-def test_moves_are_told_in_mean_edge_lengths():
-    mesh = grid(2)
-    large = mesh.with_points(10 * mesh.points)
-    rows = smooth(large, Shifts(), StoppingCriteria(max_iterations=1, tolerance=1e-9)).history
-    assert [row["largest_move"] for row in rows] == [0.0, pytest.approx(0.025)]
-
-
 def test_moves_alone_end_an_optimiser_whose_objective_still_falls():
     mesh = make("five-side", size=1000)
     stop = StoppingCriteria(tolerance=0.05, max_iterations=100)
@@ -79,8 +72,7 @@ def test_a_tolerance_that_is_reached_exactly_is_not_enough():
     assert len(smooth(mesh, Shifts(), StoppingCriteria(tolerance=way)).history) == 3
 
 
-@pytest.mark.parametrize("goal", ["shape", "scaled-jacobian"])
-@pytest.mark.parametrize("guard", [False, True])
+@pytest.mark.parametrize(("goal", "guard"), [("shape", True), ("scaled-jacobian", False)])
 def test_the_start_is_worse_than_itself_in_nothing(goal, guard):
     mesh = grid(2)
     points = mesh.points.copy()

@@ -70,9 +70,7 @@ def test_no_method_ends_with_more_invalid_hexes_or_a_lower_q_min(name, mesh, mos
         assert after.q_min >= before.q_min - (SLACK if METHODS[name].optimises else 0)
 
 
-@pytest.mark.parametrize("name", [name for name, method in METHODS.items() if not method.optimises])
-@settings(max_examples=8)
-@given(mesh=meshes())
+@given(name=st.sampled_from([name for name, method in METHODS.items() if not method.optimises]), mesh=meshes())
 def test_a_method_without_an_objective_keeps_its_best_iterate_of_equals_the_last(name, mesh):
     result = smooth(mesh, name, SHORT)
     ranks = [(*validity(row, result.history[0]), -row["q_min"]) for row in result.history]
@@ -93,9 +91,7 @@ def test_an_optimiser_keeps_its_last_iterate_unless_that_is_worse(name, mesh):
 
 
 @pytest.mark.parametrize("stop", [SHORT, LAST], ids=["best", "last"])
-@pytest.mark.parametrize("name", METHODS)
-@settings(max_examples=4)
-@given(mesh=meshes())
+@given(name=st.sampled_from(sorted(METHODS)), mesh=meshes())
 def test_worse_tells_exactly_what_is_worse(name, stop, mesh):
     result = smooth(mesh, name, stop)
     before, after = measure(mesh.points, mesh.hexes), measure(result.mesh.points, mesh.hexes)
@@ -142,18 +138,6 @@ def test_a_stage_goes_on_from_what_was_kept_and_a_recipe_can_ask_for_the_last(br
 
     assert begun_from(SHORT) == 3
     assert begun_from(LAST) == 12
-
-
-def test_what_was_best_before_the_method_was_changed_is_still_kept(bridge):
-    run = iterate(bridge, "laplacian", LAST)
-    for _ in range(4):
-        next(run)
-    assert run.best.number == 4
-    run.switch_method("laplacian", SHORT)
-    assert run.best.number == 3
-    run.switch_method(METHODS["laplacian"](update="simultaneous"))
-    list(run)
-    assert (run.best.number, run.last.number) == (3, 12)
 
 
 def test_a_method_that_takes_over_goes_on_from_the_newest_and_may_end_better(bridge):
@@ -209,9 +193,10 @@ def test_smooth_and_compare_tell_other_programs(bridge, tmp_path, capsys, words)
     assert ("Worse than before: laplacian (inverted, invalid, q min, scaled Jacobian min)." in said) == bool(words)
 
 
-@pytest.mark.parametrize("words", [[], ["--keep-last"]])
-@pytest.mark.parametrize("term", ["xterm", "dumb"])
-@pytest.mark.parametrize("command", ["smooth", "compare"])
+@pytest.mark.parametrize(
+    ("command", "term", "words"),
+    [("smooth", "xterm", []), ("compare", "xterm", ["--keep-last"]), ("smooth", "dumb", ["--keep-last"])],
+)
 def test_what_is_worse_is_red_where_there_are_colours(bridge, tmp_path, capsys, monkeypatch, command, term, words):
     monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", term)
@@ -225,30 +210,9 @@ def test_what_is_worse_is_red_where_there_are_colours(bridge, tmp_path, capsys, 
 # Measured on meshes of others
 
 
-@pytest.mark.parametrize("name", ["CAD4.vtk", "bunny.vtk", "block_in.mesh", "cap_in.mesh", "pave1.e.vtk"])
-def test_laplacian_ends_with_no_more_inverted_hexes_on_real_meshes(real_mesh, name):
-    mesh = io.read(real_mesh(name))
-    result = smooth(mesh, "laplacian")
-    assert result.after.inverted <= result.before.inverted
-    assert result.after.inverted < result.before.inverted or result.after.q_min >= result.before.q_min
-
-
 @pytest.mark.slow
 def test_smart_laplacian_does_not_spoil_the_worst_hex(real_mesh):
     mesh = io.read(real_mesh("pierrot_32735.mesh"))
     result = smooth(mesh, "smart-laplacian")
     assert result.history[-1]["q_min"] < 0.1 < result.before.q_min <= result.after.q_min
     assert "was kept: " in result.message
-
-
-def test_a_method_that_takes_over_may_keep_where_it_begins(bridge):
-    """Of iterates that are as good an optimiser keeps the last, where Laplacian smoothing had kept an earlier one."""
-    run = iterate(bridge, "laplacian", SHORT)
-    for _ in range(12):
-        newest = next(run)
-        if run.best is not newest and newest.quality.q.min() > run.result().before.q_min:
-            break
-    kept = run.best
-    assert kept.number < newest.number
-    run.switch_method("local-sd", StoppingCriteria(max_iterations=newest.number))
-    assert run.best.number == newest.number

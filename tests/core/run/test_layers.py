@@ -60,23 +60,11 @@ def test_their_loss_is_said_in_the_same_words_everywhere(settings):
     assert "target" not in report
 
 
-def test_no_target_is_named_that_the_run_had():
-    short = smooth(scrambled_in_layers(stack(), 0.7), "local-sd", max_iterations=1, keep_last=True)
-    assert "The layers at 'plate' lose" in short.message
-    assert "--target" not in short.message
-
-
 def test_layers_are_not_said_to_be_kept_under_targets_that_lose_them():
     result = smooth(bent(stack()), target="given-size")
     assert result.mesh.element_target.name == "given-size"
     assert "--target given-shape keeps them" in result.message
     assert "are kept" not in result.message
-
-
-def test_methods_without_targets_lose_them_and_say_so():
-    result = smooth(bent(stack()), "laplacian", max_iterations=20, keep_last=True)
-    assert result.worse[-1] == "layers"
-    assert LOSS in result.message
 
 
 def test_a_tangled_stack_is_mended_with_its_heights():
@@ -100,11 +88,6 @@ def test_a_method_that_takes_over_has_its_own_target():
     next(run)
     run.switch_method(METHODS["mend"](target="given-size"))
     assert run.result().mesh.element_target.name == "given-size"
-
-
-def test_a_run_continues_with_the_target_of_its_mesh():
-    mesh = smooth(bent(stack()), target="given", max_iterations=1).mesh
-    assert Run(mesh, METHODS["mend"]()).result().mesh.element_target is mesh.element_target
 
 
 def test_meshes_without_layers_have_no_target_and_no_report():
@@ -150,11 +133,3 @@ def test_a_tangled_mesh_that_does_not_move_loses_no_layers(method):
     assert "layers" not in result.worse
     (wall,) = result.layers
     assert wall.after.first_height_mean == pytest.approx(wall.before.first_height_mean)
-
-
-def test_a_weight_without_sizes_is_said_to_have_no_effect():
-    said = "size_weight has no effect with target = given-shape, which has no sizes."
-    recipe = Recipe.of("laplacian", METHODS["mend"](target="given-shape", size_weight=3))
-    assert said in smooth(scrambled(grid(2), 0.2), recipe).message
-    assert said in smooth(scrambled(grid(2), 0.2), target="given-shape", size_weight=3).message
-    assert "no effect" not in smooth(scrambled(grid(2), 0.2), target="given", size_weight=3).message

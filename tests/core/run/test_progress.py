@@ -51,17 +51,6 @@ def test_a_terminal_shows_a_bar_that_is_removed():
 
 
 @pytest.mark.usefixtures("at_once")
-@pytest.mark.parametrize("option", [None, False])
-def test_nothing_is_written_where_nobody_watches(option):
-    assert smoothed(option) == ""
-    assert option is None or smoothed(option, Terminal()) == ""
-
-
-def test_a_short_run_shows_no_bar():
-    assert smoothed(stream=Terminal()) == ""
-
-
-@pytest.mark.usefixtures("at_once")
 def test_lines_are_written_on_request():
     lines = smoothed(True).splitlines()
     assert [line.split(",")[0] for line in lines] == [
@@ -84,11 +73,6 @@ def test_the_line_and_the_representations_count_hexes_that_are_invalid_between_p
 def test_a_dumb_terminal_shows_no_bar(monkeypatch):
     monkeypatch.setattr(progress, "is_dumb", lambda: True)
     assert smoothed(stream=Terminal()) == ""
-
-
-def test_a_program_without_standard_error_runs(monkeypatch):
-    monkeypatch.setattr(sys, "stderr", None)
-    assert hx.smooth(MESH, "laplacian", max_iterations=1).iterations == 1
 
 
 @pytest.mark.usefixtures("at_once")

@@ -79,16 +79,6 @@ def test_a_file_is_written_and_read(tmp_path):
     assert read_recipe(path) == recipe
 
 
-def test_limits_go_to_every_stage():
-    recipe = Recipe.of(Stage(METHODS["getme"](), StoppingCriteria(max_iterations=5, tolerance=0.1)), "mend").limited(
-        max_iterations=2
-    )
-    assert [stage.stop for stage in recipe.stages] == [
-        StoppingCriteria(max_iterations=2, tolerance=0.1),
-        StoppingCriteria(max_iterations=2),
-    ]
-
-
 def test_a_recipe_without_a_stage_is_none():
     with pytest.raises(ParameterError, match="at least one"):
         Recipe("empty", ())

@@ -32,8 +32,7 @@ def of_points(mesh, points, norm):
     return np.power(energies(points, mesh.hexes, offset=norm.offset), norm.p).sum()
 
 
-@pytest.mark.parametrize("norm", POWERS, ids=lambda norm: norm.formula)
-@pytest.mark.parametrize("name", OPTIMISERS)
+@pytest.mark.parametrize(("name", "norm"), [(name, POWERS[k % len(POWERS)]) for k, name in enumerate(OPTIMISERS)])
 def test_the_recorded_objective_is_that_of_the_method_and_never_rises(mesh, name, norm):
     shape = {"goal": "shape"} if name == "mend" else {}  # other goals pass through worse objectives
     method = METHODS[name](p=norm.p, offset=norm.offset, **shape)
@@ -62,13 +61,7 @@ def test_mend_that_raises_p_records_the_objective_of_the_highest():
     assert result.history[-1]["objective_formula"] == "Σ η⁸"
 
 
-def test_the_figures_before_and_after_keep_the_objective_that_all_meshes_have(mesh):
-    result = smooth(mesh, METHODS["local-sd"](p=4.0, offset=0.0), StoppingCriteria(max_iterations=5))
-    assert result.after.objective == objective(measure(result.mesh.points, mesh.hexes))
-    assert result.after.objective != result.history[-1]["objective"]
-
-
-@pytest.mark.parametrize("norm", POWERS, ids=lambda norm: norm.formula)
+@pytest.mark.parametrize("norm", POWERS[1::3], ids=lambda norm: norm.formula)
 def test_a_run_goes_on_for_as_long_as_the_objective_of_its_method_falls(norm):
     mesh = make("five-side", size=300)
     stop = StoppingCriteria(tolerance=1.0)  # every step is short enough: only the objective keeps it going
@@ -83,6 +76,7 @@ def test_a_run_goes_on_for_as_long_as_the_objective_of_its_method_falls(norm):
     assert falls == [True] * (len(falls) - 1) + [False]
 
 
+@pytest.mark.slow
 def test_stages_record_an_objective_each_and_are_not_compared(mesh, tmp_path):
     first, second = METHODS["local-sd"](), METHODS["local-sd"](p=4.0, offset=0.0)
     recipe = Recipe.of(
@@ -113,9 +107,8 @@ def test_a_table_compares_methods_by_one_objective_and_names_it(mesh):
     assert "objective Σ η²" in [line[0] for line in heuristics.rows]
 
 
-@pytest.mark.parametrize("offset", [0.0, 1.0])
-def test_mend_records_each_p_as_it_is_raised_and_no_objective_rises(offset):
-    mesh = make("five-side", size=500)
+def test_mend_records_each_p_as_it_is_raised_and_no_objective_rises():
+    mesh, offset = make("five-side", size=200), 0.0
     rows = smooth(
         mesh, METHODS["mend"](goal="shape", max_p=16.0, offset=offset), StoppingCriteria(keep_last=True)
     ).history[1:]
@@ -128,24 +121,3 @@ def test_mend_records_each_p_as_it_is_raised_and_no_objective_rises(offset):
         assert len(values) > 1
         assert values[-1] < values[0]
         assert all(later <= before * (1 + 1e-12) for before, later in pairwise(values))
-
-
-def test_the_best_iterate_of_a_mend_that_raises_p_is_that_of_the_final_objective():
-    mesh = make("five-side", size=500)
-    run = iterate(mesh, METHODS["mend"](goal="shape", max_p=16.0), StoppingCriteria(max_iterations=8))
-    kept, values = 0, [objective(run.start.quality, 16.0)]
-    for it in run:
-        values.append(objective(it.quality, 16.0))
-        kept = it.number if values[-1] <= values[0] else kept
-    assert run.history[-1]["objective_formula"] != "Σ η¹⁶"
-    assert run.result().kept == kept
-
-
-def test_steps_that_raise_the_least_scaled_jacobian_record_the_final_objective():
-    mesh = make("five-side", size=150, scramble=0.3)
-    rows = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", max_p=8.0), StoppingCriteria(keep_last=True)).history[
-        1:
-    ]
-    raising = [row["objective_formula"] for row in rows][objective_changes(rows)[-1] :]
-    assert len(raising) > 3
-    assert set(raising) == {"Σ η⁸"}

@@ -107,10 +107,6 @@ def test_nothing_free_ends_all_at_once():
     assert (result.outcome, result.iterations, len(result.stages)) == (Outcome.NOTHING_FREE, 0, 1)
 
 
-def test_limits_in_place_of_the_recipes_own(mesh):
-    assert smooth(mesh, Recipe.of("getme", "local-sd"), FEW).iterations == 8
-
-
 def test_the_most_that_it_can_come_to(mesh):
     run = iterate(mesh, Recipe.of(stage("getme", 3), stage("local-sd", 2)))
     assert (run.max_iterations, run.stage_number, run.stage_count) == (5, 1, 2)
@@ -123,14 +119,6 @@ def test_the_most_that_it_can_come_to(mesh):
     next(short)
     assert short.stage == short.recipe.stages[0]
     assert short.max_iterations == 1 + 2  # a perfect grid: the first stage has converged
-
-
-def test_closing_ends_the_whole(mesh):
-    run = iterate(mesh, Recipe.of(stage("getme", 1), stage("local-sd", 2)))
-    next(run)
-    run.close()
-    assert list(run) == []
-    assert run.result().outcome is Outcome.STOPPED
 
 
 def test_the_rest_of_a_stage_is_done_by_another_method(mesh):
@@ -176,13 +164,6 @@ def test_other_limits_alone_do_not_begin_the_method_anew(mesh):
         np.testing.assert_array_equal(ours, theirs)
     assert run.result().method == "mend"
     assert run.decisions[0] == "After iteration 2: max_iterations = 8 instead of 3."
-
-
-def test_going_on_as_before_changes_nothing(mesh):
-    run = iterate(mesh, "local-sd", FEW)
-    next(run)
-    run.switch_method("local-sd", FEW)
-    assert (run.decisions, len(list(run)), run.result().method) == ([], 3, "local-sd")
 
 
 def test_a_stage_that_has_ended_goes_on_under_new_limits_and_the_next_one_follows(mesh):

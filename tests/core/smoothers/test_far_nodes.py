@@ -8,7 +8,6 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
 from hexmend.io import read, write
-from hexmend.quality import summarise
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid
@@ -25,27 +24,23 @@ def with_far_node(place, far):
     return mesh.with_points(points), node
 
 
-@pytest.mark.parametrize("far", [1e15, 1e30, -1e70])
-@pytest.mark.parametrize("place", PLACES)
-@pytest.mark.parametrize("boundary", ["fixed", "slide"])
+@pytest.mark.parametrize("turn", range(3))
 @pytest.mark.parametrize("name", METHODS)
-def test_every_method_ends_with_finite_coordinates(name, boundary, place, far):
+def test_every_method_ends_with_finite_coordinates(name, turn):
+    """Each method meets each place, each distance and each kind of boundary, but not all of their combinations."""
+    number = list(METHODS).index(name) + turn
+    place, far = list(PLACES)[turn], [1e15, 1e30, -1e70][number % 3]
+    boundary = ["fixed", "slide"][number % 2]
     mesh, _ = with_far_node(place, far)
-    result = smooth(mesh, METHODS[name](boundary=boundary), StoppingCriteria(max_iterations=6))
+    exponent = {"p": 32.0} if turn == 0 and "p" in METHODS[name]().values() else {}
+    method = METHODS[name](boundary=boundary, **exponent)
+    result = smooth(mesh, method, StoppingCriteria(max_iterations=6))
+    assert all(row["objective"] is None or np.isfinite(row["objective"]) for row in result.history)
     assert np.isfinite(result.mesh.points).all()
     assert result.after.inverted <= result.before.inverted
     if boundary == "fixed":
         np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
     assert advise(result).why
-
-
-@pytest.mark.parametrize("p", [8.0, 32.0])
-@pytest.mark.parametrize("name", [name for name, cls in METHODS.items() if "p" in cls().values()])
-def test_energies_beyond_the_range_of_numbers_are_infinite(name, p):
-    mesh, _ = with_far_node("inside", 1e30)
-    result = smooth(mesh, METHODS[name](p=p), StoppingCriteria(max_iterations=6))
-    assert np.isfinite(result.mesh.points).all()
-    assert all(row["objective"] is None or np.isfinite(row["objective"]) for row in result.history)
 
 
 def test_mend_brings_an_inner_node_back_and_leaves_a_fixed_one_where_it_is():
@@ -57,8 +52,7 @@ def test_mend_brings_an_inner_node_back_and_leaves_a_fixed_one_where_it_is():
     assert result.after.inverted <= result.before.inverted
 
 
-@pytest.mark.parametrize("boundary", ["fixed", "slide"])
-@pytest.mark.parametrize("name", ["global-nr", "global-mnr", "mend"])
+@pytest.mark.parametrize(("name", "boundary"), [("global-nr", "slide"), ("mend", "fixed")])
 def test_the_command_line_says_nothing_on_standard_error(tmp_path, capsys, name, boundary):
     path, out = tmp_path / "far.vtk", tmp_path / "out.vtk"
     write(path, with_far_node("inside", 1e30)[0])
@@ -78,9 +72,3 @@ def test_a_node_that_cannot_slide_is_named(wrong):
     said = rf"node {sliding.nodes[3]} cannot slide: no place of the surface is closest to \[.*{wrong}.*pin it\."
     with pytest.raises(MeshError, match=said.replace("+", r"\+")):
         sliding.project(x)
-
-
-def test_its_figures_are_numbers():
-    for place in PLACES:
-        figures = summarise(with_far_node(place, 1e30)[0]).to_dict()
-        assert all(value is None or np.isfinite(value) for value in figures.values())

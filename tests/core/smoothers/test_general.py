@@ -1,7 +1,5 @@
 """Algorithm 5.1: its two decisions, in words."""
 
-import itertools
-
 import numpy as np
 import pytest
 
@@ -9,7 +7,7 @@ from hexmend.gallery import make
 from hexmend.iteration import Outcome
 from hexmend.quality import measure
 from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS, general
+from hexmend.smoothers import METHODS
 from hexmend.smoothers.general import edge_length_ratio
 from tests.core.grids import grid, scrambled
 
@@ -61,17 +59,3 @@ def test_getme_comes_first_and_the_iterations_of_both_are_counted():
     getme = smooth(mesh, "getme", StoppingCriteria(max_iterations=7, tolerance=0))
     assert run.history[7]["objective"] == getme.history[7]["objective"]
     assert measure(run.mesh.points, mesh.hexes).n_inverted == 0
-
-
-@pytest.mark.parametrize(("ratio", "name"), [(2.0, "global-nr"), (2.5, "global-nr"), (2.6, "local-sd")])
-def test_sizes_are_similar_up_to_the_ratio_that_is_given(monkeypatch, ratio, name):
-    monkeypatch.setattr(general, "edge_length_ratio", lambda points, hexes: ratio)
-    method = General(getme_iterations=0, max_size_ratio=2.5, q_target=1.0)
-    result = smooth(scrambled(grid(3), 0.1), method, StoppingCriteria(max_iterations=2))
-    assert f"{'similar' if ratio <= 2.5 else 'different'} sizes" in result.message
-    assert f"no inverted hexes: {METHODS[name].title}." in result.message
-
-
-def test_every_step_of_getme_says_that_more_is_to_come():
-    steps = list(itertools.islice(General(getme_iterations=3).steps(make("five-side", size=150)), 6))
-    assert [step.intermediate for step in steps] == [True] * 4 + [False] * 2

@@ -10,7 +10,6 @@ from hexmend.iteration import Step
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.smoothers.constrained_steps import constrained_steps
 from tests.core.grids import grid
 from tests.core.linear_motions import CASES, face, planes, scrambled_within, turn
 
@@ -48,8 +47,11 @@ def check_wedge(given, points, n):
 CHECKS = {"planes": check_planes, "periodic": check_periodic, "layer": check_layer, "wedge": check_wedge}
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("method", METHODS)
+#: Each method with one of the cases in turn.
+IN_TURN = [(method, list(CASES)[number % len(CASES)]) for number, method in enumerate(METHODS)]
+
+
+@pytest.mark.parametrize(("method", "case"), [*IN_TURN, *((method, "wedge") for method in METHODS)])
 def test_every_step_keeps_the_constraints(method, case):
     n = 4
     given = CASES[case](n)
@@ -62,8 +64,7 @@ def test_every_step_keeps_the_constraints(method, case):
     assert moved
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(("method", "case"), IN_TURN)
 def test_a_tangled_mesh_is_untangled_to_its_optimum(method, case):
     n = 4
     given = CASES[case](n)
@@ -74,8 +75,7 @@ def test_a_tangled_mesh_is_untangled_to_its_optimum(method, case):
         assert result.after.q_min > 0.999
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("method", DESCENTS)
+@pytest.mark.parametrize(("method", "case"), [pair for pair in IN_TURN if pair[0] in DESCENTS])
 def test_no_step_of_an_optimiser_raises_the_objective(method, case):
     mesh = scrambled_within(CASES[case](4), 0.2, 5)
     history = hx.smooth(mesh, method, max_iterations=FEW, keep_last=True).history
@@ -85,10 +85,9 @@ def test_no_step_of_an_optimiser_raises_the_objective(method, case):
 
 
 @pytest.mark.parametrize("case", ["planes", "periodic", "layer"])
-@pytest.mark.parametrize("amplitude", [0.45, 1.0])
-def test_mend_ends_at_the_perfect_lattice(case, amplitude):
-    given = CASES[case](6)
-    result = hx.smooth(scrambled_within(given, amplitude), "mend")
+def test_mend_ends_at_the_perfect_lattice(case):
+    given = CASES[case](4)
+    result = hx.smooth(scrambled_within(given, 1.0), "mend")
     assert result.after.inverted == 0
     assert np.abs(result.mesh.points - given.points).max() < 1e-6
 
@@ -162,21 +161,3 @@ def test_steps_of_methods_of_others_are_constrained(case):
         CHECKS[case](given, iteration.points, 4)
         assert iteration.quality.n_inverted == 0
         assert iteration.largest_move > 0
-
-
-def test_a_mesh_without_linear_motion_gets_the_steps_of_the_method_itself():
-    mesh, smoother = grid(2), Shaking()
-    steps = constrained_steps(smoother, mesh)
-    assert steps.gi_code is smoother.steps(mesh).gi_code
-
-
-def test_a_node_restricted_inside_keeps_its_line():
-    mesh = grid(4)
-    node = np.flatnonzero((mesh.points == 2).all(axis=1))
-    mesh = mesh.with_linear_motion(LinearMotion.along_lines(node, [1.0, 0, 0]))
-    scrambled = mesh.with_points(
-        mesh.points + 0.3 * np.random.default_rng(0).normal(size=(125, 3)) * mesh.free[:, None]
-    )
-    for method in ("mend", "laplacian", "getme", "local-sd"):
-        points = hx.smooth(scrambled, method).mesh.points
-        np.testing.assert_array_equal(points[node, 1:], [[2, 2]])

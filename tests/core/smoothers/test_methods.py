@@ -22,9 +22,8 @@ def points_after(mesh, smoother, steps):
     return [step.points for step in itertools.islice(smoother.steps(mesh), steps + 1)]
 
 
-@pytest.mark.parametrize("amplitude", [0.2, 0.9])
-def test_fixed_nodes_stay_bitwise_and_the_input_is_untouched(name, amplitude):
-    mesh = scrambled(grid(4), amplitude)
+def test_fixed_nodes_stay_bitwise_and_the_input_is_untouched(name):
+    mesh = scrambled(grid(4), 0.9)
     before = mesh.points.copy()
     for points in points_after(mesh, METHODS[name](), 5):
         np.testing.assert_array_equal(points[mesh.fixed], before[mesh.fixed])
@@ -74,9 +73,9 @@ def test_the_result_moves_turns_and_scales_with_the_mesh(name, seed, exponent):
 
 
 def test_runs_are_bitwise_repeatable_whatever_the_number_of_threads(name):
-    mesh, most, results = scrambled(grid(8), 0.4), kernels.threads(), []
+    mesh, most, results = scrambled(grid(6), 0.4), kernels.threads(), []
     try:
-        for threads in (1, 2, 3, 5):
+        for threads in (1, 3):
             kernels.set_threads(threads)
             results.append(points_after(mesh, METHODS[name](), 3)[-1])
     finally:

@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-from hexmend.iteration import Outcome
-from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.local import single_node
 from tests.core.grids import grid, scrambled
@@ -25,13 +23,6 @@ def test_the_order_of_visits_is_worked_out_before_the_first_step(monkeypatch):
     assert asked == [0]
     next(steps), next(steps)
     assert asked == [0, 0, 1]
-
-
-@pytest.mark.parametrize("name", [name for name, cls in METHODS.items() if cls.optimises])
-def test_perfect_cubes_are_converged(name):
-    result = smooth(grid(3), METHODS[name](), StoppingCriteria(max_iterations=5))
-    assert result.outcome is not Outcome.NO_DESCENT
-    assert abs(result.mesh.points - grid(3).points).max() < 1e-9
 
 
 @pytest.mark.parametrize("exponent", [0.0, 1.0, 3.0])

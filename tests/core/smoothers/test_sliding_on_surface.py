@@ -10,14 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend import io
-from hexmend.boundary import NodeClass, SkinSurface, SlidingBoundary, surface_change
+from hexmend.boundary import SkinSurface, SlidingBoundary, surface_change
 from hexmend.boundary.closest_point import triangulate
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
 from hexmend.run import StoppingCriteria, smooth
-from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
-from tests.core.boundary.solids import ball, cylinder, slid, wavy
+from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 
 
@@ -64,27 +63,6 @@ def test_nodes_are_put_on_the_surface_and_stay_on_it(name, solid, seed):
         np.testing.assert_array_equal(step.points[kept], mesh.points[kept])
 
 
-def test_its_own_boundary_as_the_surface_is_the_same_as_none():
-    mesh = slid(cylinder(16, 3), 0.2)
-    own, on = SlidingBoundary(mesh), SlidingBoundary(mesh.sliding_on(skin_of(mesh)))
-    np.testing.assert_array_equal(own.node_class, on.node_class)
-    method, stop = METHODS["local-nr"](boundary="slide"), StoppingCriteria(max_iterations=5)
-    one, other = (smooth(of, method, stop).mesh.points for of in (mesh, mesh.sliding_on(skin_of(mesh))))
-    np.testing.assert_allclose(one, other, atol=1e-6)
-
-
-def test_edges_of_the_boundary_that_the_surface_does_not_have_are_smooth():
-    coarse, target = cylinder(8, 2), skin_of(cylinder(64, 8))  # whose sides meet at 45 degrees
-    mesh = coarse.sliding_on(target)
-    before, after = SlidingBoundary(coarse, 40), SlidingBoundary(mesh, 40)
-    height = coarse.points[:, 2]
-    side = (before.node_class == NodeClass.CURVE) & (height > 0.1) & (height < 0.9)
-    assert side.any()
-    assert (after.node_class[side] == NodeClass.PATCH).all()
-    rim = (before.node_class == NodeClass.CURVE) & ~side
-    assert (after.node_class[rim] == NodeClass.CURVE).all()
-
-
 def test_the_distance_told_is_that_from_the_surface():
     mesh, target = ball(3), skin_of(ball(12), "ball.stl")
     result = smooth(mesh.sliding_on(target), METHODS["laplacian"](boundary="slide"), StoppingCriteria(max_iterations=3))
@@ -94,24 +72,6 @@ def test_the_distance_told_is_that_from_the_surface():
     assert 0.01 < nodes < 0.5
     assert result.surface == surface_change(mesh.sliding_on(target), result.mesh)
     assert surface_change(mesh, result.mesh.sliding_on(skin_of(mesh))).max_distance != nodes
-
-
-def test_all_stages_slide_on_it():
-    mesh, target = ball(3), skin_of(ball(12))
-    stages = [
-        Stage(METHODS[name](boundary="slide"), StoppingCriteria(max_iterations=4))
-        for name in ("getme", "local-sd", "mend")
-    ]
-    result = smooth(mesh.sliding_on(target), Recipe.of(*stages))
-    slides = SlidingBoundary(mesh.sliding_on(target)).nodes
-    assert target.distances(result.mesh.points[slides]).max() < 1e-9
-
-
-def test_a_boundary_that_stays_does_not_see_it():
-    mesh = wavy(ball(3), 0.1)
-    result = smooth(mesh.sliding_on(skin_of(ball(12))), "local-nr", StoppingCriteria(max_iterations=3))
-    np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
-    assert result.surface is None
 
 
 @pytest.mark.parametrize("change", [lambda x: 1000 * x, lambda x: x + 50, lambda x: x / 25.4])

@@ -10,14 +10,9 @@ from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
 from hexmend import io, kernels
-from hexmend.boundary import NodeClass, SlidingBoundary, freed_by_sliding, surface_change
+from hexmend.boundary import NodeClass, SlidingBoundary, surface_change
 from hexmend.cli.main import main
-from hexmend.energy import SQUARES
-from hexmend.iteration import Outcome
-from hexmend.kernels import local
-from hexmend.kernels.line_search import LineSearch
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import locked_hexes, measure
+from hexmend.quality import measure
 from hexmend.report import record
 from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
@@ -43,10 +38,6 @@ def on_its_surface(sliding, points):
 def turned(mesh, seed=0):
     turn = special_ortho_group.rvs(3, random_state=np.random.default_rng(seed))
     return mesh.with_points(mesh.points @ turn.T + 0.3)
-
-
-def test_every_optimiser_and_averaging_method_can():
-    assert set(SLIDING) == set(METHODS)
 
 
 @given(
@@ -92,9 +83,9 @@ def test_a_flat_solid_keeps_its_surface_and_volume(name):
 
 @pytest.mark.parametrize("name", SLIDING)
 def test_the_number_of_threads_does_not_matter(name):
-    mesh, most, results = slid(cylinder(32, 6), 0.3), kernels.threads(), []
+    mesh, most, results = slid(cylinder(32, 3), 0.3), kernels.threads(), []
     try:
-        for threads in (1, 2, 3):
+        for threads in (1, 3):
             kernels.set_threads(threads)
             steps = METHODS[name](boundary="slide").steps(mesh)
             results.append(next(itertools.islice(steps, 3, None)).points)
@@ -102,28 +93,6 @@ def test_the_number_of_threads_does_not_matter(name):
         kernels.set_threads(most)
     for result in results[1:]:
         np.testing.assert_array_equal(results[0], result)
-
-
-@pytest.mark.parametrize("name", SLIDING)
-def test_the_boundary_stays_unless_it_is_told_to_slide(name):
-    mesh = slid(grid(3), 0.3)
-    result = smooth(mesh, METHODS[name](), StoppingCriteria(max_iterations=3))
-    assert result.surface is None
-    np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
-
-
-@pytest.mark.parametrize("name", SLIDING)
-def test_one_layer_has_nodes_that_slide(name):
-    mesh = slid(grid(4, 4, 1), 0.3)
-    assert smooth(mesh, name).outcome is Outcome.NOTHING_FREE
-    result = smooth(mesh, METHODS[name](boundary="slide"), StoppingCriteria(max_iterations=20))
-    assert result.outcome is not Outcome.NOTHING_FREE
-    assert result.after.q_min > result.before.q_min + 0.05
-
-
-def test_where_corners_are_all_there_is_nothing_moves():
-    result = smooth(grid(1), METHODS["mend"](boundary="slide"))
-    assert result.outcome is Outcome.NOTHING_FREE
 
 
 @given(st.sampled_from(["smart-laplacian", "getme", "getme-sequential"]), st.integers(0, 2**32 - 1))
@@ -161,18 +130,6 @@ def test_laplacian_takes_the_mean_over_the_neighbours_on_the_nodes_own_curve_or_
         np.testing.assert_allclose(moved.points[node], mesh.points[ring].mean(axis=0), atol=1e-12)  # its sides are flat
 
 
-@pytest.mark.parametrize("direction", local.Direction)
-def test_nodes_that_do_not_slide_are_visited_as_ever(direction):
-    mesh = slid(ball(4), 0.2)
-    sliding, colours = SlidingBoundary(mesh), mesh.topology.colouring(mesh.free)
-    settings, swept = local.NodeStepSettings(direction, 0.01, SQUARES, LineSearch()), []
-    for surface in (), (sliding.sliding_surface, sliding.tangents(mesh.points)):
-        points = mesh.points.copy()
-        local.sweep(points, mesh.topology.hex_mesh, colours.start, colours.items, settings, *surface)
-        swept.append(points)
-    np.testing.assert_allclose(swept[0], swept[1], atol=1e-9)
-
-
 def test_all_stages_of_a_run_slide_on_the_surface_that_it_began_with():
     mesh = slid(ball(4), 0.3)
     stages = [
@@ -208,18 +165,8 @@ def test_the_command_line_lets_it_slide_and_says_what_became_of_the_surface(tmp_
     path, out, report = tmp_path / "mesh.vtu", tmp_path / "out.vtu", tmp_path / "report.json"
     mesh = slid(cylinder(16, 3), 0.2)
     io.write(path, mesh)
-    words = [
-        "smooth",
-        str(path),
-        "-o",
-        str(out),
-        "--method",
-        "local-nr",
-        "--max-iterations",
-        "5",
-        "--json",
-        str(report),
-    ]
+    words = ["smooth", str(path), "-o", str(out), "--method", "local-nr", "--max-iterations", "5"]
+    words += ["--json", str(report)]
     assert main([*words, "--boundary", "slide"]) == 0
     assert "The boundary slid: " in capsys.readouterr().out
     said = json.loads(report.read_text())
@@ -230,50 +177,3 @@ def test_the_command_line_lets_it_slide_and_says_what_became_of_the_surface(tmp_
     assert "surface" not in json.loads(report.read_text())
     assert main([*words, "--boundary", "slide", "--set", "boundary=fixed"]) == 2
     assert "--set boundary" in capsys.readouterr().err
-
-
-def test_comparisons_let_every_method_slide(tmp_path, capsys):
-    path, folder = tmp_path / "mesh.vtu", tmp_path / "tables"
-    io.write(path, slid(grid(3), 0.2))
-    words = ["compare", str(path), "-o", str(folder), "--methods", "laplacian,global-nr", "--max-iterations", "5"]
-    assert main([*words, "--boundary", "slide"]) == 0
-    rows = json.loads((folder / "comparison.json").read_text())["rows"]
-    assert [row["parameters"]["boundary"] for row in rows] == ["slide", "slide"]
-    assert all(row["surface"]["max"] < 1e-9 for row in rows)
-
-
-def pushed_in():
-    """A hex whose corner is pushed in: the nodes around it slide away from it, if they may."""
-    mesh = grid(3)
-    points = mesh.points.copy()
-    points[0] += 0.7 * (points[mesh.hexes[0, 6]] - points[0])  # a corner whose neighbours slide
-    return mesh.with_points(points)
-
-
-def test_locked_hexes_that_sliding_frees_are_told_from_those_that_it_cannot(tmp_path, capsys):
-    mesh = pushed_in()
-    which = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, measure(mesh.points, mesh.hexes).inverted)
-    assert which.sum() == 1
-    assert (freed_by_sliding(mesh, which) == which).all()
-    pinned = np.zeros(mesh.n_nodes, dtype=bool)
-    pinned[mesh.hexes[0]] = True
-    assert not freed_by_sliding(mesh.replace(pinned=pinned), which).any()
-    io.write(tmp_path / "mesh.vtu", mesh)
-    assert main(["info", str(tmp_path / "mesh.vtu")]) == 0
-    assert "1 locked; sliding may free 1." in capsys.readouterr().out
-
-
-def test_a_hex_with_a_corner_in_a_flat_side_is_not_freed():
-    mesh = flattened()
-    which = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, measure(mesh.points, mesh.hexes).inverted)
-    assert which.any()
-    assert not freed_by_sliding(mesh, which).any()
-
-
-def flattened() -> Mesh:
-    """Two by two hexes on one layer; the corner of one is drawn to the middle of its sides, so that it is straight."""
-    mesh = grid(2, 2, 1)
-    points = mesh.points.copy()
-    for corner, one, other in (0, 1, 3), (9, 10, 12):
-        points[corner] = (points[one] + points[other]) / 2
-    return mesh.with_points(points)

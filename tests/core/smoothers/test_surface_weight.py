@@ -1,28 +1,23 @@
 """Methods whose objective counts the quads of a sliding boundary too: over the registry."""
 
 import itertools
-import json
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import io, kernels
+from hexmend import kernels
 from hexmend.boundary import SlidingBoundary
-from hexmend.cli.main import main
 from hexmend.energy import FixedDelta, ObjectiveNorm
 from hexmend.energy.quads import SurfaceQuads
 from hexmend.mesh.element_target import Target
 from hexmend.quality import measure, objective
 from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.run.recipe_files import read_recipe, write_recipe
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 from tests.core.linear_motions import planes
-from tests.core.smoothers.test_sliding_on_surface import skin_of
 
 WEIGHTED = sorted(name for name, method in METHODS.items() if hasattr(method, "surface_weight"))
 DESCENTS = [name for name in WEIGHTED if name != "local-patch"]
@@ -39,17 +34,6 @@ def quads_of(mesh, points=None):
     return SurfaceQuads(SlidingBoundary(mesh), ObjectiveNorm(), 1.0).corners(mesh.points if points is None else points)
 
 
-def test_the_optimisers_of_the_thesis_have_it():
-    descents = {f"{scope}-{step}" for scope in ("local", "global") for step in ("sd", "nr", "mnr")}
-    assert set(WEIGHTED) == descents | {"local-patch"}
-
-
-@pytest.mark.parametrize("name", WEIGHTED)
-def test_without_weight_the_quads_are_not_recorded(name):
-    steps = itertools.islice(METHODS[name](boundary="slide").steps(slid(cylinder(16, 3), 0.3)), 4)
-    assert [step.surface for step in steps] == [None] * 4
-
-
 @pytest.mark.parametrize("name", WEIGHTED)
 def test_a_weight_that_counts_nothing_gives_the_same_points(name):
     """The quads are in the sums, with a share that no sum feels: what is summed besides is as without them."""
@@ -61,7 +45,7 @@ def test_a_weight_that_counts_nothing_gives_the_same_points(name):
         np.testing.assert_allclose(one, other, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("name", WEIGHTED)
+@pytest.mark.parametrize("name", ["local-nr", "global-nr"])
 def test_a_fixed_boundary_ignores_it_and_says_so(name):
     mesh = slid(grid(3), 0.3)
     one, other = (smooth(mesh, METHODS[name](surface_weight=weight), FEW) for weight in (0, 5))
@@ -71,15 +55,7 @@ def test_a_fixed_boundary_ignores_it_and_says_so(name):
     assert "surface_weight" not in smooth(mesh, sliding(name, 5), FEW).message
 
 
-def test_the_command_says_that_a_fixed_boundary_ignores_it(tmp_path, capsys):
-    io.write(tmp_path / "cube.vtk", grid(3))
-    words = ["smooth", str(tmp_path / "cube.vtk"), "-o", str(tmp_path / "out.vtk"), "--method", "local-nr"]
-    assert main([*words, "--set", "surface_weight=2"]) == 0
-    assert "surface_weight has no effect with boundary = fixed." in capsys.readouterr().out
-
-
-@pytest.mark.parametrize("name", DESCENTS)
-@pytest.mark.parametrize("solid", sorted(SOLIDS))
+@pytest.mark.parametrize(("name", "solid"), list(zip(DESCENTS, 2 * sorted(SOLIDS), strict=True)))
 def test_the_recorded_objective_is_the_one_that_is_minimised(name, solid):
     mesh, weight = slid(SOLIDS[solid](), 0.25, 1), 2.0
     run = iterate(mesh, sliding(name, weight, p=3.0), StoppingCriteria(max_iterations=6))
@@ -100,9 +76,9 @@ def test_the_recorded_objective_is_the_one_that_is_minimised(name, solid):
     assert values[-1] < 0.8 * values[0]
 
 
-@pytest.mark.parametrize("name", WEIGHTED)
+@pytest.mark.parametrize("name", ["local-mnr", "global-nr"])
 def test_a_skewed_surface_gets_better_quads_than_without(name):
-    mesh = cylinder(24, 4)
+    mesh = cylinder(16, 3)
     twist = 0.5 * mesh.points[:, 2:] ** 2 * np.array([-mesh.points[:, 1], mesh.points[:, 0]]).T
     mesh = mesh.with_points(mesh.points + np.column_stack([twist, np.zeros(mesh.n_nodes)]))
     mesh = slid(mesh.keeping_surface(), 0.2, 3)
@@ -123,7 +99,7 @@ def with_a_flipped_quad():
     return cube.with_points(points), node
 
 
-@pytest.mark.parametrize("name", WEIGHTED)
+@pytest.mark.parametrize("name", WEIGHTED[::3])
 def test_a_flipped_quad_is_untangled(name):
     mesh, node = with_a_flipped_quad()
     assert (quads_of(mesh).sigma <= 0).any()
@@ -153,14 +129,6 @@ def test_nodes_stay_on_their_surface_and_the_objective_ends_no_higher(name, soli
         assert values[-1] <= values[0] * (1 + 1e-9)
 
 
-@pytest.mark.parametrize("name", ["local-nr", "local-mnr", "global-nr", "global-mnr"])
-def test_a_scrambled_cube_goes_back_to_the_grid(name):
-    cube = grid(4)
-    stop = StoppingCriteria(tolerance=1e-9, max_iterations=500)
-    result = smooth(slid(cube, 0.3, seed=3), sliding(name, 1.0), stop)
-    np.testing.assert_allclose(result.mesh.points, cube.points, atol=1e-6)
-
-
 def test_local_and_global_steps_reach_the_same_optimum():
     mesh = slid(grid(4, 3, 2).with_points(grid(4, 3, 2).points * [1, 1.4, 1]), 0.2, 2)
     stop = StoppingCriteria(tolerance=1e-9, max_iterations=600)
@@ -168,9 +136,9 @@ def test_local_and_global_steps_reach_the_same_optimum():
     np.testing.assert_allclose(*ends, atol=1e-5)
 
 
-@pytest.mark.parametrize("name", WEIGHTED)
+@pytest.mark.parametrize("name", ["local-nr", "global-nr"])
 def test_the_number_of_threads_does_not_matter(name):
-    mesh, most, results = slid(cylinder(32, 6), 0.3), kernels.threads(), []
+    mesh, most, results = slid(cylinder(32, 3), 0.3), kernels.threads(), []
     try:
         for threads in (1, 3):
             kernels.set_threads(threads)
@@ -192,14 +160,6 @@ def test_with_a_target_the_quads_are_to_have_its_lengths(name):
     assert values[-1] < 0.01 * values[0]
 
 
-@pytest.mark.parametrize("name", ["local-nr", "global-sd"])
-def test_a_surface_of_its_own_gives_the_normals(name):
-    mesh = slid(ball(4), 0.2).sliding_on(skin_of(ball(8)))
-    run = iterate(mesh, sliding(name, 1.0), StoppingCriteria(max_iterations=5))
-    values = [it.surface.value for it in run]
-    assert values[-1] < 0.9 * values[0]
-
-
 @pytest.mark.parametrize("name", ["local-nr", "local-patch", "global-nr"])
 def test_nodes_with_a_linear_motion_keep_it(name):
     cube = grid(4)
@@ -212,26 +172,3 @@ def test_nodes_with_a_linear_motion_keep_it(name):
     ends = np.isin(cube.points[:, 0], (0, 4))
     np.testing.assert_array_equal(run.last.points[ends, 0], cube.points[ends, 0])
     assert run.history[-1]["objective"] < 0.5 * run.history[0]["objective"]
-
-
-def test_a_recipe_and_a_report_have_it(tmp_path):
-    recipe = Recipe.of(Stage(sliding("local-nr", 0.5), FEW), Stage(sliding("global-nr", 2.0), FEW))
-    write_recipe(tmp_path / "recipe.toml", recipe)
-    assert read_recipe(tmp_path / "recipe.toml") == recipe
-    io.write(tmp_path / "cube.vtk", slid(grid(3), 0.3))
-    words = ["smooth", str(tmp_path / "cube.vtk"), "-o", str(tmp_path / "out.vtk"), "--method", "local-nr"]
-    words += ["--boundary", "slide", "--set", "surface_weight=0.5", "--json", str(tmp_path / "report.json")]
-    assert main(words) == 0
-    report = json.loads((tmp_path / "report.json").read_text("utf-8"))
-    assert report["parameters"]["surface_weight"] == 0.5
-    result = smooth(slid(grid(3), 0.3), recipe)
-    formulas = [row["objective_formula"] for row in result.history]
-    assert formulas[0] == "Σ η² + 0.5 Σ η² of quads"
-    assert formulas[-1] == "Σ η² + 2 Σ η² of quads"
-
-
-def test_the_start_of_a_run_counts_the_quads_as_its_history_does():
-    run = iterate(slid(grid(3, 2, 4), 0.2), sliding("local-sd", 10.0), FEW)
-    assert run.start.row() == run.history[0]
-    next(run)
-    assert run.history[1]["objective"] < run.start.row()["objective"]

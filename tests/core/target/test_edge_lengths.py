@@ -31,9 +31,3 @@ def test_every_edge_of_a_hex_has_its_number():
     numbers = edge_numbers(mesh.topology)
     ends = np.sort(mesh.hexes[:, EDGES], axis=2)
     np.testing.assert_array_equal(mesh.topology.edges[numbers], ends)
-
-
-def test_an_edge_of_one_node_has_no_number():
-    prism = Mesh(UNIT_CUBE, [[0, 1, 2, 3, 4, 5, 5, 4]])
-    numbers = edge_numbers(prism.topology)[0]
-    assert [tuple(edge) for edge in EDGES[numbers < 0].tolist()] == [(4, 7), (5, 6)]

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.second_order import NODE_POSITIONS
 from hexmend.mesh.second_order.curved_geometry import (
@@ -11,11 +10,10 @@ from hexmend.mesh.second_order.curved_geometry import (
     evaluate_quads,
     grid,
     hex_nodes,
-    quad_functions,
     quad_nodes,
 )
 from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
-from hexmend_app.scene.geometry.curved_elements import edge_mid_nodes, evaluate_edges, evaluate_hexes, quad_normals
+from hexmend_app.scene.geometry.curved_elements import edge_mid_nodes, evaluate_hexes, quad_normals
 from tests.core.curved_shell import curved_shell
 
 
@@ -48,13 +46,6 @@ def test_hexes_reproduce_triquadratic_polynomials():
     at = np.random.default_rng(2).random((40, 3))
     nodes = polynomial(NODE_POSITIONS, powers)[None]
     np.testing.assert_allclose(evaluate_hexes(nodes, at)[0], polynomial(at, powers), atol=1e-12)
-
-
-def test_functions_are_one_at_their_node_and_sum_to_one():
-    for width in (8, 9):
-        values, gradients = quad_functions(QUAD_POSITIONS[:width], width)
-        np.testing.assert_allclose(values, np.eye(width), atol=1e-15)
-        np.testing.assert_allclose(gradients.sum(axis=1), 0, atol=1e-14)
 
 
 @pytest.mark.parametrize("nodes", [20, 27])
@@ -119,14 +110,3 @@ def test_normals_at_a_collapsed_edge_are_those_of_the_triangle():
     quad[[5, 7]] = [[0.75, 0.5, 0], [0.25, 0.5, 0]]
     normals = quad_normals(quad[None, :8], grid(4))
     np.testing.assert_allclose(normals, np.broadcast_to([0, 0, 1.0], normals.shape), atol=1e-12)
-
-
-def test_edges_pass_through_their_middle():
-    ends, middles = np.array([[[0, 0, 0], [2.0, 0, 0]]]), np.array([[1.0, 1, 0]])
-    points = evaluate_edges(ends, middles, np.array([0, 0.25, 0.5, 1]))
-    np.testing.assert_allclose(points[0], [[0, 0, 0], [0.5, 0.75, 0], [1, 1, 0], [2, 0, 0]])
-
-
-def test_quads_of_other_widths_are_refused():
-    with pytest.raises(MeshError, match=r"shape \(1, 4, 3\): expected \(quads, 8 or 9, 3\)"):
-        evaluate_quads(np.zeros((1, 4, 3)), grid(1))

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from hexmend.energy import MeshEnergy
-from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, measure
@@ -64,9 +63,3 @@ def test_a_node_of_no_hex_is_unused_and_goes_nowhere():
     one = describe_node(Mesh(np.concatenate([mesh.points, [[9.0, 9, 9]]]), mesh.hexes), 8)
     assert (one.kind, one.ring.size, one.energy, one.downhill.tolist()) == ("unused", 0, 0.0, [0, 0, 0])
     assert one.point.tolist() == [9, 9, 9]
-
-
-@pytest.mark.parametrize("number", [-1, 8, 1.5, "a", None, True])
-def test_a_hex_that_does_not_exist_is_refused(number):
-    with pytest.raises(MeshError, match="expected a whole number from 0 to"):
-        describe_hex(grid(2), number)

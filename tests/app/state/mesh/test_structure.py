@@ -3,7 +3,6 @@
 from collections import Counter, defaultdict
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -13,7 +12,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
 from hexmend_app.state.mesh.structure import find_structure
 from tests.core.grids import grid
-from tests.core.mesh.topology.test_topology import closed, loose
+from tests.core.mesh.topology.test_topology import loose
 
 #: A tetrahedron cut into four hexes: corners, middles of edges and faces, and the centre, by the corners they belong to.
 _PLACES = [
@@ -85,13 +84,6 @@ def test_a_grid_is_regular_but_for_the_edges_of_its_box(size):
     )
 
 
-def test_a_mesh_without_boundary_has_none():
-    topology = Topology(closed((4, 4, 4)), 64)
-    assert not topology.edge_on_boundary.any()
-    assert set(topology.edge_valence.tolist()) == {4}
-    assert not len(topology.irregular_edges)
-
-
 def test_five_blocks_meet_in_one_line_that_ends_on_the_boundary():
     mesh = make("five-side", size=60)  # so few that each layer is five blocks
     found = find_structure(mesh)
@@ -140,11 +132,3 @@ def test_a_hex_that_has_an_edge_twice_counts_once():
     (at,) = np.flatnonzero((topology.edges == edge).all(axis=1))
     assert topology.edge_valence[at] == 1
     assert (topology.edges[:, 0] < topology.edges[:, 1]).all()
-
-
-@pytest.mark.parametrize("name", ["cube", "bridge-sharp", "plane"])
-def test_moving_nodes_of_the_inside_changes_no_structure(name):
-    before = find_structure(make(name, size=500))
-    after = find_structure(make(name, size=500, scramble=0.5, seed=3))
-    for field in ("interior", "interior_valence", "nodes", "boundary", "boundary_valence", "sharp"):
-        np.testing.assert_array_equal(getattr(before, field), getattr(after, field))

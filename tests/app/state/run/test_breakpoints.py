@@ -25,11 +25,6 @@ def run():
     return [run.start, *run]
 
 
-def test_nothing_is_asked_for_by_default(run):
-    assert not Breakpoints().any
-    assert all(Breakpoints().hit(a, b, 1.0) is None for a, b in pairwise(run))
-
-
 def test_an_element_that_inverts_is_named(run):
     for before, now in pairwise(run):
         hit = Breakpoints(inverts=True).hit(before, now, 1.0)
@@ -67,13 +62,6 @@ def test_cuts_of_the_line_search():
     assert Breakpoints(backtracks=0).hit(cut, still, 1.0) is None
 
 
-@pytest.mark.parametrize(
-    "one", [{"inverts": True}, {"q_min_falls": True}, {"node": 0}, {"hex": 0}, {"backtracks": 0}], ids=str
-)
-def test_each_of_them_alone_is_something_to_pause_at(one):
-    assert Breakpoints(**one).any
-
-
 def test_how_many_elements_inverted_is_said(run):
     def said(*hexes):
         sigma = np.ones(MESH.n_hexes)
@@ -84,10 +72,3 @@ def test_how_many_elements_inverted_is_said(run):
     assert said(4) == "Hex 4 inverted"
     assert said(4, 9) == "Hex 4 and 1 more inverted"
     assert said(4, 9, 12) == "Hex 4 and 2 more inverted"
-
-
-def test_where_several_are_reached_the_first_is_told(run):
-    cut = iteration(2, run[-1].points, backtracks=5)
-    both = Breakpoints(inverts=True, backtracks=1)
-    assert both.hit(run[0], cut, 1.0).hexes
-    assert "5 times" in both.hit(cut, cut, 1.0).sentence

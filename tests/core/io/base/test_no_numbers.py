@@ -9,18 +9,10 @@ from tests.core.grids import grid
 
 
 @pytest.mark.parametrize("suffix", [".vtk", ".vtu", ".exo", ".med"])
-def test_texts_among_the_data_are_named_before_they_are_lost(suffix, tmp_path):
-    mesh = grid(2).replace(node_data={"label": np.array(["a"] * 27)})
-    assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == ["point data that are not numbers (label)"]
-    io.write(tmp_path / f"a{suffix}", mesh)
-    assert io.read(tmp_path / f"a{suffix}").n_hexes == 8
-
-
-@pytest.mark.parametrize("suffix", [".vtk", ".vtu", ".exo", ".med"])
 @pytest.mark.parametrize(
     "values",
-    [np.arange(8) * 1j, np.array([None] * 8), np.arange(8).astype("M8[s]")],
-    ids=["complex", "objects", "times"],
+    [np.array(["a"] * 8), np.arange(8) * 1j, np.array([None] * 8), np.arange(8).astype("M8[s]")],
+    ids=["texts", "complex", "objects", "times"],
 )
 def test_data_that_are_no_numbers_are_left_out_as_announced(suffix, values, tmp_path):
     top = Cells("quad", np.array([[18, 19, 22, 21]]), {"odd": values[:1], "even": np.ones(1)})

@@ -27,19 +27,6 @@ def test_a_number_takes_64_bits_only_where_32_do_not_hold_it(number, tmp_path):
         assert (tmp_path / "a.nc").read_bytes()[:4] == b"CDF\x05"
 
 
-@pytest.mark.parametrize("number", ENDS)
-def test_ids_at_the_ends_of_32_bits_are_read_again_and_the_file_says_how_wide_they_are(number, tmp_path):
-    ids = np.array([1, 2, 3, 4, 5, 6, 7, number])
-    mesh = grid(2).replace(hex_data={"id": ids})
-    io.write(tmp_path / "a.exo", mesh)
-    np.testing.assert_array_equal(io.read(tmp_path / "a.exo").hex_data["id"], ids)
-    data = (tmp_path / "a.exo").read_bytes()
-    begins = data.index(b"int64_status\0") + len(b"int64_status")
-    wide = not -(2**31) <= number < 2**31
-    value = begins + 4 + (8 if data[3] == 5 else 4)  # behind the attribute's type and count
-    assert int.from_bytes(data[value : value + 4], "big") == (0x0400 if wide else 0)  # EX_MAPS_INT64_DB
-
-
 @pytest.mark.parametrize("suffix", [".exo", ".med"])
 @pytest.mark.parametrize(("data", "label"), [("node_data", "nodes"), ("hex_data", "elements")])
 def test_ids_that_signed_numbers_cannot_hold_are_left_out_and_reported(data, label, suffix, tmp_path):

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.io.coordinates.edits import Edits, write_edited
-from hexmend.io.coordinates.number_texts import number_texts, replace_lines, scientific_style
+from hexmend.io.coordinates.number_texts import number_texts
 from hexmend.io.coordinates.text_coordinates import parse_fields
 
 
@@ -37,21 +37,6 @@ def test_numbers_are_read_back_as_they_were_unless_a_width_limits_them(values):
     words = number_texts(array, width=20).split()
     assert all(len(word) <= 20 for word in words)
     np.testing.assert_allclose([float(word) for word in words], array, rtol=1e-12)
-
-
-def test_whole_numbers_have_a_point():
-    assert number_texts(np.array([0.0, -3.0, 1e6])) == b"0.0\n-3.0\n1000000.0\n"
-
-
-def test_lines_are_replaced_by_their_index():
-    assert replace_lines(b"a\nbb\n\nc\n", np.array([1, 3]), lambda k: b"%d" % k) == b"a\n1\n\n3\n"
-    assert replace_lines(b"", np.zeros(0, np.int64), bytes) == b""
-
-
-def test_a_style_is_that_of_all_words():
-    assert scientific_style([]) is None
-    assert scientific_style([b"1.00e+00", b"1.000e+00"]) is None
-    assert scientific_style([b"-1.00e+00", b"1.00e-10"]) == "%.16e"
 
 
 @pytest.mark.parametrize("end", ["\n", ""])

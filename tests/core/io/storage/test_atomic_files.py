@@ -2,7 +2,6 @@
 
 import errno
 import os
-import shutil
 
 import pytest
 
@@ -41,18 +40,6 @@ def test_an_error_of_writing_names_the_file_and_not_the_temporary_one(two, named
         raise OSError(errno.ENOSPC, "No space left on device", *([str(temporary)] if named else []))
     assert [path.read_text() for path in two] == ["old a", "old b"]
     assert sorted(os.listdir(two[0].parent)) == ["a.txt", "b.txt"]
-
-
-def test_an_error_of_a_copy_names_the_file_that_it_is_copied_to(two, monkeypatch):
-    monkeypatch.setattr(shutil, "_fastcopy_sendfile", full, raising=False)
-    (two[0].parent / "source").write_text("new")
-    with pytest.raises(FileError, match=r"^b\.txt: cannot be written: No space left"), atomic_files() as files:
-        files.add(two[0])
-        shutil.copyfile(two[0].parent / "source", files.add(two[1]))
-
-
-def full(source, target):
-    raise OSError(errno.ENOSPC, "No space left on device", source.name, None, target.name)  # as shutil does
 
 
 def test_an_error_of_another_file_is_raised_as_it_is(two):

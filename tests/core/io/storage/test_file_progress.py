@@ -8,8 +8,7 @@ import pytest
 
 from hexmend.errors import FileError
 from hexmend.gallery import make
-from hexmend.io import FORMATS, read, write, write_as_given
-from hexmend.io.coordinates.original import Original
+from hexmend.io import FORMATS, read, write
 from hexmend.io.storage import file_progress
 from hexmend.io.storage.file_progress import (
     FileAction,
@@ -38,7 +37,7 @@ def each_report(monkeypatch):
 
 @pytest.fixture(scope="module")
 def mesh():
-    return make("cube", size=30_000, scramble=0.3)
+    return make("cube", size=20_000, scramble=0.3)
 
 
 def reports_of(work):
@@ -67,34 +66,22 @@ def test_large_formats_report_what_is_read_and_written(tmp_path, mesh, suffix, e
     check(reports_of(lambda: read(path)), path, FileAction.READING)
 
 
-def test_replacing_coordinates_is_one_operation_although_it_reads(tmp_path, mesh):
-    path, other = tmp_path / "mesh.meshb", tmp_path / "other.meshb"
-    write(path, mesh)
-    reports = reports_of(lambda: write_as_given(other, mesh.with_points(mesh.points + 1), Original(path, read(path))))
-    assert [one.ended for one in reports if one.action is FileAction.WRITING].count(True) == 1
-    assert {one.path for one in reports if one.action is FileAction.WRITING} == {other}
-
-
 @pytest.mark.parametrize(("suffix", "encoding"), LARGE)
-@pytest.mark.parametrize("share", [0.0, 0.3])
-def test_an_exception_of_the_watcher_ends_the_reading_and_is_not_taken_for_damage(
-    tmp_path, mesh, suffix, encoding, share
-):
+def test_an_exception_of_the_watcher_ends_the_reading_and_is_not_taken_for_damage(tmp_path, mesh, suffix, encoding):
     path, seen = tmp_path / f"mesh{suffix}", []
     write(path, mesh, encoding=encoding)
 
     def cancel(progress):
         seen.append(progress)
-        if progress.share >= share and not progress.ended:
+        if progress.share >= 0.3 and not progress.ended:
             raise Cancelled
 
     with watch_files(cancel), pytest.raises(Cancelled):
         read(path)
     assert seen[-1].ended
-    assert read(path).n_hexes == mesh.n_hexes  # without a watcher as ever
 
 
-@pytest.mark.parametrize("suffix", [".vtu", ".vtk", ".mesh", ".msh"])
+@pytest.mark.parametrize("suffix", [".vtu", ".mesh"])
 def test_a_writing_that_is_ended_leaves_the_earlier_file(tmp_path, mesh, suffix):
     path = tmp_path / f"mesh{suffix}"
     path.write_bytes(b"earlier")
@@ -109,7 +96,7 @@ def test_a_writing_that_is_ended_leaves_the_earlier_file(tmp_path, mesh, suffix)
     assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
 
 
-@pytest.mark.parametrize("suffix", [".vtu", ".vtkhdf", ".vtk", ".meshb", ".msh", ".exo"])
+@pytest.mark.parametrize("suffix", [".vtu", ".meshb", ".exo"])
 def test_a_damaged_file_ends_its_progress_with_the_error_of_one_that_nobody_watches(tmp_path, mesh, suffix):
     path = tmp_path / f"mesh{suffix}"
     write(path, mesh)
@@ -141,17 +128,6 @@ def test_stages_divide_the_work_and_what_is_done_never_falls():
     for share in (0.25, 0.3125, 0.375, 0.9, 0.95, 1.0):
         assert np.isclose(shares, share).any(), share
     assert {one.path for one in reports} == {Path("a")}
-
-
-def test_reports_without_a_watcher_are_nothing():
-    report(0.5)
-    advance(1, 2)
-    with file_operation(Path("a"), FileAction.READING), stage(0.0, 0.5):
-        report(3, 0)
-    reports = []
-    with watch_files(reports.append), watch_files(None), file_operation(Path("a"), FileAction.READING):
-        report(0.5)
-    assert not reports
 
 
 @pytest.mark.parametrize(

@@ -4,11 +4,6 @@ import pytest
 
 from hexmend.errors import FileError
 from hexmend.io.storage.suffixes import suffix_for
-from hexmend.report.charts import check_figure
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.run.recipe_files import write_recipe
-from hexmend.smoothers import METHODS
 
 
 @pytest.mark.parametrize("name", ["a.csv", "a.CSV", "b.md", "c.d.md"])
@@ -20,12 +15,3 @@ def test_no_suffix_is_admitted_only_where_it_is_named():
     assert suffix_for("/dev/stdout", "a table", [".csv", ""]) == ""
     with pytest.raises(FileError, match=r"as a file without a suffix. Use \.csv\.$"):
         suffix_for("table", "a table", [".csv"])
-
-
-def test_writers_refuse_other_suffixes_and_leave_no_file(tmp_path):
-    method = next(iter(METHODS.values()))
-    with pytest.raises(FileError, match=r"Use \.toml\.$"):
-        write_recipe(tmp_path / "a.yaml", Recipe.of(Stage(method(), StoppingCriteria())))
-    with pytest.raises(FileError, match=r"Use \.svg, \.pdf or \.png\.$"):
-        check_figure(tmp_path / "a.gif")
-    assert list(tmp_path.iterdir()) == []

@@ -10,10 +10,8 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.errors import FileError
-from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.storage import temporary_files
 from hexmend.io.storage.atomic import atomic_write
-from hexmend.report import output_folder
 
 #: Begins to write a file, says so, and waits.
 WRITER = """
@@ -77,12 +75,6 @@ def test_a_file_is_on_the_disk_before_it_is_renamed_and_its_name_after(tmp_path,
 
 
 @needs_proc
-def test_new_folders_are_flushed_into_those_above_them(tmp_path, recorded):
-    output_folder(tmp_path / "a" / "b")
-    output_folder(tmp_path / "a" / "b")
-    assert recorded == [("fsync", "a"), ("fsync", tmp_path.name)]
-
-
 def test_a_disk_that_is_full_when_the_file_is_flushed_leaves_the_old_file(tmp_path, monkeypatch):
     path = tmp_path / "mesh.vtk"
     path.write_text("old")
@@ -105,41 +97,6 @@ def test_a_file_system_that_cannot_flush_is_written_to(tmp_path, monkeypatch):
     with atomic_write(tmp_path / "mesh.vtk") as temporary:
         temporary.write_text("new")
     assert (tmp_path / "mesh.vtk").read_text() == "new"
-
-
-@pytest.mark.parametrize("works", [True, False])
-def test_macos_flushes_the_cache_of_the_drive_too_where_it_can(tmp_path, monkeypatch, works):
-    calls = []
-
-    def control(handle, command):
-        calls.append(command)
-        if not works:
-            raise OSError(errno.ENOTSUP, os.strerror(errno.ENOTSUP))
-
-    monkeypatch.setattr(fcntl, "F_FULLFSYNC", 51, raising=False)
-    monkeypatch.setattr(fcntl, "fcntl", control)
-    monkeypatch.setattr(os, "fsync", lambda handle: calls.append("fsync"))
-    with atomic_write(tmp_path / "mesh.vtk") as temporary:
-        temporary.write_text("new")
-    assert calls == ([51, 51] if works else [51, "fsync", 51, "fsync"])
-
-
-def write_hdf5(path, mesh, encoding):
-    with pytest.importorskip("h5py").File(path, "w") as file:
-        file["points"] = mesh.points
-
-
-def write_netcdf(path, mesh, encoding):
-    with pytest.importorskip("netCDF4").Dataset(path, "w") as file:
-        file.createDimension("nodes", mesh.n_nodes)
-
-
-@pytest.mark.parametrize("write", [write_hdf5, write_netcdf])
-def test_a_format_of_another_distribution_may_lock_the_file_that_it_writes(tmp_path, monkeypatch, write):
-    monkeypatch.setattr(FORMATS, "_entries", dict(FORMATS))
-    FORMATS.add("mine", Format("mine", "Mine", (".mine",), ("binary",), read=io.read, write=write))
-    io.write(tmp_path / "mesh.mine", gallery.make("cube", size=8))
-    assert files(tmp_path) == ["mesh.mine"]
 
 
 @pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
@@ -186,16 +143,6 @@ def test_the_file_of_a_writer_at_work_is_not_removed(tmp_path, writer):
     _, temporary = writer(path)
     io.write(path, gallery.make("cube", size=8))
     assert os.path.exists(temporary)
-
-
-def test_leftovers_that_cannot_be_removed_are_ignored(tmp_path):
-    path = tmp_path / "mesh.vtk"
-    folder = temporary_files.TemporaryFile(path).lock_path
-    folder.mkdir()
-    link = temporary_files.TemporaryFile(path).lock_path
-    link.symlink_to(tmp_path / "elsewhere")
-    io.write(path, gallery.make("cube", size=8))
-    assert files(tmp_path) == sorted([folder.name, link.name, "mesh.vtk"])
 
 
 def test_a_file_system_without_locks_is_written_to_and_nothing_is_removed_from_it(tmp_path, monkeypatch):

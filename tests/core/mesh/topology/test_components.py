@@ -24,12 +24,6 @@ def test_components_are_numbered_in_the_order_of_their_lowest_items(graph):
     np.testing.assert_array_equal(components(n, links), of_scipy(n, links))
 
 
-@given(graphs, st.integers(0, 20))
-def test_several_groups_connect_like_one(graph, at):
-    n, links = graph[0], np.array(graph[1], np.int32).reshape(-1, 2)
-    np.testing.assert_array_equal(components(n, links[:at], links[at:]), components(n, links))
-
-
 def test_a_row_connects_all_its_items_and_nothing_connects_none():
     assert components(6, np.array([[5, 2, 4]])).tolist() == [0, 1, 2, 3, 2, 2]
     assert components(3).tolist() == [0, 1, 2]

@@ -6,7 +6,7 @@ import pytest
 from hexmend.mesh.hexahedron import VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import MIRRORED_CORNERS, left_handed_hexes, with_consistent_orientation
-from hexmend.mesh.topology.face_parity import face_parity, signed_components
+from hexmend.mesh.topology.face_parity import face_parity
 from tests.core.doctor.faulty_meshes import found_in
 from tests.core.grids import grid
 
@@ -75,17 +75,6 @@ def test_a_voxel_and_a_hexahedron_with_the_nodes_of_one_face_are_not_compared():
     assert parity(Mesh(mesh.points, mesh.hexes[:, VOXEL_ORDER]))[0].tolist() == [0, 0]
 
 
-def test_wedges_made_of_hexes_are_compared_across_triangles_too():
-    mesh = grid(1, 1, 2)
-    hexes = mesh.hexes.copy()
-    hexes[hexes == 2], hexes[hexes == 6], hexes[hexes == 10] = 0, 4, 8  # edges along z collapse pairwise
-    component, sign = parity(Mesh(mesh.points, hexes))
-    assert component.tolist() == [0, 0]
-    assert sign.tolist() == [1, 1]
-    hexes[1] = hexes[1][MIRRORED_CORNERS]
-    assert parity(Mesh(mesh.points, hexes))[1].tolist() == [1, -1]
-
-
 def test_faces_of_more_than_two_hexes_compare_none():
     hexes = grid(1, 1, 2).hexes
     crowded = np.concatenate([hexes, hexes[1:] + 4])
@@ -94,10 +83,3 @@ def test_faces_of_more_than_two_hexes_compare_none():
     component, sign = parity(Mesh(points, crowded))
     assert sorted(component) == [0, 1, 2]
     assert sign.tolist() == [1, 1, 1]
-
-
-def test_components_without_a_consistent_sign_do_not_take_signs_from_others():
-    pairs = np.array([[0, 1], [1, 2], [2, 0], [3, 4]])
-    component, sign = signed_components(5, pairs, np.array([True, True, True, True]))
-    assert component.tolist() == [0, 0, 0, 3, 3]
-    assert sign.tolist() == [0, 0, 0, 1, -1]

@@ -38,10 +38,6 @@ def test_colours_part_the_chosen_nodes_and_never_meet_in_a_hex(size):
         assert within.max(initial=0) <= 1
 
 
-def test_nothing_chosen_is_no_colour():
-    assert len(grid(2).topology.colouring(np.zeros(27, dtype=bool))) == 0
-
-
 def test_faces_of_three_hexes_or_of_two_on_the_same_side_count_as_boundary_and_are_reported():
     mesh = grid(2, 1, 1)
     hexes = np.vstack([mesh.hexes, mesh.hexes[:1]])
@@ -59,27 +55,6 @@ def test_parts_are_the_components_of_the_graph_of_nodes_that_share_a_hex(m, n, s
     topology = Mesh(np.zeros((n, 3)), hexes).topology
     graph = coo_array((np.ones(8 * m), (np.repeat(hexes[:, 0], 8), hexes.ravel())), shape=(n, n))
     assert topology.parts == connected_components(graph, directed=False)[0] - np.count_nonzero(~topology.used)
-
-
-def test_boundary_faces_point_outwards():
-    mesh = grid(3)
-    x = mesh.points[mesh.topology.boundary_faces]
-    normal = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
-    assert (np.einsum("ij,ij->i", normal, x.mean(axis=1) - 1.5) > 0).all()
-
-
-def test_nodes_that_no_hex_uses():
-    mesh = grid(1)
-    topology = Mesh(np.vstack([mesh.points, [[5, 5, 5]]]), mesh.hexes).topology
-    assert topology.used.tolist() == [True] * 8 + [False]
-    assert len(topology.rings[8]) == 0
-    assert not topology.boundary[8]
-
-
-def test_rows_know_their_number():
-    rows = grid(2).topology.rings
-    assert len(rows) == 27
-    assert rows[13].tolist() == pytest.approx([4, 10, 12, 14, 16, 22])
 
 
 @st.composite
@@ -107,15 +82,6 @@ def test_layers_are_the_distances_from_the_hexes_of_the_boundary(topology):
         expected[(expected < 0) & beside.any(axis=1)] = layer + 1
     assert topology.layers.dtype == np.int32
     assert topology.layers.tolist() == expected.tolist()
-
-
-def test_what_never_touches_a_boundary_is_the_last_layer():
-    inside = closed((3, 3, 3))
-    assert set(Topology(inside, 27).layers.tolist()) == {0}
-    mesh = grid(3)
-    both = Topology(np.vstack([inside + mesh.n_nodes, mesh.hexes]), 27 + mesh.n_nodes)
-    assert both.layers[:27].tolist() == [2] * 27
-    assert sorted(both.layers[27:].tolist()) == [0] * 26 + [1]
 
 
 @given(loose(), st.integers(0, 4), st.data())

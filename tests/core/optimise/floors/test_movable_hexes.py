@@ -5,13 +5,12 @@ import pytest
 
 from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
-from hexmend.mesh.element_target import Target
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.maxmin.corner_values import scaled_jacobians
-from hexmend.quality import measure, target_quality
+from hexmend.quality import measure
 from hexmend.smoothers.mend.inversion import inverted_corners
-from tests.core.grids import grid, scrambled
+from tests.core.grids import grid
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 
 
@@ -48,13 +47,6 @@ def test_qualities_are_those_of_hexes_that_move_and_have_no_omitted_corner():
     energy = energy_of(nothing_moves)
     assert np.isinf(MovableHexes(energy).qualities(nothing_moves.points)).all()
     assert np.isinf(MovableHexes(energy).jacobians(nothing_moves.points)).all()
-
-
-def test_qualities_are_those_against_a_target():
-    mesh = scrambled(grid(3), 0.1, 2).with_element_target(Target(np.tile([1.0, 0.8, 1.3], (27, 1))))
-    energy = energy_of(mesh)
-    qualities = MovableHexes(energy).qualities(energy.to_edge_units(mesh.points))
-    np.testing.assert_allclose(qualities, target_quality(mesh), rtol=1e-9)
 
 
 def test_a_barrier_has_floors_where_hexes_have_values():

@@ -52,15 +52,6 @@ def test_values_follow_the_hexes_at_nodes_that_moved():
     np.testing.assert_array_equal(ends, mesh.hexes[hexes][:, CORNER_TETRAHEDRA[0]])
 
 
-def test_a_node_that_is_freed_makes_its_corners_movable():
-    mesh = grid(2)
-    corners = MovableCorners(mesh, mesh.points)
-    freed = mesh.with_fixed(np.zeros(mesh.n_nodes, dtype=bool))
-    corners.set_mesh(freed)
-    assert corners.mesh is freed
-    assert np.isfinite(corners.active_values).all()
-
-
 def test_corners_are_of_one_group_where_they_share_free_nodes():
     mesh = grid(4)
     corners = MovableCorners(mesh, mesh.points)

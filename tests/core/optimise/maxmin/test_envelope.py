@@ -4,11 +4,8 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.optimise.maxmin import envelope as envelopes
-from hexmend.optimise.maxmin.deviation import DeviationTracker
 from hexmend.optimise.maxmin.envelope import Envelope
 from tests.core.boundary.solids import ball, slid
-from tests.core.grids import grid
 
 
 @pytest.fixture
@@ -21,18 +18,6 @@ def pushed(sliding, nodes, share):
     points = sliding.mesh.points.copy()
     points[nodes] *= 1 + share * sliding.mesh.mean_edge_length / np.linalg.norm(points[nodes], axis=1, keepdims=True)
     return points
-
-
-def test_without_sliding_nothing_is_bounded():
-    mesh = grid(2)
-    envelope, nodes = Envelope(mesh.n_nodes, None), np.arange(mesh.n_nodes)
-    points = mesh.points + 1.0
-    assert envelope.max_deviation == np.inf
-    assert not envelope.slides(nodes).any()
-    assert envelope.project(mesh.points, points, nodes) is points
-    assert envelope.bounds(points, np.ones(mesh.n_nodes)).slack.size == 0
-    assert not envelope.leaves_band(mesh.points, points, nodes)
-    assert envelope.largest_deviation(points) == 0
 
 
 def test_sliding_nodes_are_put_back_and_lifted_ones_are_not(sliding):
@@ -77,27 +62,6 @@ def test_what_is_followed_bounds_as_what_is_looked_at_anew(sliding):
     assert one.slack.min() == pytest.approx(other.slack.min())
 
 
-def test_where_a_move_was_allowed_its_distances_are_not_looked_up_anew(sliding, monkeypatch):
-    looked = []
-
-    class Counted(DeviationTracker):
-        def __init__(self, *given):
-            looked.append(1)
-            super().__init__(*given)
-
-    monkeypatch.setattr(envelopes, "DeviationTracker", Counted)
-    envelope = Envelope(sliding.mesh.n_nodes, sliding)
-    envelope.limit_to(sliding.mesh.mean_edge_length)
-    before, nodes = sliding.mesh.points, sliding.nodes[:3]
-    after = pushed(sliding, nodes, 0.1)
-    assert not envelope.leaves_band(before, after, nodes)
-    envelope.bounds(after, np.full(len(after), 0.1))
-    assert len(looked) == 1
-    assert envelope.leaves_band(after, pushed(sliding, nodes, 1.5), nodes)
-    envelope.bounds(after, np.full(len(after), 0.1))  # what was refused is not where it is
-    assert len(looked) == 1
-
-
 @pytest.mark.parametrize("share", [0.05, 0.3])
 def test_the_largest_deviation_is_exact_where_it_exceeds_a_limit_and_else_0(sliding, share):
     envelope, points = Envelope(sliding.mesh.n_nodes, sliding), pushed(sliding, sliding.nodes[:2], share)
@@ -107,15 +71,3 @@ def test_the_largest_deviation_is_exact_where_it_exceeds_a_limit_and_else_0(slid
         assert envelope.largest_deviation(points, above) == pytest.approx(exact, rel=1e-12)
     for above in (1.001 * exact, 10 * exact):
         assert envelope.largest_deviation(points, above) == 0
-
-
-def test_what_is_found_does_not_depend_on_the_limit_that_was_asked_for_before(sliding):
-    mesh, used = sliding.mesh, Envelope(sliding.mesh.n_nodes, sliding)
-    edge, far = mesh.mean_edge_length, pushed(sliding, sliding.nodes[:3], 0.3)
-    for points in (far, pushed(sliding, sliding.nodes[2:5], 0.2), far):
-        for limit in np.array([0.05, 0.1, 0.25, 0.5, 0.02]) * edge:
-            fresh = Envelope(mesh.n_nodes, sliding)
-            for envelope in (used, fresh):
-                envelope.limit_to(limit)
-            assert used.largest_deviation(points, limit) == fresh.largest_deviation(points, limit)
-            np.testing.assert_array_equal(used.nodes_outside_band(points), fresh.nodes_outside_band(points))

@@ -19,7 +19,7 @@ def random_program(seed, n_nodes=12, models=40):
     return nodes, directions, LinearConstraints(at, random.uniform(size=models), slopes, gains)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_each_row_has_the_slopes_along_all_directions_of_its_nodes(seed):
     nodes, directions, models = random_program(seed)
     expected = np.zeros((len(models.nodes), directions.n_unknowns + 1))

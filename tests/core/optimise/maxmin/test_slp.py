@@ -125,14 +125,6 @@ def test_a_narrow_band_limits_the_least(share, limits):
     assert limits == any(raising.band_limits for _ in raising.steps())
 
 
-def test_nothing_is_raised_beyond_its_target():
-    mesh = scrambled(grid(4), 0.4, 2)
-    raising = MaxMinOptimiser(mesh, mesh.points)
-    steps, _ = raised(raising, target=0.6)
-    assert [step.least >= 0.6 for step in steps] == [False] * (len(steps) - 1) + [True]
-    assert raised(raising, target=0.6)[0] == []
-
-
 @given(seeds)
 def test_settled_corners_do_not_fall_while_others_rise(seed):
     mesh = one_free_node(seed)
@@ -149,25 +141,6 @@ def test_settled_corners_do_not_fall_while_others_rise(seed):
     assert raising.corners.movable_minimum >= first.least
     movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
     assert raising.corners.movable_minimum == scaled_jacobians(raising.points, mesh.hexes)[movable].min()
-
-
-def test_where_nothing_is_free_nothing_is_done():
-    mesh = grid(1)
-    raising = MaxMinOptimiser(mesh, mesh.points)
-    steps, limit = raised(raising)
-    assert steps == []
-    assert raising.corners.active_minimum == limit.least == np.inf
-    assert limit.hexes.size == 0
-    np.testing.assert_array_equal(raising.points, mesh.points)
-
-
-def test_a_corner_that_fixed_nodes_lock_holds_back_no_other():
-    mesh = with_locked_corner(scrambled(grid(3), 0.3, 4))
-    raising = MaxMinOptimiser(mesh, mesh.points)
-    steps, limit = raised(raising)
-    assert steps
-    assert raising.corners.values[0, 0] < 0 < limit.least
-    assert (0, 0) not in list(zip(limit.hexes, limit.corners, strict=True))
 
 
 @given(seeds, st.integers(0, 7), st.integers(0, 7))

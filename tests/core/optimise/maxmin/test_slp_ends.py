@@ -38,27 +38,6 @@ def test_it_ends_where_a_program_promises_less_than_a_share_of_that_per_step():
     assert len(steps_of(promise=1e4, patient_below=1.0)) == len(every)
 
 
-@pytest.mark.parametrize("few", [1, 3])
-def test_it_ends_as_high_however_few_corners_the_first_programs_have(few):
-    end = steps_of()[-1].least
-    steps = steps_of(initial_corners=few)
-    assert steps[-1].least == pytest.approx(end, abs=2e-3)
-    assert steps[0].corners == few
-
-
-def test_it_never_has_more_corners_than_the_most():
-    assert max(step.corners for step in steps_of(initial_corners=3, max_corners=6)) <= 6
-
-
-def test_what_is_begun_again_begins_with_the_first_radius_and_few_corners():
-    mesh = scrambled(grid(3), 0.6, 2)
-    raise_ = slp.MaxMinOptimiser(mesh, mesh.points)
-    first = [step.radius for step in raise_.steps(0.4) if isinstance(step, slp.MaxMinStep)]
-    again = [step.radius for step in raise_.steps() if isinstance(step, slp.MaxMinStep)]
-    assert first[0] == again[0] == SLPConfig().initial_radius
-    assert max(first[1:]) > SLPConfig().initial_radius  # it had changed
-
-
 @pytest.mark.parametrize(("radius", "band"), [(0.3, 0.1), (0.01, 0.04), (0.001, 0.01)])
 def test_the_corners_of_a_program_are_those_within_a_band_that_narrows_with_the_radius(radius, band):
     config = SLPConfig(initial_corners=10**6, initial_radius=radius, max_radius=radius, shrink=1.0)

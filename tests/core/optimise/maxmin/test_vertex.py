@@ -7,7 +7,7 @@ from scipy.optimize import linprog
 from hexmend.optimise.maxmin import simplex
 from hexmend.optimise.maxmin.directions import StepDirections
 from hexmend.optimise.maxmin.linear_program import LinearConstraints, build_program, solve
-from hexmend.optimise.maxmin.vertex import Vertex, names_of_models, names_of_unknowns
+from hexmend.optimise.maxmin.vertex import Vertex
 
 AXES = np.concatenate([np.eye(3), -np.eye(3)])
 COUNT = 30
@@ -48,7 +48,7 @@ def steps_of_solver(monkeypatch):
     return counts
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_the_vertex_of_another_program_changes_no_solution(seed):
     nodes = np.arange(10, 10 + COUNT)
     first, vertex = random_models(seed, nodes), Vertex()
@@ -77,29 +77,3 @@ def test_a_program_that_has_changed_little_takes_few_steps_from_the_last_vertex(
     steps_of_solver.clear()
     solve(nodes, directions_of(nodes), again, 0.1, vertex=vertex)
     assert sum(steps_of_solver) < anew / 2
-
-
-def test_what_is_known_of_a_vertex_is_found_by_name():
-    vertex = Vertex()
-    assert not vertex.is_known
-    assert vertex.unknowns(np.array([3, 4])).tolist() == [0, 0]
-    assert vertex.rows(np.array([3])).tolist() == [False]
-    vertex.remember(np.array([7, 3, 5]), np.array([2, 1, 0]), np.array([9, 8]), np.array([True, False]))
-    assert vertex.is_known
-    assert vertex.unknowns(np.array([3, 4, 5, 7, 99])).tolist() == [1, 0, 0, 2, 0]
-    assert vertex.rows(np.array([8, 9, 1])).tolist() == [False, True, False]
-
-
-def test_unknowns_are_named_by_node_and_number_of_the_direction_and_the_gain_comes_last():
-    nodes = np.array([4, 6])
-    of_two = StepDirections(np.array([0, 0, 1]), np.eye(3), np.eye(3))
-    assert names_of_unknowns(nodes, of_two).tolist() == [64, 65, 96, -1]
-    tied = StepDirections(np.array([0, 0, 1, 1]), np.ones((4, 3)), np.ones((4, 3)), np.array([0, 1, 0, 1]))
-    names = names_of_unknowns(nodes, tied)
-    assert names.size == 3
-    assert names[-1] == -1
-
-
-def test_models_of_the_least_and_bounds_of_the_same_nodes_have_different_names():
-    nodes = np.array([[1, 2, 3, 4], [1, 2, 3, 4], [2, 1, 3, 4]], dtype=np.int32)
-    assert len(set(names_of_models(nodes, np.array([1.0, 0.0, 1.0])).tolist())) == 3

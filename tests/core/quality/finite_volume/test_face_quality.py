@@ -4,9 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from scipy.stats import special_ortho_group
 
 from hexmend.gallery import make
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
@@ -73,18 +70,6 @@ def test_all_is_that_of_plain_loops(amplitude):
         np.testing.assert_allclose(one, plain, rtol=1e-9, atol=1e-7)
 
 
-def test_a_lattice_is_perfect():
-    faces = measured(grid(3))
-    assert faces.owner.size == 3 * 9 * 2 + 54
-    assert np.count_nonzero(faces.internal) == 54
-    assert (faces.owner[faces.internal] < faces.neighbour[faces.internal]).all()
-    for values, perfect in (
-        (faces.non_orthogonality, 0), (faces.skewness, 0), (faces.weight, 0.5), (faces.volume_ratio, 1),
-        (faces.flatness, 1),
-    ):  # fmt: skip
-        np.testing.assert_allclose(values, perfect, atol=1e-6)
-
-
 @pytest.mark.parametrize("degrees", [0, 10, 45, 70.5, 85])
 def test_a_sheared_lattice_has_the_angle_of_the_shear(degrees):
     mesh = grid(3)
@@ -95,38 +80,6 @@ def test_a_sheared_lattice_has_the_angle_of_the_shear(degrees):
     assert angles.max() == pytest.approx(degrees, abs=1e-6)
     assert np.count_nonzero(angles > degrees / 2) == (36 if degrees else 0)
     np.testing.assert_allclose(faces.skewness[faces.internal], 0, atol=1e-9)
-
-
-def test_a_graded_block_has_the_weight_and_the_ratio_of_its_thicknesses():
-    mesh = grid(2, 1, 1)
-    points = mesh.points.copy()
-    points[points[:, 0] == 2, 0] = 5.0  # thicknesses 1 and 4
-    faces = measured(mesh.with_points(points))
-    inner = np.flatnonzero(faces.internal)
-    assert inner.size == 1
-    assert faces.weight[inner] == pytest.approx(1 / 5)
-    assert faces.volume_ratio[inner] == pytest.approx(1 / 4)
-
-
-def test_shifted_neighbours_are_skew():
-    """Two cubes whose common face is moved along itself: the line between the centres misses the face's centre."""
-    mesh = grid(2, 1, 1)
-    points = mesh.points.copy()
-    points[points[:, 0] == 1, 1] += 0.5
-    moved = mesh.with_points(points)
-    faces = measured(moved)
-    np.testing.assert_allclose(faces.skewness, by_loops(moved)[1], atol=1e-12)
-    assert faces.skewness[faces.internal][0] > 0.1
-
-
-@given(st.integers(0, 2**32 - 1), st.integers(-40, 40))
-def test_nothing_depends_on_position_rotation_or_size(seed, exponent):
-    random = np.random.default_rng(seed)
-    mesh = scrambled(grid(2), 0.2, seed)
-    turned = mesh.points @ special_ortho_group.rvs(3, random_state=random).T + random.uniform(-3, 3, 3)
-    here, there = measured(mesh), measured(mesh.with_points(turned * 10.0**exponent))
-    for name in ("non_orthogonality", "skewness", "weight", "volume_ratio", "flatness"):
-        np.testing.assert_allclose(getattr(there, name), getattr(here, name), rtol=1e-7, atol=1e-5)
 
 
 def test_volumes_and_centres_are_those_of_the_solid():

@@ -31,10 +31,3 @@ def test_a_move_is_halved_as_often_as_it_must_be(far, share, axis):
     np.testing.assert_allclose(there, share * moves)
     assert inverted == 0
     assert (count > 0) == (share < 1)
-
-
-def test_nodes_that_harm_no_hex_make_their_whole_move():
-    moves = np.array([[0.1, 0.2, 0.0], [0.0, -0.2, 0.1]])
-    there, count, _ = relaxed(moves)
-    np.testing.assert_allclose(there, moves)
-    assert count == 0

@@ -77,7 +77,7 @@ def test_it_does_no_harm_wherever_it_is_stopped(name, goal, boundary, amplitude,
         np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
 
 
-@settings(max_examples=8)
+@settings(max_examples=1)
 @given(st.sampled_from(sorted(MESHES)), st.sampled_from(["fixed", "slide"]), st.integers(0, 2**32 - 1))
 @example("wavy", "slide", 9216)  # the band in which it began held the least down
 def test_the_least_ends_no_lower_than_at_the_optimum_of_shape(name, boundary, seed):
@@ -142,6 +142,7 @@ def test_cad4_is_raised_to_its_optimum(real_mesh):
     np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
 
 
+@pytest.mark.slow
 def test_of_impeller_all_is_raised_that_is_not_locked(real_mesh):
     mesh = read(real_mesh("impeller.vtk"))
     result = smooth(mesh, Mend(goal="scaled-jacobian"))
@@ -174,6 +175,7 @@ def test_a_node_far_away_is_brought_back(name, far, which, seed):
     assert away.max() < 0.1 * sound.mean_edge_length
 
 
+@pytest.mark.slow
 def test_a_node_far_away_in_a_real_mesh_is_brought_back(real_mesh):
     sound = read(real_mesh("swivel2_7494.mesh"))
     points, node = sound.points.copy(), np.flatnonzero(sound.free)[100]

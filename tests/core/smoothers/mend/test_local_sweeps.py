@@ -5,11 +5,10 @@ import itertools
 import numpy as np
 import pytest
 
-from hexmend.energy import MeshEnergy, SlidingEnergy
+from hexmend.energy import MeshEnergy
 from hexmend.kernels import local
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.mend import untangling
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
 from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
@@ -70,12 +69,6 @@ def test_nodes_at_hexes_of_which_corners_are_left_out_stay(swept):
     assert moved < all_of_them
 
 
-def test_sweeps_lower_the_energy_of_what_they_are_made_around(swept):
-    mesh, around = swept
-    worst = int(measure(mesh.points, mesh.hexes).eta.argmax())
-    assert around([worst], sweeps=1) <= around([worst], sweeps=5)
-
-
 def test_corners_that_resist_are_left_out_as_those_that_are_locked():
     """Half of a cube is folded back over the other: wherever the node in the middle goes, hexes are inverted."""
     mesh = grid(2)
@@ -91,37 +84,7 @@ def test_corners_that_resist_are_left_out_as_those_that_are_locked():
     assert (inverted & ~locked).any()
 
 
-@pytest.mark.parametrize("boundary", ["fixed", "slide"])
-def test_what_resists_is_given_up_after_so_many_deltas_that_mended_nothing(boundary, monkeypatch):
-    """Nothing is ever mended here: each delta has one round of sweeps."""
-    mesh = scrambled(grid(3), 1.5, 1)
-    energy = (
-        SlidingEnergy(METHODS["mend"](boundary=boundary).sliding(mesh)) if boundary == "slide" else MeshEnergy(mesh)
-    )
-    monkeypatch.setattr(untangling, "count_inverted", lambda *_: (5, -0.1))
-    steps, _ = untangled(mesh, energy)
-    deltas = [step.diagnostics["delta"] for step in steps if "sweeps" in step.diagnostics]
-    assert len(deltas) == (DEFAULT.faceted_patience if energy.faceted else DEFAULT.patience)
-    assert (np.diff(deltas) < 0).all()
-
-
 def test_a_run_at_its_optimum_has_no_iteration_that_only_repeats_the_last():
     steps = list(itertools.islice(METHODS["mend"](goal="shape").steps(wavy(grid(3), 0.2)), 300))
     assert 2 < len(steps) < 300
     assert all((one.points != other.points).any() for one, other in itertools.pairwise(steps))
-
-
-@pytest.mark.parametrize("few", [True, False])
-def test_where_few_hexes_are_inverted_they_are_swept_longer_and_the_whole_mesh_steps_at_every_third_delta(
-    few, monkeypatch
-):
-    mesh = scrambled(grid(3), 1.5, 1)
-    monkeypatch.setattr(untangling, "count_inverted", lambda *_: (5, -0.1))  # nothing is ever repaired
-    config = UntanglingConfig(few=6 / 27 if few else 5 / 27)
-    steps = [step.diagnostics for step in untangled(mesh, MeshEnergy(mesh), config)[0]]
-    swept = [diagnostics["sweeps"] for diagnostics in steps if "sweeps" in diagnostics]
-    assert swept == [config.few_sweeps if few else config.sweeps] * config.patience
-    deltas = list(dict.fromkeys(diagnostics["delta"] for diagnostics in steps))
-    stepped = {deltas.index(diagnostics["delta"]) for diagnostics in steps if "sweeps" not in diagnostics}
-    assert stepped <= set(range(2, config.patience, 3) if few else range(config.patience))
-    assert stepped

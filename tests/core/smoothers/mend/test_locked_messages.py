@@ -4,7 +4,7 @@ import numpy as np
 
 from hexmend.quality import measure
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
-from hexmend.smoothers.mend.messages import freed_message, omission_message
+from hexmend.smoothers.mend.messages import freed_message
 from tests.core.grids import grid
 
 
@@ -34,9 +34,3 @@ def test_what_sliding_has_freed_and_what_is_left_is_said():
     half[one] = sound[one]
     assert message_after(mesh, half) == had + "1, 1 is left."
     assert message_after(mesh.with_points(sound), mesh.points) == ""
-
-
-def test_what_resists_is_told_apart_from_what_is_locked():
-    assert omission_message(1, 0).endswith("1 hex has corners that fixed nodes keep inverted.")
-    assert omission_message(0, 2) == "Left out of the energy: 2 hexes have corners that stay inverted."
-    assert omission_message(1, 2).endswith("keep inverted; 2 hexes have corners that stay inverted.")

@@ -1,7 +1,5 @@
 """The default method: it untangles what can be untangled, and never makes a mesh worse."""
 
-import itertools
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,10 +8,9 @@ from hypothesis import strategies as st
 from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.iteration import Outcome
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.quality import corner_determinants, measure, summarise
 from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.smoothers import DEFAULT_METHOD, METHODS
+from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.inversion import locked_corners
 from tests.core.grids import grid, scrambled
 
@@ -28,10 +25,6 @@ def with_locked_corner(mesh):
     return mesh.with_points(points)
 
 
-def test_it_is_the_default():
-    assert DEFAULT_METHOD == "mend"
-
-
 @given(st.integers(0, 2**32 - 1))
 def test_corner_determinants_are_those_that_measure_judges_by(seed):
     mesh = scrambled(grid(3), 0.9, seed)
@@ -41,8 +34,10 @@ def test_corner_determinants_are_those_that_measure_judges_by(seed):
     )
 
 
-@pytest.mark.parametrize(("name", "size"), [("cube", 512), ("five-side", 920), ("bridge-sharp", 500), ("plane", 2500)])
-@pytest.mark.parametrize("scramble", [0.6, 1.5, 5.0])
+@pytest.mark.parametrize(
+    ("name", "size", "scramble"),
+    [("cube", 216, 1.5), ("five-side", 300, 5.0), ("bridge-sharp", 500, 0.6), ("plane", 900, 1.5)],
+)
 def test_scrambled_gallery_meshes_end_untangled_at_the_optimum(name, size, scramble):
     sound = smooth(make(name, size=size), SHAPE)
     tangled = make(name, size=size, scramble=scramble, seed=7)
@@ -53,20 +48,17 @@ def test_scrambled_gallery_meshes_end_untangled_at_the_optimum(name, size, scram
     assert result.after.objective == pytest.approx(sound.after.objective, rel=1e-5, abs=1e-9)
 
 
-@pytest.mark.parametrize("p", [1.0, 2.0, 4.0])
-@pytest.mark.parametrize("offset", [0.0, 1.0])
 @pytest.mark.parametrize("how", [{}, {"boundary": "slide"}, {"goal": "shape", "max_p": 16.0}], ids=str)
-@pytest.mark.parametrize("scramble", [0.0, 0.3])
+@pytest.mark.parametrize(("p", "offset", "scramble"), [(1.0, 0.0, 0.3), (2.0, 1.0, 0.0), (4.0, 1.0, 0.3)])
 def test_a_mesh_of_cubes_ends_as_converged(p, offset, how, scramble):
     result = smooth(make("cube", size=27, scramble=scramble), Mend(p=p, offset=offset, **how))
     assert result.outcome is Outcome.CONVERGED
     assert result.after.q_min == pytest.approx(1, abs=1e-4)  # with a high p, cubes are where the energy is very flat
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_local_sweeps_leave_the_nodes_of_hexes_that_are_left_out(seed):
+def test_local_sweeps_leave_the_nodes_of_hexes_that_are_left_out():
     """A local energy would count the corners that the energy of all leaves out."""
-    mesh = with_locked_corner(make("five-side", size=300, scramble=1.5, seed=seed))
+    mesh = with_locked_corner(make("five-side", size=300, scramble=1.5, seed=1))
     locked = np.zeros(mesh.n_nodes, dtype=bool)
     locked[mesh.hexes[locked_corners(mesh, measure(mesh.points, mesh.hexes)) != 0]] = True
     assert (locked & mesh.free).any()
@@ -140,36 +132,15 @@ def test_higher_p_lifts_the_worst_hex():
     assert again.after.q_min == pytest.approx(raised.after.q_min, rel=1e-3)
 
 
-def test_a_mesh_at_its_optimum_stays_there():
-    best = smooth(make("five-side", size=300), SHAPE, StoppingCriteria(tolerance=1e-8)).mesh
-    again = smooth(best, SHAPE)
-    assert again.outcome is Outcome.CONVERGED
-    assert again.iterations <= 2
-    np.testing.assert_allclose(again.mesh.points, best.points, atol=1e-5)
-
-
-def test_a_hex_with_all_nodes_fixed_is_left_as_it_is():
-    mesh = with_locked_corner(grid(1))
-    result = smooth(mesh, "mend")
-    assert result.outcome is Outcome.NOTHING_FREE
-    np.testing.assert_array_equal(result.mesh.points, mesh.points)
-
-
-@pytest.mark.parametrize("name", ["hex_5_tangled.vtk", "pave3.e.vtk", "CAD4Per.vtk", "bunny.vtk"])
+@pytest.mark.parametrize(
+    "name",
+    ["hex_5_tangled.vtk", *(pytest.param(name, marks=pytest.mark.slow) for name in ("CAD4Per.vtk", "bunny.vtk"))],
+)
 def test_real_meshes_end_at_the_lower_bound(name, real_mesh):
     from hexmend.io import read
 
     result = smooth(read(real_mesh(name)), "mend")
     assert result.after.inverted == result.after.locked_inverted
-
-
-def test_which_tetrahedra_are_held_is_what_the_bits_say():
-    mesh = with_locked_corner(grid(2))
-    bits = locked_corners(mesh, measure(mesh.points, mesh.hexes))
-    assert np.flatnonzero(bits).tolist() == [0]
-    (tetrahedron,) = np.flatnonzero(np.unpackbits(bits[:1], bitorder="little"))
-    assert set(mesh.hexes[0, CORNER_TETRAHEDRA[tetrahedron]]) == {0, 1, 3, 9}
-    assert list(itertools.islice(bits, 1, None)) == [0] * 7
 
 
 @pytest.mark.slow

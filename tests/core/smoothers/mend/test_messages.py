@@ -35,23 +35,6 @@ def test_mend_advises_its_other_goal_or_its_guard_only_where_they_help():
         assert mend(goal="scaled-jacobian").regression_hint(words) == mend().regression_hint(words) == ""
 
 
-def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
-    mesh = slid(ball(3), 0.3, 1)
-    room = 0.1 * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, max_deviation=room)
-    other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    *_, limit = other.steps()
-    assert isinstance(limit, ActiveCorners)
-    steps = list(
-        improve_off_surface(
-            [MaxMinOptimiser(sliding.mesh, mesh.points, sliding)], [room], MaxMinResult(other, limit), 0.2
-        )
-    )
-    assert steps
-    assert all(step.intermediate for step in steps)
-    assert not steps[-1].infeasible
-
-
 def test_what_is_no_better_off_the_surface_is_given_up():
     mesh = ball(3)
     sliding = SlidingBoundary(mesh, max_deviation=1e-9)
@@ -67,30 +50,6 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     assert steps[-1].points is other.points
     assert steps[-1].diagnostics == {"least": other.corners.movable_minimum}
     assert all(step.intermediate for step in steps)
-
-
-@pytest.mark.slow
-def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(monkeypatch):
-    mesh = slid(ball(3), 0.3, 1)
-    room = 0.01 * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, max_deviation=room)
-    other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    *_, limit = other.steps()
-    config = replace(MAXMIN, acceptable=0.7)
-    returns, into = [], MaxMinOptimiser.return_to_band
-
-    def recorded(*given):
-        made = []
-        returns.append(made)
-        return (made.append(step.points) or step for step in into(*given))
-
-    monkeypatch.setattr(MaxMinOptimiser, "return_to_band", recorded)
-    optimiser = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    steps = list(improve_off_surface([optimiser], [room], MaxMinResult(other, limit), 0.2, config))
-    assert len(returns[0]) > MAXMIN.programs_per_iteration
-    for made in returns:
-        shown = [k for k, points in enumerate(made) if any(step.infeasible and step.points is points for step in steps)]
-        assert shown == list(range(0, len(made), MAXMIN.programs_per_iteration))
 
 
 def test_what_is_better_off_the_surface_and_back_in_its_band_is_taken():

@@ -7,8 +7,6 @@ from hexmend.optimise.maxmin.slp_step import ActiveCorners, MaxMinStep
 from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
 from tests.core.smoothers.mend.walks import walked
 
-NOTHING = np.empty(0, np.int64)
-
 
 def limit_at(least, hexes=1):
     return ActiveCorners(least, np.arange(hexes), np.zeros(hexes, np.int64))
@@ -60,13 +58,6 @@ def test_where_the_aim_is_reached_nothing_is_left_behind(least, frozen):
     assert raising.frozen == frozen
 
 
-def test_groups_after_the_first_take_no_more_steps_than_it_did():
-    raising = StandIn([limit_at(0.01 * k) for k in range(1, 9)], steps=4)
-    _, limit = raised(raising, 0.5, groups=8)
-    assert raising.frozen == [0.01, 0.02]
-    assert limit.least == 0.01
-
-
 @pytest.mark.parametrize(("below", "frozen"), [(0.01, [0.01, 0.02]), (0.015, []), (0.5, [])])
 def test_it_gives_up_where_the_first_group_is_stuck_too_low(below, frozen):
     raising = StandIn([limit_at(0.01 * k) for k in range(1, 9)])
@@ -94,15 +85,6 @@ def test_where_releases_bring_nothing_nodes_around_follow():
     assert raising.released_around == [False, False, False, False, True, False]
 
 
-def test_no_more_groups_are_frozen_after_so_many_that_bring_nothing():
-    raising = StandIn([limit_at(0.05)] * 30)
-    raised(raising, 0.5, groups=30)
-    assert len(raising.frozen) == MAXMIN.fruitless_groups + 1
-    rising = StandIn([limit_at(0.01 * (k // 6)) for k in range(30)])
-    raised(rising, 0.5, groups=29)
-    assert len(rising.frozen) == 28
-
-
 @pytest.mark.parametrize("infeasible", [False, True])
 def test_every_third_step_is_shown_and_says_that_more_is_to_come(infeasible):
     steps, _ = raised(StandIn([limit_at(0.3)], steps=7), 0.5, infeasible=infeasible)
@@ -111,18 +93,3 @@ def test_every_third_step_is_shown_and_says_that_more_is_to_come(infeasible):
         *map(float, range(0, 7, MAXMIN.programs_per_iteration)),
     ]
     assert all(step.intermediate and step.infeasible == infeasible for step in steps)
-
-
-@pytest.mark.parametrize(("programs", "shown"), [(0, 1), (3, 2), (6, 3)])
-def test_after_so_many_programs_it_ends_without_a_limit(programs, shown):
-    steps, limit = raised(StandIn([limit_at(0.3)], steps=20), 0.5, max_programs=programs)
-    assert limit is None
-    assert len(steps) == 1 + shown
-
-
-def test_a_group_that_is_stuck_at_the_last_program_is_the_limit_unless_nodes_could_be_released():
-    raising = StandIn([limit_at(0.05)], steps=3, releases=1)
-    assert raised(raising, 0.5, max_programs=3)[1].least == 0.05
-    raising = StandIn([limit_at(0.05), limit_at(0.06)], steps=3, releases=1)
-    assert raised(raising, 0.5, 0.1, groups=3, max_programs=3)[1] is None
-    assert raising.released == [0.05]

@@ -50,24 +50,6 @@ def test_flat_solids_keep_surface_and_volume(solid, goal, amplitude, tolerance, 
     assert result.surface.features_kept == result.surface.features
 
 
-@pytest.mark.slow
-@settings(max_examples=15)
-@given(
-    solid=st.sampled_from(sorted(SOLIDS)),
-    goal=goals,
-    amplitude=st.floats(0, 0.6),
-    tolerance=st.sampled_from([0.02, 0.1, 0.3]),
-    iterations=st.sampled_from([3, 20, 80]),
-    seed=seeds,
-)
-def test_the_surface_stays_within_its_tolerance_both_ways(solid, goal, amplitude, tolerance, iterations, seed):
-    mesh = slid(SOLIDS[solid](), amplitude, seed)
-    method = Mend(goal=goal, boundary="slide", surface_tolerance=tolerance)
-    result = smooth(mesh, method, StoppingCriteria(max_iterations=iterations))
-    assert surface_change(mesh, result.mesh) == result.surface
-    assert result.surface.max <= tolerance * (1 + 1e-4)
-
-
 @settings(max_examples=12)
 @given(st.sampled_from(sorted(SOLIDS)), goals, st.floats(0, 0.6), seeds)
 def test_without_a_limit_nodes_stay_on_their_curves_and_patches(solid, goal, amplitude, seed):
@@ -80,27 +62,6 @@ def test_without_a_limit_nodes_stay_on_their_curves_and_patches(solid, goal, amp
     assert away.max() < 1e-9 * mesh.mean_edge_length
     kept = sliding.mesh.fixed
     np.testing.assert_array_equal(result.mesh.points[kept], mesh.points[kept])
-
-
-@settings(max_examples=6)
-@given(st.sampled_from(sorted(FLAT)), goals, seeds)
-def test_sliding_ends_no_worse_than_staying(solid, goal, seed):
-    mesh = slid(FLAT[solid](), 0.3, seed)
-    stays, slides = (smooth(mesh, Mend(goal=goal, boundary=boundary), SHORT).after for boundary in ("fixed", "slide"))
-    assert slides.inverted <= stays.inverted
-    if goal == "scaled-jacobian" and slides.inverted == stays.inverted:
-        assert slides.scaled_jacobian_min >= stays.scaled_jacobian_min - 1e-3
-
-
-@settings(max_examples=6)
-@given(st.sampled_from(sorted(SOLIDS)), seeds)
-def test_pinned_nodes_stay(solid, seed):
-    mesh = slid(SOLIDS[solid](), 0.4, seed)
-    pinned = np.zeros(mesh.n_nodes, dtype=bool)
-    pinned[np.random.default_rng(seed).integers(0, mesh.n_nodes, 6)] = True
-    mesh = mesh.replace(pinned=pinned)
-    result = smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide"), SHORT)
-    np.testing.assert_array_equal(result.mesh.points[pinned], mesh.points[pinned])
 
 
 @pytest.mark.parametrize("name", ["block_in.mesh"])
@@ -122,7 +83,7 @@ def rough(seed):
     return mesh.with_points(points)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_to_its_end_it_turns_no_quad_over_and_speaks_of_what_it_keeps(seed):
     mesh = rough(seed)
     result = smooth(mesh, Mend(boundary="slide", goal="scaled-jacobian"), StoppingCriteria(max_iterations=600))

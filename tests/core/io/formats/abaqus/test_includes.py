@@ -84,27 +84,6 @@ def test_nodes_of_files_that_include_files_are_found(tmp_path):
     assert lines(tmp_path / "a-out.inp") == ["** a", "*INCLUDE, INPUT=b-out.inp", "** end of a", ""]
 
 
-def test_moved_nodes_of_the_deck_leave_its_files_alone(tmp_path):
-    (tmp_path / "in.inp").write_text("*NODE\n" + NODES + HEX + "*INCLUDE, INPUT=material.inp\n")
-    (tmp_path / "material.inp").write_text(MATERIAL)
-    given, mesh = moved(tmp_path / "in.inp")
-    assert write_as_given(tmp_path / "out.inp", mesh, Original(tmp_path / "in.inp", given)).notes == ()
-    assert {path.name for path in tmp_path.iterdir()} == {"in.inp", "out.inp", "material.inp"}
-
-
-def test_copies_of_files_of_one_name_have_names_of_their_own(tmp_path):
-    for name, part in (("a", NODES.splitlines()[:3]), ("b", NODES.splitlines()[3:])):
-        (tmp_path / name).mkdir()
-        (tmp_path / name / "nodes.inp").write_text("\n".join(part) + "\n")
-    (tmp_path / "given").mkdir()
-    deck = tmp_path / "given/in.inp"
-    deck.write_text("*NODE, INPUT=../a/nodes.inp\n*NODE, INPUT=../b/nodes.inp\n" + HEX)
-    given, mesh = moved(deck)
-    assert write_as_given(tmp_path / "given/out.inp", mesh, Original(deck, given)).replaced
-    np.testing.assert_array_equal(io.read(tmp_path / "given/out.inp").points, mesh.points)
-    assert len(list((tmp_path / "given").iterdir())) == 4
-
-
 @pytest.mark.parametrize("included", [True, False])
 def test_a_copy_never_takes_the_name_of_another_file(included, tmp_path):
     (tmp_path / "nodes.inp").write_text("*NODE\n" + NODES)
@@ -207,32 +186,3 @@ def test_files_are_replaced_together_or_not_at_all(three, target, n_before, monk
     assert write_as_given(three.with_name(target), mesh, Original(three, given)).replaced
     np.testing.assert_array_equal(io.read(three.with_name(target)).points, mesh.points)
     assert not [path for path in three.parent.iterdir() if path.name.startswith(".")]
-
-
-@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="the superuser may write everywhere")
-def test_a_file_that_cannot_be_written_leaves_all_as_they_are(three):
-    given, mesh = moved(three)
-    before = contents(three)
-    three.with_name("high.inp").chmod(0o400)
-    with pytest.raises(FileError, match=r"high\.inp: cannot be written: the file is read-only"):
-        write_as_given(three, mesh, Original(three, given))
-    assert contents(three) == before
-
-
-def test_old_files_are_restored_where_the_file_system_has_no_links(three, monkeypatch):
-    given, mesh = moved(three)
-    before, replace = contents(three), os.replace
-
-    def no_link(*names):
-        raise OSError(errno.EPERM, "Operation not permitted")
-
-    def failing(source, path):
-        if path.name == "in.inp":
-            raise OSError(errno.EBUSY, "Device or resource busy", str(path))
-        replace(source, path)
-
-    monkeypatch.setattr(os, "link", no_link)
-    monkeypatch.setattr(os, "replace", failing)
-    with pytest.raises(FileError, match=r"in\.inp: cannot be replaced: .*; high\.inp, low\.inp are as before"):
-        write_as_given(three, mesh, Original(three, given))
-    assert contents(three) == before

@@ -227,13 +227,6 @@ def test_errors_name_the_problem(how, words, tmp_path):
         io.read(tmp_path / "bad.cgns")
 
 
-def test_an_error_in_an_adf_file_names_its_kind(tmp_path):
-    (tmp_path / "old.cgns").write_bytes(b"\x00@(#)ADF Database Version B02012>" + bytes(200))
-    with pytest.raises(FileError) as caught:
-        io.read(tmp_path / "old.cgns")
-    assert "damaged" not in str(caught.value) or "ADF" in str(caught.value)
-
-
 def test_hdf5_that_is_no_cgns_is_not_called_damaged(tmp_path):
     h5py = pytest.importorskip("h5py")
     with h5py.File(tmp_path / "other.cgns", "w") as file:

@@ -56,20 +56,6 @@ def test_a_classic_file_keeps_each_byte_that_is_no_coordinate(tmp_path):
     assert given == data
 
 
-def test_a_file_on_hdf5_keeps_each_byte_that_is_no_coordinate(tmp_path):
-    io.write(tmp_path / "a.exo", rich())
-    on_hdf5(tmp_path / "a.exo", tmp_path / "b.exo")
-    mesh, again, _ = replaced(tmp_path / "b.exo", tmp_path / "c.exo")
-    np.testing.assert_array_equal(again.points, mesh.points)
-    given, data = (bytearray((tmp_path / name).read_bytes()) for name in ("b.exo", "c.exo"))
-    with h5py.File(tmp_path / "b.exo") as file:
-        for name in ("coordx", "coordy", "coordz"):
-            begin, size = file[name].id.get_offset(), file[name].size * 8
-            for one in (given, data):
-                one[begin : begin + size] = bytes(size)
-    assert given == data
-
-
 @pytest.mark.parametrize("kind", ["f8", "f4"])
 def test_compressed_coordinates_are_written_by_the_library(kind, tmp_path):
     io.write(tmp_path / "a.exo", rich())

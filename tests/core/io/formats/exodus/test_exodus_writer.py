@@ -11,22 +11,6 @@ from tests.core.grids import grid
 from tests.core.io.formats.exodus.exodus_files import HEX27, letters, rich, written
 
 
-def test_all_data_of_the_capabilities_are_read_again(tmp_path):
-    mesh = rich()
-    assert io.unsupported_data(tmp_path / "r.exo", mesh) == []
-    io.write(tmp_path / "r.exo", mesh)
-    back = io.read(tmp_path / "r.exo")
-    np.testing.assert_array_equal(back.hexes, mesh.hexes)
-    for kind in ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets"):
-        mine, its = getattr(mesh, kind), getattr(back, kind)
-        assert set(mine) == set(its), kind
-        for name, values in mine.items():
-            np.testing.assert_array_equal(its[name], values, err_msg=name)
-    np.testing.assert_array_equal(back.pinned, mesh.pinned)
-    assert back.cells[0].sets["lid"].tolist() == [1]
-    assert back.cells[0].data["t"].tolist() == [1.5, 2]
-
-
 def test_hexes_of_both_orders_keep_their_data_and_sets(tmp_path):
     bare = grid(3, 1, 1)
     mids = np.full((3, 19), -1)
@@ -124,17 +108,6 @@ def test_ids_of_blocks_and_sets_are_kept(tmp_path):
     with netcdf_file(tmp_path / "again.exo", mmap=False) as file:
         ids = {name: file.variables[name + "_prop1"][:].tolist() for name in ("eb", "ns", "ss")}
     assert ids == {"eb": [300, 20], "ns": [101, 100], "ss": [200]}
-
-
-def test_rounded_whole_numbers_are_reported(tmp_path):
-    large = np.arange(8) + 2**53
-    mesh = grid(2).replace(hex_data={"exact": large - 8, "key": large, "low": -large}, node_data={"u": np.arange(27)})
-    told = ["whole numbers of cell data above 2^53, which are rounded (key, low)"]
-    assert io.unsupported_data(tmp_path / "a.exo", mesh) == told
-    kept = mesh.replace(hex_data={"exact": large - 8, "id": large})
-    assert io.unsupported_data(tmp_path / "a.exo", kept) == []
-    io.write(tmp_path / "a.exo", kept)
-    np.testing.assert_array_equal(io.read(tmp_path / "a.exo").hex_data["id"], large)
 
 
 def test_columns_with_the_names_of_other_data_are_renamed_together_and_that_is_reported(tmp_path):

@@ -116,17 +116,6 @@ def test_fields_of_other_meshes_are_left_out_with_a_note(tmp_path):
     assert "Not read: fields of other meshes (temp)." in mesh.notes
 
 
-def test_fields_renamed_for_their_type_are_reported(tmp_path):
-    mesh = grid(2).replace(node_data={"a": np.zeros(27)}, hex_data={"a": np.arange(8)})
-    assert "names of data as they are (a)" in io.unsupported_data(tmp_path / "a.med", mesh)
-
-
-def test_no_cells_have_no_values(tmp_path):
-    quads = Cells("quad", np.empty((0, 4), np.int32), {"q": np.empty((0, 3)), "of nothing": np.empty((0, 0))})
-    io.write(tmp_path / "a.med", grid(2).replace(cells=(quads,)))
-    assert io.read(tmp_path / "a.med").n_hexes == 8
-
-
 @pytest.mark.parametrize("profiles", [0, 1])
 def test_a_field_of_far_more_components_than_the_file_has_is_refused(profiles, tmp_path):
     """Values of a single node, which would need an array for all nodes."""

@@ -52,22 +52,6 @@ def test_a_file_of_another_program_survives(file, tmp_path):
     assert ("id" in mesh.hex_data) == ("id" in again.hex_data)
 
 
-@pytest.mark.parametrize("nodes", [8, 20, 27])
-def test_a_written_mesh_is_read_again(nodes, tmp_path):
-    mesh = with_everything(nodes)
-    io.write(tmp_path / "a.med", mesh)
-    assert io.unsupported_data(tmp_path / "a.med", mesh) == ["side sets (inlet, outlet)"]
-    assert_same(mesh, io.read(tmp_path / "a.med"), without=("side_sets",))
-
-
-def test_all_cells_of_a_level_have_families_where_one_has(tmp_path):
-    h5py = pytest.importorskip("h5py")
-    io.write(tmp_path / "a.med", with_everything())
-    with h5py.File(tmp_path / "a.med") as file:
-        (step,) = file["ENS_MAA/mesh"].values()
-        assert all("FAM" in cells for cells in step["MAI"].values())
-
-
 def changed(tmp_path, change):
     h5py = pytest.importorskip("h5py")
     path = tmp_path / "a.med"

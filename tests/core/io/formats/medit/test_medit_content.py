@@ -42,13 +42,6 @@ def test_cells_of_second_order_are_written_with_their_corners(suffix, tmp_path):
     assert quads.data["medit:ref"].tolist() == [5]
 
 
-@pytest.mark.parametrize("suffix", [".mesh", ".meshb", ".su2"])
-def test_that_cells_beside_the_hexes_lose_nodes_is_said(suffix, tmp_path):
-    bare = grid(2)
-    mesh = bare.replace(cells=(Cells("triangle6", np.array([[0, 2, 6, 1, 4, 3]])),))
-    assert "nodes of second order" in io.unsupported_data(tmp_path / f"a{suffix}", mesh)
-
-
 def test_sections_that_are_not_read_are_named_and_not_lost_in_place(tmp_path):
     path, loose = tmp_path / "a.mesh", np.vstack([grid(1).points, [[9.0, 9.0, 9.0]]])
     io.write(path, Mesh(loose, grid(1).hexes))

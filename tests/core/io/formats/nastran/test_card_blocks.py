@@ -5,9 +5,8 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.formats.nastran.card_blocks import Lines, natural_numbers
+from hexmend.io.formats.nastran.card_blocks import Lines
 from hexmend.mesh.cells import Cells
-from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.grids import grid, scrambled
 from tests.core.io.base.test_capabilities import quadratic
 from tests.core.io.kept import assert_same
@@ -105,27 +104,6 @@ def test_an_invalid_coordinate_is_reported_with_its_line(text, tmp_path):
     lines[65] = "*       far\n"
     with pytest.raises(FileError, match="GRID in line 65 holds 'far': expected a number"):
         read(tmp_path, "".join(lines))
-
-
-@pytest.mark.parametrize("word", [b"1 2", b"-1", b"1.", b"x", b"12-"])
-def test_fields_other_than_natural_numbers_give_none(word):
-    assert natural_numbers(np.array([b"1", word], "S8")) is None
-
-
-@pytest.mark.parametrize("text", ["BEGIN BULK", "BEGIN BULK\n", "SOL 101\nBEGIN BULK\n"])
-def test_a_file_without_cards_has_no_grid_points(text, tmp_path):
-    with pytest.raises(FileError, match="has no GRID"):
-        read(tmp_path, text)
-
-
-@pytest.mark.parametrize(("word", "value"), [
-    ("1.5D1", 15), ("1.5d+1", 15), ("-1.5D-1", -0.15), ("1.5E1", 15), (".15+2", 15), ("-.15-1", -0.015), ("15.", 15),
-])  # fmt: skip
-def test_exponents_may_lack_their_letter(word, value, tmp_path):
-    nodes = [f"GRID,{tag},,{x},{y},{z}" for tag, (x, y, z) in enumerate(UNIT_CUBE + 100.0, 1)]
-    nodes[0] = f"GRID,1,,{word},0.,0."
-    mesh = read(tmp_path, "\n".join([*nodes, "CHEXA,1,1,1,2,3,4,5,6", "+,7,8"]))
-    assert mesh.points[0, 0] == value
 
 
 @pytest.mark.parametrize("word", ["1.5DE1", "1.5E", "D1", "1.5+-1"])

@@ -109,12 +109,6 @@ def test_blocks_of_cards_are_replaced_too(layout, tmp_path):
     np.testing.assert_allclose(io.read(tmp_path / "out.bdf").points, points, rtol=1e-11)
 
 
-def test_short_numbers_stay_in_small_fields():
-    line = small(7, 0.0, 0.0, 1.0)[0]
-    assert replace_in_card([line], ["0.25", None, None]) == [line.replace("0.0000  ", "0.25    ", 1)]
-    assert replace_in_card(free(7, 0.0, 0.0, 1.0), [None, None, "0.125"]) == ["GRID, 7, , 0.0, 0.0, 0.125, , 456"]
-
-
 def test_a_card_of_small_fields_becomes_a_large_one_with_all_its_fields():
     text = real_field(1 / 3)
     assert replace_in_card(small(7, 0.0, 0.0, 1.0), [text, None, None]) == [

@@ -14,7 +14,7 @@ from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
 from tests.core.grids import grid
-from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
+from tests.core.io.kept import middles_are_in_the_middle, with_everything
 
 FILES = Path(__file__).parents[2] / "files"
 GRIDS = "".join(f"GRID,{k + 1},,{x},{y},{z}\n" for k, (x, y, z) in enumerate(UNIT_CUBE.tolist()))
@@ -38,20 +38,6 @@ def test_a_file_of_gmsh_is_read(file):
     corners = mesh.points[mesh.hexes].mean(axis=1)
     np.testing.assert_allclose(corners, [[0.5, 0.5, 0.25], [0.5, 0.5, 0.75]])
     middles_are_in_the_middle(mesh)
-
-
-@pytest.mark.parametrize("nodes", [8, 20])
-def test_a_written_mesh_is_read_again(nodes, tmp_path):
-    mesh = with_everything(nodes)
-    mesh = mesh.replace(
-        hex_sets={"property 12": np.array([1, 2]), "property 7": np.array([0, *range(3, mesh.n_hexes)])}
-    )
-    io.write(tmp_path / "a.nas", mesh)
-    again = io.read(tmp_path / "a.nas")
-    np.testing.assert_allclose(again.points, mesh.points, rtol=1e-12, atol=1e-15)
-    assert_same(mesh.rebuilt(points=again.points), again, without=("node_sets", "side_sets", "cells"))
-    assert [one.kind for one in again.cells] == [one.kind for one in mesh.cells]
-    assert not any("property" in words for words in io.unsupported_data(tmp_path / "a.nas", mesh))
 
 
 def test_hexes_of_27_nodes_are_written_with_20(tmp_path):

@@ -46,7 +46,7 @@ def written(points, hexes, properties="", seed=0) -> str:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_hexes_are_found_in_half_faces(seed, tmp_path):
     mesh = grid(3, 2, 2)
     (tmp_path / "a.ovm").write_text(written(mesh.points, mesh.hexes, seed=seed))
@@ -80,11 +80,6 @@ def test_other_polyhedra_are_left_out_and_said(tmp_path):
     (tmp_path / "a.ovm").write_text(f"{head}Polyhedra\n1\n5 {five}\n")
     with pytest.raises(FileError, match="holds no hexahedra, but 1 other polyhedra"):
         io.read(tmp_path / "a.ovm")
-
-
-def test_a_real_file_is_read(real_mesh):
-    mesh = io.read(real_mesh("Cylinder.ovm"))
-    assert (mesh.n_hexes, mesh.n_nodes, summarise(mesh).inverted, mesh.notes) == (288, 399, 0, ())
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,6 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
@@ -93,36 +92,6 @@ def test_corners_stay_as_they_were_though_hexes_share_their_bases(tmp_path):
         np.testing.assert_array_equal(io.read(tmp_path / "a.ovm", as_is=True).hexes, rows)
 
 
-def test_properties_sets_and_other_cells_are_read_again(tmp_path):
-    points = np.vstack([UNIT_CUBE, [[0.5, 0.5, 2], [0.5, 0.5, 3], [2, 0, 0], [2, 0, 1]]])
-    mesh = Mesh(
-        points,
-        np.arange(8)[None],
-        pinned=np.arange(12) == 3,
-        node_data={"heat": np.linspace(0, 1, 12), "flow x": points.astype(np.float32), "id": np.arange(12) * 2**40},
-        hex_data={"id": np.array([7]), "stress": np.array([[1, -2, 3, 4]])},
-        node_sets={"wall": np.array([0, 5])},
-        hex_sets={"part": np.array([0])},
-        cells=(
-            Cells("wedge", np.array([[1, 10, 2, 5, 11, 6]]), {"id": np.array([8])}),
-            Cells("pyramid", np.array([[4, 5, 6, 7, 8]]), {"id": np.array([9])}),
-            Cells("tetra", np.array([[5, 6, 8, 9]]), {"id": np.array([10])}),
-        ),
-    )
-    assert io.unsupported_data(tmp_path / "a.ovm", mesh) == []
-    io.write(tmp_path / "a.ovm", mesh)
-    back = io.read(tmp_path / "a.ovm")
-    for name, values in mesh.node_data.items():
-        np.testing.assert_array_equal(back.node_data[name], values)
-    for name, values in mesh.hex_data.items():
-        np.testing.assert_array_equal(back.hex_data[name], values)
-    assert back.node_sets["wall"].tolist() == [0, 5]
-    assert back.hex_sets["part"].tolist() == [0]
-    assert back.pinned[3]
-    found = {cells.kind: (cells.nodes.tolist(), cells.data["id"].tolist()) for cells in back.cells}
-    assert found == {cells.kind: (cells.nodes.tolist(), cells.data["id"].tolist()) for cells in mesh.cells}
-
-
 def test_what_the_format_has_no_type_for_is_named(tmp_path):
     mesh = grid(1).replace(
         node_data={"tensor": np.zeros((8, 9)), "large": np.full((8, 2), 2**40), 'a"b': np.ones(8), "a'b": np.zeros(8)}
@@ -140,20 +109,3 @@ def test_a_hex_with_a_node_twice_is_refused(tmp_path):
     with pytest.raises(FileError, match="hex 1 has a node twice"):
         io.write(tmp_path / "a.ovm", Mesh(grid(2, 1, 1).points, [[*range(8)], [1, 1, 2, 3, 4, 5, 6, 7]]))
     assert not list(tmp_path.iterdir())
-
-
-def test_data_of_one_column_are_written_as_numbers(tmp_path):
-    mesh = grid(2).replace(node_data={"one": np.arange(27.0)[:, None]})
-    assert not io.unsupported_data(tmp_path / "a.ovm", mesh)
-    io.write(tmp_path / "a.ovm", mesh)
-    np.testing.assert_array_equal(io.read(tmp_path / "a.ovm").node_data["one"], np.arange(27.0))
-
-
-def test_names_that_differ_in_capitals_alone_are_two(tmp_path):
-    mesh = grid(2).replace(
-        node_sets={"S": np.array([1]), "s": np.array([2])}, hex_data={"T": np.ones(8), "t": np.zeros(8)}
-    )
-    io.write(tmp_path / "a.ovm", mesh)
-    back = io.read(tmp_path / "a.ovm")
-    assert {name: members.tolist() for name, members in back.node_sets.items()} == {"S": [1], "s": [2]}
-    np.testing.assert_array_equal([back.hex_data["T"], back.hex_data["t"]], [np.ones(8), np.zeros(8)])

@@ -235,14 +235,7 @@ def test_a_file_that_was_renamed_keeps_its_pieces(tmp_path):
     assert len(list((tmp_path / "a").iterdir())) == 2
 
 
-def test_pieces_that_a_copy_of_the_file_names_stay(tmp_path):
-    io.write(tmp_path / "a.pvtu", grid(2))
-    (tmp_path / "b.pvtu").write_bytes((tmp_path / "a.pvtu").read_bytes())
-    io.write(tmp_path / "a.pvtu", grid(3))
-    assert io.read(tmp_path / "b.pvtu").n_hexes == 8
-
-
-@pytest.mark.parametrize("source", ["./a/a_0.vtu", "a//a_0.vtu", "a\\a_0.vtu", "x/../a/a_0.vtu", "link/a_0.vtu"])
+@pytest.mark.parametrize("source", ["a\\a_0.vtu", "x/../a/a_0.vtu", "link/a_0.vtu"])
 def test_pieces_that_another_file_names_by_another_path_stay(tmp_path, source):
     io.write(tmp_path / "a.pvtu", grid(2))
     if source.startswith("link"):
@@ -309,15 +302,3 @@ def test_other_numbers_of_nodes_do_not_count_where_those_of_the_file_are_there(t
     mesh = mesh.replace(node_data={"GlobalNodeIds": ids, **mesh.node_data})
     write_in_pieces(tmp_path / "a.pvtu", mesh, 3)
     assert_same(io.read(tmp_path / "a.pvtu"), mesh)
-
-
-def test_a_file_in_place_of_the_folder_is_an_error(tmp_path):
-    (tmp_path / "a").write_text("x")
-    with pytest.raises(FileError, match=r"its pieces need the folder .*a \("):
-        io.write(tmp_path / "a.pvtu", grid(2))
-    assert not (tmp_path / "a.pvtu").exists()
-
-
-def test_data_with_the_names_of_its_numbers_are_reported(tmp_path):
-    mesh = grid(2).replace(node_data={"GlobalNodeId": np.arange(27) + 1})
-    assert io.unsupported_data(tmp_path / "a.pvtu", mesh) == ["point data (GlobalNodeId), a name that it uses itself"]

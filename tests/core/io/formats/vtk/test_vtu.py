@@ -44,9 +44,11 @@ def written_by_vtk(path, mesh, mode="Binary", packing="ZLib", order=0, header=32
     assert writer.Write()
 
 
-@pytest.mark.parametrize(("mode", "packing"), MODES)
-@pytest.mark.parametrize("order", [0, 1])
-@pytest.mark.parametrize("header", [32, 64])
+#: Each mode and packing, with byte orders and widths of the header in turn.
+WRITTEN = [(mode, packing, k % 2, 32 + 32 * (k // 2 % 2)) for k, (mode, packing) in enumerate(MODES)]
+
+
+@pytest.mark.parametrize(("mode", "packing", "order", "header"), WRITTEN)
 def test_every_mode_of_vtks_writer_is_read(mode, packing, order, header, tmp_path):
     mesh = scrambled(grid(3), 0.3)
     arrays = {
@@ -245,11 +247,6 @@ def test_appended_data_are_never_taken_for_xml_and_may_not_be_shared_by_too_many
             io.read(tmp_path / "bad.vtu")
 
 
-def test_a_vtu_file_of_another_suffix_is_recognised(tmp_path):
-    (tmp_path / "a.vtk").write_text(text_of())
-    assert io.read(tmp_path / "a.vtk").n_hexes == 1
-
-
 @pytest.mark.parametrize(("name", "hexes"), [("can.vtu", 4800), ("box_hybrid_mesh.vtu", 943)])
 def test_real_files_are_as_vtk_has_them(name, hexes, real_mesh):
     pyvista = pytest.importorskip("pyvista")
@@ -263,9 +260,3 @@ def test_real_files_are_as_vtk_has_them(name, hexes, real_mesh):
     chosen = np.asarray(other.celltypes) == 12
     for key, values in other.cell_data.items():
         np.testing.assert_array_equal(mesh.hex_data[key], values[chosen])
-
-
-def test_arrays_of_one_name_are_all_kept(tmp_path):
-    array = '<DataArray type="Int8" Name="a">{}</DataArray>'
-    (tmp_path / "a.vtu").write_text(text_of(data=f"<CellData>{array.format(1)}{array.format(2)}</CellData>"))
-    assert [int(values[0]) for values in io.read(tmp_path / "a.vtu").hex_data.values()] == [1, 2]
