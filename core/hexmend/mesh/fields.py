@@ -48,6 +48,8 @@ def check_field(field: str, value: object, nodes: int, hexes: int) -> object:
         return _as_types(value)
     if field == "periodic_pairs":
         return _as_pairs(value)
+    if field == "renumbered" and value not in ("", "parts", "hexes"):
+        raise MeshError(f"renumbered is {value!r}: expected '', 'parts' or 'hexes'")
     return value
 
 

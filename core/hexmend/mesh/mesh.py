@@ -61,6 +61,9 @@ class Mesh(MeshMotion):
         Kinds of boundary that side sets are, by the names of OpenFOAM: wall, patch, symmetryPlane, empty, wedge...
     periodic_pairs : tuple of (str, str)
         Names of side sets of which one is a translated or rotated copy of the other.
+    renumbered : str
+        Hexes that were numbered left-handed in the file and have been renumbered on reading: "" for none, "parts" for
+        whole parts of the mesh, "hexes" if some are unlike their neighbours.
 
     Raises
     ------

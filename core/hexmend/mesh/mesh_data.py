@@ -41,6 +41,7 @@ class MeshData:
     notes: tuple[str, ...] = ()
     side_set_types: Mapping[str, str] = field(default_factory=dict)
     periodic_pairs: tuple[tuple[str, str], ...] = ()
+    renumbered: str = ""
     topology: Topology = field(init=False, repr=False)
 
     def __post_init__(self) -> None:

@@ -21,23 +21,10 @@ MIRRORED_FACES = np.array([0, 1, 2, 3, 5, 4])
 
 #: Hexes whose volumes are computed at a time.
 _CHUNK = 1 << 16
-#: End of the note on hexes that were renumbered, and words in it where they were numbered unlike others of their part.
-_RENUMBERED = "numbered inside out in the file (left-handed), and renumbered on reading."
-_UNLIKE = ", unlike "
-
-
-def was_turned(mesh: Mesh) -> bool:
-    """Return True if hexes of the mesh were renumbered on reading."""
-    return any(note.endswith(_RENUMBERED) for note in mesh.notes)
-
-
-def had_mixed_numbering(mesh: Mesh) -> bool:
-    """Return True if hexes were renumbered on reading that the file numbers unlike others of their part."""
-    return any(note.endswith(_RENUMBERED) and _UNLIKE in note for note in mesh.notes)
 
 
 def with_consistent_orientation(mesh: Mesh, report: Callable[[float], object] = lambda share: None) -> Mesh:
-    """Return the mesh with all left-handed hexes renumbered right-handed, and a note that says so.
+    """Return the mesh with all left-handed hexes renumbered right-handed; a note and `Mesh.renumbered` say so.
 
     Hexes that the positions of their nodes invert are left as they are: smoothing has to repair them.
 
@@ -54,8 +41,10 @@ def with_consistent_orientation(mesh: Mesh, report: Callable[[float], object] = 
     which = left_handed_hexes(mesh, report)
     if not which.any():
         return mesh
-    note = f"{left_handed_are(mesh, which)} {_RENUMBERED}"
-    return mirror_hexes(mesh, which).replace(notes=(*mesh.notes, note))
+    are = left_handed_are(mesh, which)
+    note = f"{are} numbered inside out in the file (left-handed), and renumbered on reading."
+    renumbered = "hexes" if _differ_from_neighbours(mesh, which) else "parts"
+    return mirror_hexes(mesh, which).replace(notes=(*mesh.notes, note), renumbered=renumbered)
 
 
 def check_orientation(mesh: Mesh) -> None:
@@ -81,12 +70,18 @@ def left_handed_error(hexes_are: str) -> MeshError:
 
 def left_handed_are(mesh: Mesh, which: np.ndarray) -> str:
     """Return the subject and verb of a sentence about left-handed hexes (m,) bool, of which there is at least one."""
-    count, neighbours = int(which.sum()), mesh.topology.neighbours_in_any_order[which]
+    count = int(which.sum())
     if count == mesh.n_hexes:
         return "The only hex is" if count == 1 else "All hexes are"
-    if ((neighbours >= 0) & ~which[neighbours]).any():
-        return count_phrase(count, f"hex{_UNLIKE}its neighbours, is", f"hexes{_UNLIKE}their neighbours, are")
+    if _differ_from_neighbours(mesh, which):
+        return count_phrase(count, "hex, unlike its neighbours, is", "hexes, unlike their neighbours, are")
     return count_phrase(count, "hex, which makes a whole part, is", "hexes, which make whole parts, are")
+
+
+def _differ_from_neighbours(mesh: Mesh, which: np.ndarray) -> bool:
+    """Return True if a hex among `which` (m,) bool has a neighbour that is not."""
+    neighbours = mesh.topology.neighbours_in_any_order[which]
+    return bool(((neighbours >= 0) & ~which[neighbours]).any())
 
 
 def left_handed_hexes(mesh: Mesh, report: Callable[[float], object] = lambda share: None) -> np.ndarray:

@@ -10,10 +10,8 @@ from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import (
     MIRRORED_CORNERS,
-    had_mixed_numbering,
     left_handed_hexes,
     mirror_hexes,
-    was_turned,
     with_consistent_orientation,
 )
 from hexmend.quality import corner_determinants
@@ -74,6 +72,7 @@ def test_whole_parts_are_turned_and_a_note_counts_them(which):
     np.testing.assert_array_equal(np.flatnonzero(left_handed_hexes(wrong)), which)
     back = with_consistent_orientation(wrong)
     assert (corner_determinants(back.points, back.hexes) > 0).all()
+    assert back.renumbered == "parts"
     assert len(back.notes) == 1
     assert back.notes[0].startswith(
         "All hexes" if len(which) == 9 else f"{count_phrase(len(which), 'hex', 'hexes')}, which make"
@@ -102,8 +101,7 @@ def test_left_handed_hexes_of_a_lattice_are_renumbered_exactly_and_a_note_counts
     np.testing.assert_array_equal(back.hexes, mesh.hexes)
     (note,) = back.notes
     assert note.startswith(f"{count_phrase(which.sum(), 'hex', 'hexes')}, unlike")
-    assert was_turned(back)
-    assert had_mixed_numbering(back)
+    assert back.renumbered == "hexes"
 
 
 @pytest.mark.parametrize("flat", [[0, 1, 2, 3], [4, 5, 6, 7]])

@@ -17,7 +17,7 @@ from hexmend.mesh.validation import check_finite, check_node_numbers
 _TABLES = ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets", "field_data")
 _FIELDS = {
     "points", "hexes", "surface", "target", "pinned", "mid_nodes", "cells", "name", "notes", "side_set_types",
-    "periodic_pairs", *_TABLES,
+    "periodic_pairs", "renumbered", *_TABLES,
 }  # fmt: skip
 #: Fields that are set for each mesh; meshes with the same other fields share them.
 _UNSHARED = {"points", "surface", "mid_nodes"}
@@ -38,6 +38,7 @@ def mesh_to_data(mesh: Mesh) -> dict[str, Any]:
         "notes": list(mesh.notes),
         "side_set_types": dict(mesh.side_set_types),
         "periodic_pairs": [list(pair) for pair in mesh.periodic_pairs],
+        "renumbered": mesh.renumbered,
         **{table: dict(getattr(mesh, table)) for table in _TABLES},
     }
 
@@ -130,6 +131,7 @@ def _decode_fields(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
         "notes": tuple(data["notes"]),
         "side_set_types": data["side_set_types"],
         "periodic_pairs": data["periodic_pairs"],
+        "renumbered": data["renumbered"],
     }
 
 

@@ -15,7 +15,6 @@ from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates,
 from hexmend.io.coordinates.original import Original, difference
 from hexmend.io.storage.atomic_files import atomic_files
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.orientation import had_mixed_numbering, was_turned
 
 _LOGGER = logging.getLogger(__name__)
 #: Remedy for a file that is not overwritten.
@@ -87,11 +86,11 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     different = difference(original.mesh, mesh, format.capabilities)
     if different:
         raise CoordinatesError(f"the mesh has {different} than {original.path.name}")
-    if had_mixed_numbering(original.mesh):
+    if original.mesh.renumbered == "hexes":
         raise CoordinatesError(f"some hexes of {original.path.name} are numbered inside out")
     located = _located(original, format)
     in_place = is_same_mesh(format, path, original.path)
-    turned = (_TURNED,) if was_turned(original.mesh) else ()
+    turned = (_TURNED,) if original.mesh.renumbered else ()
     if format.place:  # a folder, in which the format replaces files itself
         return Written(True, (*located.write(path, path, mesh.points), *turned), in_place)
     with atomic_files() as files:

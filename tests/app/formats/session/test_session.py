@@ -40,6 +40,7 @@ def rich() -> Mesh:
         mid_nodes=mids,
         field_data={"time": np.array([0.5]), "authors": ["a", "ö"]},
         notes=("It was read.",),
+        renumbered="parts",
     )
 
 
@@ -147,6 +148,7 @@ def test_a_session_is_read_as_the_mesh_that_was_shown(tmp_path):
     (lambda data: data["meshes"][0]["node_data"].update(bad=np.ones(3)), "'bad' is not an array of 20 rows"),
     (lambda data: data["meshes"][0]["cells"][0].update(kind="hept"), "no kind of cells 'hept'"),
     (lambda data: data["meshes"][0]["cells"][0].update(nodes=np.array([[0, 1, 2, 30]])), "uses the nodes"),
+    (lambda data: data["meshes"][0].update(renumbered="some"), "renumbered is 'some': expected"),
     (lambda data: data["meshes"][0].update(mid_nodes=np.full((1, 19), 99)), "nodes"),
 ])  # fmt: skip
 def test_what_cannot_be_a_mesh_is_refused(change, said, tmp_path):
