@@ -2,6 +2,8 @@
 
 Unidata, *The NetCDF classic format specification*. All numbers are big-endian, all parts padded to 4 bytes. netCDF4 is
 not used: it reads what a file that is cut short lacks as zeros, and needs a process of its own for damaged files.
+`scipy.io.netcdf_file` is not used: it has no 64-bit data, so no ids of 64 bits and no arrays of 2 GB, and gives no
+offsets, by which coordinates are replaced in a copy; and attributes of a file replace those of its own objects.
 """
 
 from __future__ import annotations
