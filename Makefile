@@ -79,13 +79,13 @@ docs: $(VENV)/.app $(VENV)/.kernels
 	@scripts/debian-packages
 	@$(BIN)/python scripts/tables.py
 	@$(BIN)/python scripts/write_reference.py
-	@$(BIN)/python scripts/draw_method_figures.py docs
+	@$(BIN)/python scripts/draw_method_figures.py docs/pictures
 	@$(BIN)/python scripts/draw_floors.py
 	@QT_QPA_PLATFORM=offscreen $(BIN)/python scripts/write_keys.py
 
 pictures: $(VENV)/.app $(VENV)/.kernels
 	@scripts/debian-packages
-	@scripts/take-pictures $(BIN) docs
+	@scripts/take-pictures $(BIN) docs/pictures
 
 # Warnings are errors, as mkdocs.yml says (with --quiet they would not be); the variable keeps an advertisement out.
 site: $(VENV)/.site

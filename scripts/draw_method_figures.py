@@ -1,4 +1,4 @@
-"""Draw the figures of docs/method.md: 2.1 to 2.3 and 3.1 of the thesis, in its letters.
+"""Draw the figures of docs/mathematics/method.md: 2.1 to 2.3 and 3.1 of the thesis, in its letters.
 
 Use: python scripts/draw_method_figures.py FOLDER
 """

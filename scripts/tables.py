@@ -225,16 +225,16 @@ def api() -> str:
 
 #: Tables by file.
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
-    "methods": ("docs/methods.md", methods),
-    "metrics": ("docs/metrics.md", metrics),
-    "meanings": ("docs/metrics.md", meanings),
-    "solvers": ("docs/solvers.md", solvers),
-    "stops": ("docs/recipes.md", stops),
-    "formats": ("docs/formats.md", formats),
-    "scene": ("docs/scene.md", scene),
-    "memory": ("docs/performance-size.md", memory),
-    "task": ("docs/study-many.md", task),
-    "study": ("docs/study-many.md", study),
+    "methods": ("docs/reference/methods.md", methods),
+    "metrics": ("docs/reference/metrics.md", metrics),
+    "meanings": ("docs/reference/metrics.md", meanings),
+    "solvers": ("docs/reference/solvers.md", solvers),
+    "stops": ("docs/methods/recipes.md", stops),
+    "formats": ("docs/reference/formats.md", formats),
+    "scene": ("docs/reference/scene.md", scene),
+    "memory": ("docs/measurements/performance-size.md", memory),
+    "task": ("docs/methods/study-many.md", task),
+    "study": ("docs/methods/study-many.md", study),
     "api": ("docs/api/index.md", api),
 }
 

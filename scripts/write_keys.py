@@ -1,4 +1,4 @@
-"""Write docs/keys.md from the actions that features declare; a test checks that it is up to date.
+"""Write docs/reference/keys.md from the actions that features declare; a test checks that it is up to date.
 
 Use: QT_QPA_PLATFORM=offscreen python scripts/write_keys.py
 """
@@ -11,7 +11,7 @@ from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "keys.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "keys.md"
 
 if __name__ == "__main__":
     app = application()

@@ -1,6 +1,6 @@
 """Write the pages of the reference that are generated from the program's declarations; a test compares.
 
-docs/methods.md: every method with its parameters. docs/commands.md: every command with its options. What stands above
+docs/reference/methods.md: every method with its parameters. docs/reference/commands.md: every command with its options. What stands above
 the mark in these files is written by hand, or by scripts/tables.py.
 
 Use: python scripts/write_reference.py
@@ -20,7 +20,7 @@ from hexmend.cli.command import Command
 from hexmend.cli.main import commands
 from hexmend.smoothers import METHODS
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+DOCS = Path(__file__).resolve().parents[1] / "docs" / "reference"
 MARK = "<!-- written by make docs from here on -->\n"
 
 

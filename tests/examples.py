@@ -34,8 +34,10 @@ def blocks(page):
 
 
 def example(title):
-    """The program below a heading of docs/extending.md or docs/extending-window.md, which has one."""
-    text = "\n".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").glob("extending*.md")))
+    """The program below a heading of docs/development/extending.md or docs/development/extending-window.md, which has one."""
+    text = "\n".join(
+        path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs/development").glob("extending*.md"))
+    )
     (_, section) = text.split(f"\n## {title}\n")
     (program,) = _BLOCK.findall(section.split("\n## ")[0])
     return program

@@ -19,7 +19,7 @@ from hexmend_app.scene.film.film_page import FilmPage
 from tests.examples import blocks, run_page
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
-PAGES = sorted(DOCS.glob("*.md"))
+PAGES = sorted(path for path in DOCS.rglob("*.md") if path.parent.name != "api")
 
 spec = importlib.util.spec_from_file_location("draw_method_figures", DOCS.parent / "scripts/draw_method_figures.py")
 draw_method_figures = importlib.util.module_from_spec(spec)
@@ -34,7 +34,9 @@ def test_every_script_of_pictures_is_run_by_make_pictures():
     assert {*listed, *single} == scripts
 
 
-@pytest.mark.parametrize(("page", "file"), [("untangle.md", "run.gif"), ("watch.md", "before-after.gif")])
+@pytest.mark.parametrize(
+    ("page", "file"), [("repair/untangle.md", "run.gif"), ("methods/watch.md", "before-after.gif")]
+)
 def test_an_animation_is_made_by_the_command_that_its_page_names(page, file):
     text = (DOCS / page).read_text(encoding="utf-8").replace("\\\n", " ")
     (named,) = re.findall(rf"hexmend film ([^`]*? -o {file}[^`]*)", text)
@@ -46,7 +48,7 @@ def test_an_animation_is_made_by_the_command_that_its_page_names(page, file):
 def test_the_animation_of_the_readme_says_the_truth(tmp_path, monkeypatch):
     """The figures in its first and last frames are those that the commands of its page lead to."""
     monkeypatch.chdir(tmp_path)
-    (block,) = re.findall(r"```\n(hexmend gallery five-side.*?)```", (DOCS / "watch.md").read_text(), re.DOTALL)
+    (block,) = re.findall(r"```\n(hexmend gallery five-side.*?)```", (DOCS / "methods/watch.md").read_text(), re.DOTALL)
     make, draw = block.replace("\\\n", " ").splitlines()
     assert main(shlex.split(make)[1:]) == 0
     captions = []
@@ -66,10 +68,10 @@ def test_the_animation_of_the_readme_says_the_truth(tmp_path, monkeypatch):
     count = after.iterations
     assert captions[0] == (f"Before: {first}", f"Mend, iteration 0 of {count}: {first}")
     assert captions[-1] == (f"Before: {first}", f"Mend, iteration {count} of {count}: {last}")
-    with Image.open("before-after.gif") as made, Image.open(DOCS / "before-after.gif") as kept:
+    with Image.open("before-after.gif") as made, Image.open(DOCS / "pictures/before-after.gif") as kept:
         assert (made.n_frames, made.size) == (kept.n_frames, kept.size)
         difference = abs(np.asarray(made.convert("RGB")).astype(int) - np.asarray(kept.convert("RGB")))
-        assert difference.mean() < 1, "docs/before-after.gif: run make pictures"
+        assert difference.mean() < 1, "docs/pictures/before-after.gif: run make pictures"
 
 
 @pytest.mark.slow
@@ -78,16 +80,19 @@ def test_the_figures_of_the_mathematics_are_drawn_as_they_stand_there(tmp_path, 
     draw_method_figures.main(tmp_path)
     assert capsys.readouterr().out.count("kB") == len(draw_method_figures.FIGURES)
     for file in draw_method_figures.FIGURES:
-        assert f"]({file})" in (DOCS / "method.md").read_text(encoding="utf-8")
-        for folder in (tmp_path, DOCS):
+        assert f"](../pictures/{file})" in (DOCS / "mathematics/method.md").read_text(encoding="utf-8")
+        for folder in (tmp_path, DOCS / "pictures"):
             assert (folder / file).stat().st_size < 100_000
-        texts = [re.findall(r"<!-- (.+?) -->", (at / file).read_text(encoding="utf-8")) for at in (tmp_path, DOCS)]
+        texts = [
+            re.findall(r"<!-- (.+?) -->", (at / file).read_text(encoding="utf-8"))
+            for at in (tmp_path, DOCS / "pictures")
+        ]
         assert texts[0] == texts[1], f"{file}: run make docs"
 
 
 @pytest.mark.slow
 def test_what_the_tutorial_says_can_be_done(tmp_path, monkeypatch, capsys):
-    text = (DOCS / "tutorial.md").read_text(encoding="utf-8")
+    text = (DOCS / "start/tutorial.md").read_text(encoding="utf-8")
     listed = "".join(re.findall(r"^```\n(.*?)^```", text, re.DOTALL | re.MULTILINE))
     commands = [line.split()[1:] for line in re.findall(r"^hexmend .+", listed, re.MULTILINE)]
     assert {words[0] for words in commands} == {"gallery", "info", "smooth", "compare", "render", "report"}
@@ -121,7 +126,9 @@ def test_every_block_of_python_is_known_by_its_fence():
         assert text.count("```python") == len(blocks(page))
 
 
-@pytest.mark.parametrize("scene", re.findall(r"```toml\n(.*?)```", (DOCS / "figures.md").read_text("utf-8"), re.DOTALL))
+@pytest.mark.parametrize(
+    "scene", re.findall(r"```toml\n(.*?)```", (DOCS / "results/figures.md").read_text("utf-8"), re.DOTALL)
+)
 def test_the_scenes_of_the_docs_are_scenes(scene):
     from hexmend_app.picture import Scene, from_toml
 
@@ -155,8 +162,8 @@ def test_the_options_of_commands_exist(page):
 
 
 def test_the_versions_of_files_are_those_of_the_program():
-    text = (DOCS / "versions.md").read_text(encoding="utf-8")
+    text = (DOCS / "reference/versions.md").read_text(encoding="utf-8")
     for kind, version in (("recipe", recipe.FORMAT), ("scene", scene.FORMAT), ("session", session_file.VERSION)):
         (line,) = re.findall(rf"^\| {kind} .*", text, re.MULTILINE)
         assert [cell.strip() for cell in line.split("|")][3] == str(version)
-    assert f"`version` ({session_file.VERSION})" in (DOCS / "session.md").read_text(encoding="utf-8")
+    assert f"`version` ({session_file.VERSION})" in (DOCS / "results/session.md").read_text(encoding="utf-8")

@@ -66,7 +66,7 @@ def test_figures_that_are_named_are_those_of_the_measurements():
     (table,) = re.findall(r"<!-- measured: five rows -->\n(.*?)<!-- end -->", README, re.DOTALL)
     rows = table.strip().splitlines()[2:]
     assert len(rows) == 5
-    measured = (ROOT / "docs/boundary-results.md").read_text(encoding="utf-8")
+    measured = (ROOT / "docs/measurements/boundary-results.md").read_text(encoding="utf-8")
     for row in rows:
         name, invalid, given, published, ours = (cell.strip() for cell in row.strip("|").split("|"))
         (line,) = re.findall(rf"^\| {name.split(',')[0]} \| slide \|.*", measured, re.MULTILINE)
@@ -92,13 +92,13 @@ def _table_with(tables, *heads):
 
 
 def test_figures_of_other_programs_are_those_of_the_measurements():
-    """Each figure is that of docs/peers.md, or for hexsmoothing of docs/performance-mend.md."""
+    """Each figure is that of docs/measurements/peers.md, or for hexsmoothing of docs/measurements/performance-mend.md."""
     (table,) = re.findall(r"<!-- measured: peers -->\n(.*?)<!-- end -->", README, re.DOTALL)
     rows = [_cells(line) for line in table.strip().splitlines()[2:]]
     assert len(rows) == 5
-    tables = _tables("peers.md")
+    tables = _tables("measurements/peers.md")
     meshes, same = _table_with(tables, "mend, fixed", "Gmsh", "hexes"), _table_with(tables, "mend, p = 1", "TMOP")
-    goals = _table_with(_tables("performance-mend.md"), "mesh, hexes", "scaled Jacobian min")
+    goals = _table_with(_tables("measurements/performance-mend.md"), "mesh, hexes", "scaled Jacobian min")
     for name, inverted, given, ours, smoothing, tmop, gmsh, seconds in rows:
         stem, hexes = name.removesuffix(" hexes").split(", ")
         (row,) = [dict(zip(meshes[0], row, strict=True)) for row in meshes if re.match(rf"{stem}[._]", row[0])]
@@ -116,4 +116,7 @@ def test_figures_of_other_programs_are_those_of_the_measurements():
 
 def test_it_is_short():
     assert len(README.splitlines()) <= 120
-    assert re.findall(r"!\[.*?\]\(docs/(.*?)\)", README) == ["before-after.gif", "window-smoothing.png"]
+    assert re.findall(r"!\[.*?\]\(docs/(.*?)\)", README) == [
+        "pictures/before-after.gif",
+        "pictures/window-smoothing.png",
+    ]

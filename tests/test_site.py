@@ -56,15 +56,15 @@ def test_names_that_share_a_description_have_their_own_types(site):
 
 
 def test_pictures_are_enlarged_without_a_network(site):
-    text = (site / "inspect.html").read_text(encoding="utf-8")
-    assert len(re.findall(r'<a class="glightbox"[^>]*href="inspect-[a-z]+\.png"', text)) == 6
+    text = (site / "repair/inspect.html").read_text(encoding="utf-8")
+    assert len(re.findall(r'<a class="glightbox"[^>]*href="\.\./pictures/inspect-[a-z]+\.png"', text)) == 6
     assert "assets/javascripts/glightbox.min.js" in text
     assert (site / "assets/javascripts/glightbox.min.js").stat().st_size > 10_000
 
 
 def test_every_formula_is_mathml(site):
-    for path in site.glob("*.html"):
-        written = (ROOT / "docs" / f"{path.stem}.md").with_suffix(".md")
+    for path in site.rglob("*.html"):
+        written = (ROOT / "docs" / path.relative_to(site)).with_suffix(".md")
         text = path.read_text(encoding="utf-8")
         assert "arithmatex" not in text
         if written.exists():
@@ -74,8 +74,8 @@ def test_every_formula_is_mathml(site):
 
 
 def test_links_are_called_as_their_pages_are(site):
-    text = (site / "window.html").read_text(encoding="utf-8")
-    assert '<a href="keys.html">Mouse and keys</a>' in text
+    text = (site / "start/window.html").read_text(encoding="utf-8")
+    assert '<a href="../reference/keys.html">Mouse and keys</a>' in text
     assert not re.search(r"<a[^>]*>[\w-]+\.md</a>", text)
 
 
@@ -85,7 +85,7 @@ def opened(site, tmp_path_factory):
     with chromium(tmp_path_factory.mktemp("browser")) as launch, launch() as browser:
         page, asked = browser.new_page(viewport={"width": 1366, "height": 768}), []
         page.on("request", lambda request: asked.append(request.url))
-        page.goto((site / "formats.html").as_uri())
+        page.goto((site / "reference/formats.html").as_uri())
         yield page, asked
 
 

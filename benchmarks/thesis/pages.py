@@ -1,9 +1,9 @@
-"""Writes docs/study.md, study-claims.md, study-offset.md and study-tables.md from the output of commands.
+"""Writes docs/measurements/thesis.md and the pages of results beside this file from the output of commands.
 
 Use: python -m benchmarks pages STUDY OFFSETS REMARKS
 
 STUDY is the folder of `python -m benchmarks thesis --max-seconds 60`, OFFSETS and REMARKS the outputs of `python -m
-benchmarks bench offsets` and `bench remarks`. The section "Where ours differs" of docs/study.md is written by hand, and
+benchmarks bench offsets` and `bench remarks`. The section "Where ours differs" of docs/measurements/thesis.md is written by hand, and
 kept.
 """
 
@@ -16,6 +16,8 @@ from pathlib import Path
 from benchmarks.prose import wrapped
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
+PAGE, PICTURES = DOCS / "measurements/thesis.md", DOCS / "pictures"
+RESULTS = Path(__file__).with_name("results")
 #: The section written by hand; links to files outside docs/.
 OWN, FILES = "## Where ours differs, and why\n", re.compile(r"\n\[csv\]\([^\n]*\n")
 
@@ -53,27 +55,27 @@ def pages(chapter: dict[str, str], own: str, offsets: str, remarks: str) -> dict
     head, preface = chapter[""].split("\n", 1)
     compared, tried = "## Compared with the thesis, cell by cell\n", "## Sections 3.2.2 and 5.2, tried\n"
     parts = {
-        "study.md": [
+        PAGE.name: [
             f"{head}\n{ORIGIN}",
             preface.strip() + "\n",
+            compared + chapter[compared],
             OWN + own,
             "## Figures\n" + chapter["## Figures\n"],
         ],
-        "study-claims.md": ["# Claims of the thesis, tested\n" + GENERATED, claims(chapter["## Claims\n"])],
-        "study-offset.md": [
+        "claims.md": ["# Claims of the thesis, tested\n" + GENERATED, claims(chapter["## Claims\n"])],
+        "offset.md": [
             "# Offset, remarks and order of sweeps, measured\n" + GENERATED,
             '## The "-1" of (B.20)\n' + ABOUT_OFFSETS + "\n" + offsets + "\n",
             "## Remarks of 4.1.2 and 4.1.3, measured\n" + ABOUT_REMARKS + "\n" + remarks + "\n",
             tried + chapter[tried],
         ],
-        "study-tables.md": [
+        "tables.md": [
             "# Tables of Chapter 4, measured\n" + GENERATED,
-            compared + chapter[compared],
             "## Tables\n" + ABOUT_OBJECTIVE + chapter["## Tables\n"],
         ],
     }
     written = {name: "\n".join(part.rstrip() + "\n" for part in some) for name, some in parts.items()}
-    return {**written, "study.md": wrapped(written["study.md"])}
+    return {**written, PAGE.name: wrapped(written[PAGE.name])}
 
 
 def write(study: Path, offsets: Path, remarks: Path) -> None:
@@ -87,26 +89,25 @@ def write(study: Path, offsets: Path, remarks: Path) -> None:
         Outputs of the two sections.
     """
     chapter = sections(FILES.sub("\n", (study / "study.md").read_text("utf-8")))
-    own = sections((DOCS / "study.md").read_text("utf-8"))[OWN]
+    own = sections(PAGE.read_text("utf-8"))[OWN]
     for name, text in pages(chapter, own, table(offsets), table(remarks)).items():
-        (DOCS / name).write_text(text, "utf-8")
-    for old in DOCS.glob("figure-4.*.png"):
+        (PAGE if name == PAGE.name else RESULTS / name).write_text(text, "utf-8")
+    for old in PICTURES.glob("figure-4.*.png"):
         old.unlink()
     for picture in sorted(study.glob("figure-*.png")):
-        shutil.copy(picture, DOCS / picture.name)
+        shutil.copy(picture, PICTURES / picture.name)
 
 
 GENERATED = """
 <!-- written by python -m benchmarks pages from here on -->
 
-[The thesis's experiments repeated](study.md) says how this was measured.
+[The thesis's experiments repeated](../../../docs/measurements/thesis.md) says how this was measured.
 """
 
 ORIGIN = """
-The tables come from `python -m benchmarks thesis --max-seconds 60`, the comparison of `offset` and the measured remarks
-from `python -m benchmarks bench offsets remarks`; `python -m benchmarks pages` arranges these pages: [the claims of the
-thesis](study-claims.md), [all tables](study-tables.md), and [offset, remarks and order of sweeps](study-offset.md). The
-section *Where ours differs* is written by hand.
+The figures come from `python -m benchmarks thesis --max-seconds 60`, and `python -m benchmarks pages` arranges them. The
+folder `benchmarks/thesis/results` of the sources has all tables of Chapter 4, the claims of the thesis as tested, and the
+comparison of `offset`, remarks and orders of sweeps. The section *Where ours differs* is written by hand.
 """
 
 ABOUT_OFFSETS = """

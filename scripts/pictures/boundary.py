@@ -1,4 +1,4 @@
-"""Take the pictures of docs/boundary.md: foreign meshes before and after, with a sliding boundary.
+"""Take the pictures of docs/repair/boundary.md: foreign meshes before and after, with a sliding boundary.
 
 Use: HEXMEND_MESHES=folder python scripts/pictures/boundary.py FOLDER
 """

@@ -1,4 +1,4 @@
-"""Take the picture of docs/doctor.md: the doctor on blocks that are not merged.
+"""Take the picture of docs/repair/doctor.md: the doctor on blocks that are not merged.
 
 Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/pictures/doctor.py FOLDER [MESH ...]
 

@@ -1,4 +1,4 @@
-"""Take the pictures of docs/figures.md: its examples, drawn of foreign meshes, and the dialogs.
+"""Take the pictures of docs/results/figures.md: its examples, drawn of foreign meshes, and the dialogs.
 
 Use: HEXMEND_MESHES=folder xvfb-run -s "-screen 0 1600x1000x24" python scripts/pictures/figures.py FOLDER
 """
@@ -18,7 +18,7 @@ from screenshots import close_window, compress, cut_mesh, open_window, process_e
 from hexmend_app.shell.window import Window
 from hexmend_app.state.run.run_controller import Phase
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "figures.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "results" / "figures.md"
 
 #: Pixels per inch, enough for a screen.
 _DPI = "150"

@@ -1,4 +1,4 @@
-"""Take the picture of docs/untangle.md: a hex that is invalid inside, and where.
+"""Take the picture of docs/repair/untangle.md: a hex that is invalid inside, and where.
 
 Use: HEXMEND_MESHES=folder python scripts/pictures/invalid_inside.py FOLDER
 """

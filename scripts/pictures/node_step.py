@@ -1,4 +1,4 @@
-"""Take the picture of docs/node-step.md: a node of a tangled mesh and its step by local steepest descent.
+"""Take the picture of docs/methods/node-step.md: a node of a tangled mesh and its step by local steepest descent.
 
 Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/pictures/node_step.py FOLDER
 """

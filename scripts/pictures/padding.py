@@ -1,4 +1,4 @@
-"""Take the picture of docs/padding.md: a mesh with locked hexes, and padded, both cut open.
+"""Take the picture of docs/repair/padding.md: a mesh with locked hexes, and padded, both cut open.
 
 Use: HEXMEND_MESHES=folder python scripts/pictures/padding.py FOLDER
 """

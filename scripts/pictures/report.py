@@ -1,4 +1,4 @@
-"""Take the picture of docs/report.md: a report in Debian's browser with its mesh cut open.
+"""Take the picture of docs/results/report.md: a report in Debian's browser with its mesh cut open.
 
 Use: python scripts/pictures/report.py FOLDER
 """

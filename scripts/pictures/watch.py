@@ -1,4 +1,4 @@
-"""Take the pictures of docs/watch.md, of gallery meshes.
+"""Take the pictures of docs/methods/watch.md, of gallery meshes.
 
 Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/pictures/watch.py FOLDER
 """

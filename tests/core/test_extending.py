@@ -1,4 +1,4 @@
-"""Additions to Hexmend: the examples of docs/extending.md as files of its own and as entry points of a distribution."""
+"""Additions to Hexmend: the examples of docs/development/extending.md as files of its own and as entry points of a distribution."""
 
 import json
 import os

@@ -37,7 +37,7 @@ def name_of(action: Action) -> str:
 
 
 def as_markdown(actions: Iterable[Action]) -> str:
-    """Return the page `docs/keys.md`."""
+    """Return the page `docs/reference/keys.md`."""
     lines = ["# Mouse and keys", "", "Written by `make docs` from what the features declare.", ""]
     for title, rows in tables(actions):
         lines += [f"## {title}", "", "| action | keys | |", "|---|---|---|"]

@@ -1,4 +1,4 @@
-"""Examples of docs/extending-window.md: a feature and a metric in menus, palette, page of keys, window and pictures."""
+"""Examples of docs/development/extending-window.md: a feature and a metric in menus, palette, page of keys, window and pictures."""
 
 from __future__ import annotations
 

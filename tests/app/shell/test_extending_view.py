@@ -1,4 +1,4 @@
-"""Examples of docs/extending-window.md: a colour map and a layer in window, sessions and pictures."""
+"""Examples of docs/development/extending-window.md: a colour map and a layer in window, sessions and pictures."""
 
 from __future__ import annotations
 

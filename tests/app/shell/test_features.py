@@ -22,7 +22,7 @@ def test_every_action_has_a_known_menu_and_help(window):
 
 def test_docs_keys_match_the_declared_actions(window):
     """`make docs` writes it."""
-    page = Path(__file__).resolve().parents[3] / "docs" / "keys.md"
+    page = Path(__file__).resolve().parents[3] / "docs" / "reference" / "keys.md"
     assert page.read_text(encoding="utf-8") == as_markdown(window.menus.declared())
 
 

@@ -172,7 +172,7 @@ def test_volumes_of_a_mesh_add_up_to_that_of_its_box():
 
 
 def test_the_documentation_lists_every_metric_as_it_is_declared():
-    text = (Path(__file__).resolve().parents[3] / "docs/metrics.md").read_text(encoding="utf-8")
+    text = (Path(__file__).resolve().parents[3] / "docs/reference/metrics.md").read_text(encoding="utf-8")
     better = {1: "higher", -1: "lower", 0: "–"}
     for name, metric in METRICS.items():
         ranges = (
@@ -180,4 +180,4 @@ def test_the_documentation_lists_every_metric_as_it_is_declared():
             for low, high in (metric.full_range, metric.acceptable)
         )
         row = f"| `{name}` | {metric.formula.replace('|', chr(92) + '|')} | {' | '.join(ranges)} | {better[metric.better]} |"
-        assert row in text, f"docs/metrics.md has no line\n{row}"
+        assert row in text, f"docs/reference/metrics.md has no line\n{row}"

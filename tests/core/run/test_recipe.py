@@ -132,6 +132,6 @@ def test_files_that_are_no_text_are_said(tmp_path):
 
 
 def test_the_recipe_of_the_docs_is_one():
-    text = (Path(__file__).resolve().parents[3] / "docs" / "recipes.md").read_text(encoding="utf-8")
+    text = (Path(__file__).resolve().parents[3] / "docs" / "methods" / "recipes.md").read_text(encoding="utf-8")
     (example,) = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
     assert [stage.smoother.name for stage in from_toml(example).stages] == ["getme", "mend"]

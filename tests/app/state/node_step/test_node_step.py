@@ -161,7 +161,7 @@ def test_looking_at_a_node_moves_none():
 
 
 def test_the_example_of_the_docs_runs(capsys):
-    text = (Path(__file__).resolve().parents[4] / "docs" / "node-step.md").read_text(encoding="utf-8")
+    text = (Path(__file__).resolve().parents[4] / "docs" / "methods" / "node-step.md").read_text(encoding="utf-8")
     (program,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     exec(compile(program, "node-step.md", "exec"), {})
     first, second = capsys.readouterr().out.splitlines()
