@@ -2,7 +2,7 @@
 
 Use: python scripts/try_window.py [FOLDER]
 
-Starts a virtual screen with a window manager, `hexmend` on it, and goes through docs/start/tutorial.md with xdotool: looks at
+Starts a virtual screen with a window manager, `hexmend` on it, and goes through tutorial.md with xdotool: looks at
 the demo, isolates the inverted hexes by a click on their bar, cuts, runs mend, undoes, compares and saves. What is seen
 is judged by the pixels of screenshots, which are written to FOLDER. Needs the Debian packages xvfb, openbox, xdotool
 and imagemagick. Returns 1 with a sentence at the first step that fails.

@@ -1,7 +1,7 @@
 """Base class of the features of the viewer, and declarations of their actions and panels.
 
 A feature is a folder below `hexmend_app.features` with a module `feature` whose class `Feature...` derives from
-`Feature`. The window finds it there, and builds menus, tool bar, palette, the page of keys and `docs/reference/keys.md` from its
+`Feature`. The window finds it there, and builds menus, tool bar, palette, and the page of keys from its
 declarations. Features do not import each other: they communicate through the session.
 """
 

@@ -3,8 +3,7 @@
 Use: python -m benchmarks pages STUDY OFFSETS REMARKS
 
 STUDY is the folder of `python -m benchmarks thesis --max-seconds 60`, OFFSETS and REMARKS the outputs of `python -m
-benchmarks bench offsets` and `bench remarks`. The section "Where ours differs" of docs/measurements/thesis.md is written by hand, and
-kept.
+benchmarks bench offsets` and `bench remarks`. The section "Where ours differs" is written by hand, and kept.
 """
 
 from __future__ import annotations
@@ -105,8 +104,8 @@ GENERATED = """
 """
 
 ORIGIN = """
-The figures come from `python -m benchmarks thesis --max-seconds 60`, and `python -m benchmarks pages` arranges them. The
-folder `benchmarks/thesis/results` of the sources has all tables of Chapter 4, the claims of the thesis as tested, and the
+The figures come from `python -m benchmarks thesis --max-seconds 60`; `python -m benchmarks pages` arranges them. The
+folder `benchmarks/thesis/results` has all tables of Chapter 4, the claims of the thesis as tested, and the
 comparison of `offset`, remarks and orders of sweeps. The section *Where ours differs* is written by hand.
 """
 

@@ -1,4 +1,4 @@
-"""Take the pictures of docs/measurements/performance-window.md: ten million hexes in the window, cut, and while the cut is dragged.
+"""Take the pictures of performance-window.md: ten million hexes in the window, cut, and while the cut is dragged.
 
 Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/pictures/large.py FOLDER
 """

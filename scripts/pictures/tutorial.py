@@ -1,4 +1,4 @@
-"""Take the pictures of docs/start/tutorial.md: the demo opened, its inverted hexes isolated, mended, compared, as a figure.
+"""Take the pictures of tutorial.md: the demo opened, its inverted hexes isolated, mended, compared, as a figure.
 
 Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/pictures/tutorial.py FOLDER
 """

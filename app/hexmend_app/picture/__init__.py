@@ -1,6 +1,6 @@
 """Description of still pictures and their pages, shared by the window, the command line and files.
 
-A `Scene` consists of tables (`Camera`, `Cut`, `Show`, `Colours`, `Page`, ...); its files are TOML, see docs/reference/scene.md.
+A `Scene` consists of tables (`Camera`, `Cut`, `Show`, `Colours`, `Page`, ...); its files are TOML, see scene.md.
 """
 
 from hexmend_app.codec.config_table import ConfigTable

@@ -7,12 +7,12 @@ from pathlib import Path
 
 from hexmend import __version__
 from hexmend.doctor import repair
-from hexmend.io.formats.session import SUFFIX
 from hexmend.padding import pad
 from hexmend.parameters import from_values
 from hexmend.smoothers import METHODS
 from hexmend_app.features.script.run_source import ENDED_BY_TIME, iteration_source, result_source, smooth_source
 from hexmend_app.features.script.source_code import comment_text, import_of, literal_source, multiline_source
+from hexmend_app.formats.session import SUFFIX
 from hexmend_app.picture import Scene, to_toml
 from hexmend_app.state.mesh.document import OWN_PARTS, State
 from hexmend_app.state.mesh.run_record import RecordedIteration

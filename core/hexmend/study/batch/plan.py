@@ -1,4 +1,4 @@
-"""Recipe of a study as TOML: methods, lists of values whose combinations are run, and limits; docs/methods/study-many.md.
+"""Recipe of a study as TOML: methods, lists of values whose combinations are run, and limits; study-many.md.
 
 Files are data: nothing in them is executed.
 """
