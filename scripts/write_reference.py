@@ -1,6 +1,6 @@
 """Write the pages of the reference that are generated from the program's declarations; a test compares.
 
-docs/reference/methods.md: every method with its parameters. commands.md: every command with its options. What stands above
+methods.md: every method with its parameters. commands.md: every command with its options. What stands above
 the mark in these files is written by hand, or by scripts/tables.py.
 
 Use: python scripts/write_reference.py
