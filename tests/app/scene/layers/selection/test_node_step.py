@@ -11,7 +11,7 @@ from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.node_step import explain
 from hexmend_app.theme.palette import DESCENT, SEARCH
 from tests.core.grids import grid, scrambled
-from tests.core.quality.test_descent import MIDDLE, sheared
+from tests.app.state.node_step.test_descent import MIDDLE, sheared
 
 
 def arrows(mesh, node, name):
