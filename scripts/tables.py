@@ -212,10 +212,16 @@ def task() -> str:
 
 
 def study() -> str:
-    """The columns of a study's table."""
-    kinds = {str: "text", int: "whole number", float: "number"}
-    rows = ((f"`{column.name}`", kinds[column.type], column.help) for column in COLUMNS)
-    return table(("column", "type", "what"), rows)
+    """The columns of a study's table; figures before and after the run share a row."""
+    rows = (
+        (
+            f"`{column.name}`".replace("_before`", "_before`, `_after`"),
+            column.help.replace(", of the initial mesh.", ", before and after."),
+        )
+        for column in COLUMNS
+        if not column.name.endswith("_after")
+    )
+    return table(("column", "what"), rows)
 
 
 def api() -> str:
