@@ -17,7 +17,6 @@ from api_names import names
 
 from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
-from hexmend.iteration import StoppingCriteria
 from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import format_bytes, needed
@@ -95,11 +94,6 @@ def solvers() -> str:
 def _marked(source: str) -> str:
     """A source with an asterisk in place of the reservation on its limits, which the page states once."""
     return source.replace(f" ({QUOTED})", r"\*")
-
-
-def stops() -> str:
-    """When a stage of a recipe ends."""
-    return table(PARAMETER_HEAD, parameters(StoppingCriteria))
 
 
 def formats() -> str:
@@ -212,16 +206,11 @@ def task() -> str:
 
 
 def study() -> str:
-    """The columns of a study's table; figures before and after the run share a row."""
-    rows = (
-        (
-            f"`{column.name}`".replace("_before`", "_before`, `_after`"),
-            column.help.replace(", of the initial mesh.", ", before and after."),
-        )
-        for column in COLUMNS
-        if not column.name.endswith("_after")
-    )
-    return table(("column", "what"), rows)
+    """The columns of a study's table; those of figures before and after the run share a row."""
+    changed = [column.name.removesuffix("_before") for column in COLUMNS if column.name.endswith("_before")]
+    rows = [(f"`{column.name}`", column.help) for column in COLUMNS if not column.name.endswith(("_before", "_after"))]
+    figures = ", ".join(f"`{name}`" for name in changed)
+    return table(("column", "what"), [*rows, ("`NAME_before`, `NAME_after`", f"Figures of the two meshes: {figures}.")])
 
 
 def api() -> str:
@@ -235,7 +224,6 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "metrics": ("docs/reference/metrics.md", metrics),
     "meanings": ("docs/reference/metrics.md", meanings),
     "solvers": ("docs/reference/solvers.md", solvers),
-    "stops": ("docs/methods/recipes.md", stops),
     "formats": ("docs/reference/formats.md", formats),
     "scene": ("docs/reference/scene.md", scene),
     "memory": ("docs/measurements/performance-size.md", memory),
