@@ -23,8 +23,6 @@ from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
 from hexmend.solver_checks import QUOTED, SOLVERS
 from hexmend.solver_checks.validity import VALIDITY
-from hexmend.study.batch.case import TaskLimits
-from hexmend.study.batch.table_columns import COLUMNS
 from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.picture import Scene
@@ -200,19 +198,6 @@ def _default(one: Option) -> str:
     )
 
 
-def task() -> str:
-    """The limits of a study's task."""
-    return table(PARAMETER_HEAD, parameters(TaskLimits))
-
-
-def study() -> str:
-    """The columns of a study's table; those of figures before and after the run share a row."""
-    changed = [column.name.removesuffix("_before") for column in COLUMNS if column.name.endswith("_before")]
-    rows = [(f"`{column.name}`", column.help) for column in COLUMNS if not column.name.endswith(("_before", "_after"))]
-    figures = ", ".join(f"`{name}`" for name in changed)
-    return table(("column", "what"), [*rows, ("`NAME_before`, `NAME_after`", f"Figures of the two meshes: {figures}.")])
-
-
 def api() -> str:
     """The public names of `hexmend`."""
     return table(("name", "what"), names())
@@ -227,8 +212,6 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "formats": ("docs/reference/formats.md", formats),
     "scene": ("docs/reference/scene.md", scene),
     "memory": ("docs/measurements/performance-size.md", memory),
-    "task": ("docs/methods/study-many.md", task),
-    "study": ("docs/methods/study-many.md", study),
     "api": ("docs/api/index.md", api),
 }
 
