@@ -17,15 +17,12 @@ from api_names import names
 
 from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
-from hexmend.iteration import StoppingCriteria
 from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
 from hexmend.solver_checks import QUOTED, SOLVERS
 from hexmend.solver_checks.validity import VALIDITY
-from hexmend.study.batch.case import TaskLimits
-from hexmend.study.batch.table_columns import COLUMNS
 from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.picture import Scene
@@ -95,11 +92,6 @@ def solvers() -> str:
 def _marked(source: str) -> str:
     """A source with an asterisk in place of the reservation on its limits, which the page states once."""
     return source.replace(f" ({QUOTED})", r"\*")
-
-
-def stops() -> str:
-    """When a stage of a recipe ends."""
-    return table(PARAMETER_HEAD, parameters(StoppingCriteria))
 
 
 def formats() -> str:
@@ -206,18 +198,6 @@ def _default(one: Option) -> str:
     )
 
 
-def task() -> str:
-    """The limits of a study's task."""
-    return table(PARAMETER_HEAD, parameters(TaskLimits))
-
-
-def study() -> str:
-    """The columns of a study's table."""
-    kinds = {str: "text", int: "whole number", float: "number"}
-    rows = ((f"`{column.name}`", kinds[column.type], column.help) for column in COLUMNS)
-    return table(("column", "type", "what"), rows)
-
-
 def api() -> str:
     """The public names of `hexmend`."""
     return table(("name", "what"), names())
@@ -229,12 +209,9 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "metrics": ("docs/reference/metrics.md", metrics),
     "meanings": ("docs/reference/metrics.md", meanings),
     "solvers": ("docs/reference/solvers.md", solvers),
-    "stops": ("docs/methods/recipes.md", stops),
     "formats": ("docs/reference/formats.md", formats),
     "scene": ("docs/reference/scene.md", scene),
     "memory": ("docs/measurements/performance-size.md", memory),
-    "task": ("docs/methods/study-many.md", task),
-    "study": ("docs/methods/study-many.md", study),
     "api": ("docs/api/index.md", api),
 }
 
