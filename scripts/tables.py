@@ -13,7 +13,7 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Union, get_args, get_origin
 
-from api_names import names
+from api_names import API, names
 
 from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
@@ -236,8 +236,12 @@ def study() -> str:
 
 
 def api() -> str:
-    """The public names of `hexmend`."""
-    return table(("name", "what"), names())
+    """The public names of `hexmend`, page by page."""
+    pages: dict[str, list[str]] = {}
+    for page, link, summary in names():
+        pages.setdefault(page, []).append(f"- {link}: {summary}")
+    titles = {page: (API / page).read_text(encoding="utf-8").split("\n")[0].removeprefix("# ") for page in pages}
+    return "\n\n".join(f"## [{titles[page]}]({page})\n" + "\n".join(lines) for page, lines in sorted(pages.items()))
 
 
 #: Tables by file.
