@@ -121,7 +121,7 @@ def shared(qapp, tmp_path_factory, mesh_file):
         if resetting is None:
             QSettings().clear()  # a previous window may have stored its layout
             SHARED.append(window_with_mesh(qtbot, mesh_file))
-            resetting = Resetting(SHARED[0])
+            resetting = Resetting(SHARED[0], tmp_path_factory.mktemp("session") / "initial.hexmend")
         return resetting
 
     def forget():

@@ -17,6 +17,7 @@ from hexmend.smoothers import DEFAULT_METHOD, METHODS
 from hexmend_app.state.mesh.history import LIMIT
 from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.timeline import SPEED
+from hexmend_app.state.session import session_data
 from hexmend_app.theme import theme_choice
 from hexmend_app.widgets.section import Section
 from tests.patience import PATIENCE
@@ -31,11 +32,14 @@ class Resetting:
     ----------
     window : Window
         Window in its initial state, with an open mesh.
+    path : Path
+        File for its session.
     """
 
-    def __init__(self, window):
-        self.window = window
-        self._layout, self._data = window.docks.state(), window.session.to_data()
+    def __init__(self, window, path):
+        self.window, self._path = window, path
+        self._layout = window.docks.state()
+        session_data.write(path, window.session.to_data())
         self._collapsed = [section for section in window.findChildren(Section) if not section.isExpanded()]
 
     def end(self):
@@ -93,7 +97,7 @@ class Resetting:
         session.view.set_handles(True)
         session.view.set_snap(True)
         session.view.set_rings(1)
-        session.restore(self._data)
+        session.restore(session_data.read(self._path))  # new states, which no feature has seen
 
 
 @contextmanager

@@ -126,22 +126,26 @@ class FeatureConvergence(Feature):
 
     def dialog(self) -> ChartDialog:
         """Return the dialog that saves the charts, with the style used last."""
-        arguments, options = self._exported()
-        chart, file_name = figure(*arguments, **options), f"{self.host.stem}-convergence.svg"
+        chart, file_name = figure(**self._exported()), f"{self.host.stem}-convergence.svg"
         return ChartDialog(chart, tr("the charts"), file_name, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts, or the values of all runs if the suffix is .csv; return True on success."""
-        arguments, options = self._exported()
         return self.host.try_and_report(
             tr("Charts not saved"),
-            lambda: write_convergence(path, *arguments, **options, style=style),
+            lambda: write_convergence(path, **self._exported(), style=style),
             tr("Convergence saved to {path}", path=path),
         )
 
-    def _exported(self) -> tuple[tuple[Any, ...], dict[str, Any]]:
-        """Return the arguments of `figure`: title, runs and charts, and the options."""
+    def _exported(self) -> dict[str, Any]:
+        """Return the arguments of `figure`."""
         settings = self.panel.head.settings()
-        options = {"by_time": settings.by_time, "log": settings.logarithmic, "from_zero": settings.from_zero}
-        arguments = self._document.name, self._history.records, settings.shown
-        return arguments, options | {"current": self._timeline.record}
+        return {
+            "title": self._document.name,
+            "runs": self._history.records,
+            "charts": settings.shown,
+            "by_time": settings.by_time,
+            "log": settings.logarithmic,
+            "from_zero": settings.from_zero,
+            "current": self._timeline.record,
+        }

@@ -186,25 +186,29 @@ class FeatureHistogram(Feature):
 
     def dialog(self) -> ChartDialog:
         """Return the export dialog, with the sizes and names of the last export."""
-        arguments, options = self._exported()
-        chart, proposed = figure(*arguments, **options), f"{self.host.stem}-histogram.svg"
+        chart, proposed = figure(**self._exported()), f"{self.host.stem}-histogram.svg"
         return ChartDialog(chart, tr("the histogram"), proposed, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
-        arguments, options = self._exported()
         return self.host.try_and_report(
             tr("Histogram not saved"),
-            lambda: write_histogram(path, *arguments, **options, style=style),
+            lambda: write_histogram(path, **self._exported(), style=style),
             tr("Histogram saved to {path}", path=path),
         )
 
-    def _exported(self) -> tuple[tuple[Any, ...], dict[str, Any]]:
-        """Return the arguments of `figure`: title, metric and distributions, and the options."""
+    def _exported(self) -> dict[str, Any]:
+        """Return the arguments of `figure`."""
         panel, document = self.panel, self._document
         start, now = document.start.mesh, document.now.mesh
         drawn = [(tr("at the start"), GREY.light, True, start), (tr("now"), BLUE.light, True, now)]
         for snapshot in self._snapshots.all:
             drawn.append((snapshot.name, KEPT[snapshot.slot].light, False, now.with_points(snapshot.points)))
-        options = {"bins": panel.head.bins.value(), "log": panel.log, "cumulative": panel.cumulative}
-        return (document.name, self.metric, drawn), options
+        return {
+            "title": document.name,
+            "metric": self.metric,
+            "drawn": drawn,
+            "bins": panel.head.bins.value(),
+            "log": panel.log,
+            "cumulative": panel.cumulative,
+        }

@@ -22,7 +22,7 @@ WIDTH = 110
 def value_source(value: Parametrised | Recipe | Stage) -> str:
     """Return the source of a method, limits, a stage or a recipe; defaults are omitted.
 
-    >>> value_source(StoppingCriteria(max_iterations=5)), value_source(StoppingCriteria())
+    >>> value_source(hexmend.StoppingCriteria(max_iterations=5)), value_source(hexmend.StoppingCriteria())
     ('hx.StoppingCriteria(max_iterations=5)', 'hx.StoppingCriteria()')
     """
     if isinstance(value, Recipe):
