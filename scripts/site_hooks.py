@@ -37,9 +37,11 @@ def on_files(files: Files, config: Any) -> Files:
     return files
 
 
-def on_page_markdown(markdown: str, config: Any, **_: Any) -> str:
-    """Call links by the titles of their pages."""
-    titles = {Path(page).name: title for page, title in _titles(config["nav"])}
+def on_page_markdown(markdown: str, page: Any, config: Any, **_: Any) -> str:
+    """Call links by the titles of their pages, and let the search find how-to pages before those of the API."""
+    if page.file.src_uri.startswith("api/"):
+        page.meta["search"] = {"boost": 0.3}
+    titles = {Path(file).name: title for file, title in _titles(config["nav"])}
 
     def titled(found: re.Match[str]) -> str:
         return f"[{titles.get(found[1], found[1])}]({found[2]})"
