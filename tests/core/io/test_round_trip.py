@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from hexmend import io
-from hexmend.gallery import make
 from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
 from hexmend.mesh.cells import Cells
@@ -77,27 +76,6 @@ def test_a_rich_mesh_survives(suffix, encoding, tmp_path):
     assert_carried(mesh, back)
 
 
-@pytest.mark.parametrize(("suffix", "encoding"), [way for way in WAYS if way[0] in (".vtk", ".vtu")])
-def test_arrays_of_all_sorts_and_sets_survive_in_vtk(suffix, encoding, tmp_path):
-    bare = grid(2)
-    mesh = bare.replace(
-        node_data={
-            "velocity": np.random.default_rng(0).normal(size=(27, 3)),
-            "my id": np.arange(27, dtype=np.int64) + 2**40,
-            "small": np.arange(27, dtype=np.float32) / 3,
-        },
-        hex_data={"GLOBAL_ID": np.arange(8, dtype=np.int32), "part": np.arange(8, dtype=np.uint8)},
-        hex_sets={"inlet": np.array([1, 4])},
-        node_sets={"wall": np.array([0, 26])},
-    )
-    io.write(tmp_path / f"m{suffix}", mesh, encoding=encoding)
-    back = io.read(tmp_path / f"m{suffix}")
-    assert_carried(mesh, back)
-    assert set(back.node_data) == set(mesh.node_data)
-    for name, values in mesh.node_data.items():
-        assert back.node_data[name].dtype.kind == values.dtype.kind
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(("suffix", "encoding"), EXACT)
 @given(points=arrays(np.float64, (8, 3), elements=st.floats(-1e70, 1e70)))
@@ -117,48 +95,6 @@ def test_a_fixed_array_pins_nodes_and_is_carried(tmp_path):
     assert back.fixed[21]
     assert back.free.sum() == 7
     np.testing.assert_array_equal(back.node_data["fixed"], fixed)
-
-
-def test_voxels_become_hexahedra(tmp_path):
-    points = "\n".join(f"{x} {y} {z}" for z in (0, 1) for y in (0, 1) for x in (0, 1))
-    (tmp_path / "v.vtk").write_text(
-        "# vtk DataFile Version 2.0\nv\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-        f"POINTS 8 float\n{points}\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n11\n"
-    )
-    from hexmend.quality import summarise
-
-    assert summarise(io.read(tmp_path / "v.vtk")).q_min == pytest.approx(1)
-
-
-def test_version_5_of_the_legacy_format_is_read(tmp_path):
-    from hexmend.mesh.hexahedron import UNIT_CUBE
-
-    points = "\n".join(" ".join(map(str, row)) for row in UNIT_CUBE)
-    (tmp_path / "v.vtk").write_text(
-        "# vtk DataFile Version 5.1\nv\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-        f"POINTS 8 double\n{points}\nCELLS 2 8\nOFFSETS vtktypeint64\n0 8\nCONNECTIVITY vtktypeint64\n0 1 2 3 4 5 6 7\n"
-        "CELL_TYPES 1\n12\nCELL_DATA 1\nFIELD FieldData 1\nid 1 1 vtktypeint64\n7\n"
-        "METADATA\nINFORMATION 0\n\n"
-    )
-    assert io.read(tmp_path / "v.vtk").hex_data["id"].tolist() == [7]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("suffix", [".vtk", ".vtu"])
-def test_vtk_itself_reads_what_is_written(suffix, tmp_path):
-    import subprocess
-    import sys
-
-    pytest.importorskip("pyvista")
-    mesh = make("five-side", size=500)
-    io.write(tmp_path / f"five{suffix}", mesh)
-    program = (
-        f"import pyvista; m = pyvista.read({str(tmp_path / f'five{suffix}')!r}); print(m.n_cells, m.n_points, m.volume)"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    cells, nodes, volume = done.stdout.split()
-    assert (int(cells), int(nodes)) == (mesh.n_hexes, mesh.n_nodes)
-    assert float(volume) > 0
 
 
 @pytest.mark.parametrize(("suffix", "encoding"), PINNED)
