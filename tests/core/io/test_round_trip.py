@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from hexmend import io
+from hexmend.errors import FileError
 from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
 from hexmend.mesh.cells import Cells
@@ -74,6 +75,22 @@ def test_a_rich_mesh_survives(suffix, encoding, tmp_path):
     back = io.read(tmp_path / f"rich{suffix}")
     assert back.name == "rich"
     assert_carried(mesh, back)
+
+
+@pytest.mark.parametrize(
+    ("suffix", "encoding"),
+    [(one.suffixes[0], way) for one in FORMATS.values() if not one.place for way in one.encodings],
+)
+def test_a_file_that_is_cut_short_gives_a_mesh_or_one_clear_error(suffix, encoding, tmp_path):
+    io.write(tmp_path / f"good{suffix}", scrambled(grid(2), 0.2), encoding=encoding)
+    data, path = (tmp_path / f"good{suffix}").read_bytes(), tmp_path / f"bad{suffix}"
+    for end in np.linspace(1, len(data) - 3, 24).astype(int):
+        path.write_bytes(data[:end])
+        try:
+            assert io.read(path).n_hexes == 8
+        except FileError as error:
+            assert str(error).startswith(f"bad{suffix}: ")
+            assert "\n" not in str(error)
 
 
 @pytest.mark.slow

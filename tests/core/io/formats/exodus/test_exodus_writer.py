@@ -78,16 +78,6 @@ def test_a_file_on_hdf5_is_read_like_one_of_the_classic_format(tmp_path):
             np.testing.assert_array_equal(getattr(back, kind)[name], values, err_msg=name)
 
 
-@pytest.mark.parametrize("pins", [[], [1, 4]])
-@pytest.mark.parametrize("name", ["fixed", "Fixed"])
-def test_pins_and_sets_named_fixed_stay_distinct(name, pins, tmp_path):
-    mesh = grid(2).replace(node_sets={name: np.array([0, 9])}, pinned=np.isin(np.arange(27), pins))
-    io.write(tmp_path / "f.exo", mesh)
-    back = io.read(tmp_path / "f.exo")
-    assert np.flatnonzero(back.pinned if back.pinned is not None else []).tolist() == pins
-    assert {key: one.tolist() for key, one in back.node_sets.items()} == {name: [0, 9]}
-
-
 def test_ids_of_blocks_and_sets_are_kept(tmp_path):
     bare = grid(2)
     more = [
@@ -126,31 +116,6 @@ def test_columns_with_the_names_of_other_data_are_renamed_together_and_that_is_r
     for title, values in {"v_2": vector, "v_x": scalar, "w_2": pair, "w_3": scalar, "free": vector}.items():
         np.testing.assert_array_equal(back.node_data[title], values)
     np.testing.assert_array_equal(back.hex_data["s_2"], mesh.hex_data["s"])
-
-
-def test_unsupported_data_and_names_are_reported(tmp_path):
-    names = [" lead", "lead", "S", "s", ""]
-    mesh = grid(2).replace(
-        node_data={"phase": np.arange(27) * 1j, " t": np.arange(27.0), "v": np.ones((27, 3)), "v_x": np.arange(27.0)},
-        hex_data={"label": np.array(list("abcdefgh"))},
-        node_sets={name: np.array([k]) for k, name in enumerate(names)},
-        hex_sets={name: np.array([k]) for k, name in enumerate(names)},
-        side_sets={"": np.array([[0, 0]])},
-    )
-    assert io.unsupported_data(tmp_path / "a.exo", mesh) == [
-        "point data that are not numbers (phase)",
-        "cell data that are not numbers (label)",
-        "names of point data as they are ( t, v)",
-        "names of sets as they are (,  lead)",
-    ]
-    io.write(tmp_path / "a.exo", mesh)
-    back = io.read(tmp_path / "a.exo")
-    for sets in (back.node_sets, back.hex_sets):
-        members = {name: one.tolist() for name, one in sets.items()}
-        assert members == {"lead 2": [0], "lead": [1], "S": [2], "s": [3], "unnamed": [4]}
-    assert list(back.side_sets) == ["unnamed"]
-    np.testing.assert_array_equal(back.node_data["t"], np.arange(27))
-    np.testing.assert_array_equal(back.node_data["v_x"], np.arange(27))
 
 
 @pytest.mark.parametrize(("most", "status"), [(9, 0), (2**31 - 1, 0), (2**31, 0x0400)])
