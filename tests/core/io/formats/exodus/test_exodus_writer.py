@@ -8,7 +8,8 @@ from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
-from tests.core.io.formats.exodus.exodus_files import HEX27, letters, rich, written
+from tests.core.io.formats.exodus.exodus_files import HEX27, letters, on_hdf5, rich, written
+from tests.core.io.kept import assert_same
 
 
 def test_hexes_of_both_orders_keep_their_data_and_sets(tmp_path):
@@ -60,20 +61,13 @@ def test_vtk_reads_written_files(tmp_path):
 
 
 def test_a_file_on_hdf5_is_read_like_one_of_the_classic_format(tmp_path):
-    netCDF4 = pytest.importorskip("netCDF4")
+    pytest.importorskip("netCDF4")
     io.write(tmp_path / "classic.exo", rich())
-    with netCDF4.Dataset(tmp_path / "classic.exo") as one, netCDF4.Dataset(tmp_path / "new.exo", "w") as other:
-        one.set_auto_mask(False)
-        for name, dimension in one.dimensions.items():
-            other.createDimension(name, None if dimension.isunlimited() else len(dimension))
-        for name, values in one.variables.items():
-            copy = other.createVariable(name, values.dtype, values.dimensions, zlib=True)
-            copy.setncatts({key: values.getncattr(key) for key in values.ncattrs()})
-            copy[:] = values[:]
+    on_hdf5(tmp_path / "classic.exo", tmp_path / "new.exo", zlib=True)
     assert (tmp_path / "new.exo").read_bytes()[:4] == b"\x89HDF"
     mesh, back = io.read(tmp_path / "classic.exo"), io.read(tmp_path / "new.exo")
-    np.testing.assert_array_equal(back.hexes, mesh.hexes)
-    for kind in ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets"):
+    assert_same(back, mesh)
+    for kind in ("node_data", "hex_data"):
         for name, values in getattr(mesh, kind).items():
             np.testing.assert_array_equal(getattr(back, kind)[name], values, err_msg=name)
 

@@ -127,14 +127,3 @@ def test_a_small_file_cannot_fill_the_memory(tmp_path):
 
     with pytest.raises(FileError, match="are declared to have"):
         io.read(hand_made(tmp_path / "a.vtkhdf", change))
-
-
-def test_what_is_no_vtkhdf_is_said(tmp_path):
-    with h5py.File(tmp_path / "a.vtkhdf", "w") as file:
-        file["a"] = 1
-    with pytest.raises(FileError, match="has no group VTKHDF"):
-        io.read(tmp_path / "a.vtkhdf")
-    content = hand_made(tmp_path / "b.vtkhdf").read_bytes()
-    (tmp_path / "b.vtkhdf").write_bytes(content[: len(content) // 2])
-    with pytest.raises(FileError, match=r"b\.vtkhdf: the HDF5 library cannot read it"):
-        io.read(tmp_path / "b.vtkhdf")
