@@ -23,13 +23,6 @@ TALKATIVE = (
 ENDLESS = ["--tolerance", "0", "--max-iterations", "1000000"]
 
 
-@pytest.fixture
-def mesh(tmp_path):
-    path = tmp_path / "mesh.vtu"
-    io.write(path, gallery.make("cube", size=125, scramble=0.3))
-    return path
-
-
 def interrupted(*words, at, number=signal.SIGINT):
     """Run the program, send it a signal at its first line that begins with `at`, and wait for its end."""
     program = subprocess.Popen(

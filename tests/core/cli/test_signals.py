@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from hexmend import gallery, io
+from hexmend import io
 from hexmend.cli.main import main
 from tests.patience import PATIENCE
 
@@ -37,13 +37,6 @@ def write(path, mesh, encoding):
 object.__setattr__(FORMATS["vtu"], "write", write)
 sys.exit(main(sys.argv[1:]))
 """
-
-
-@pytest.fixture
-def mesh(tmp_path):
-    path = tmp_path / "mesh.vtu"
-    io.write(path, gallery.make("cube", size=125, scramble=0.3))
-    return path
 
 
 def signalled(program, number, at, *words, again_at=None):
