@@ -9,15 +9,12 @@ from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.iteration import Outcome
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
-from hexmend.optimise.maxmin.corner_set import MovableCorners
 from hexmend.optimise.maxmin.corner_values import scaled_jacobians
-from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.quality import measure
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.maxmin import MAXMIN
-from hexmend.smoothers.mend.messages import limit_message
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid, scrambled
 
@@ -106,18 +103,6 @@ def test_what_limits_the_least_is_told():
     shaped = smooth(mesh, Mend(goal="shape"))
     assert "The minimum scaled Jacobian" not in shaped.message
     assert shaped.active is None
-
-
-@pytest.mark.parametrize("name", ["bridge-sharp", "plane"])
-def test_corners_that_are_apart_are_not_said_to_hold_each_other(name):
-    mesh = make(name, size=500)
-    optimiser = MaxMinOptimiser(mesh, smooth(mesh, Mend(goal="shape")).mesh.points)
-    *_, active = optimiser.steps()
-    places = len(set(MovableCorners(mesh, optimiser.points).groups(8 * active.hexes + active.corners)))
-    assert places > 1
-    message = limit_message(optimiser, active)
-    assert f"it is limited by {active.hexes.size} corners at {places} separate places" in message
-    assert "hold each other" not in message
 
 
 def test_a_corner_that_is_locked_below_the_others_is_told():

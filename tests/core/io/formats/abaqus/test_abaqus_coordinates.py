@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from hexmend import io
 from hexmend.io import Original, write_as_given
-from hexmend.io.formats.abaqus.coordinates import locate
 from hexmend.mesh.hexahedron import UNIT_CUBE
 
 TAIL = "*Element, type=C3D8, elset=Body\n 5, 1, 2, 3, 4, 5, 6, 7, 8\n*Material, name=Steel\n*Elastic\n 210000., 0.3\n"
@@ -127,11 +126,6 @@ def test_instances_that_move_alike_are_replaced_in_their_part_and_others_are_wri
     assert not written.replaced
     assert "instances of the part 'Block'" in written.notes[0]
     np.testing.assert_array_equal(io.read(target).points, points)
-
-
-def test_coordinates_are_located_as_they_are_read(real_mesh):
-    path = real_mesh("bunny_projected.inp")
-    np.testing.assert_array_equal(locate(path).points, io.read(path).points)
 
 
 def test_lines_with_more_and_fewer_fields_are_read_by_themselves(tmp_path):

@@ -9,15 +9,6 @@ from hexmend.errors import FileError
 from tests.core.grids import grid
 
 
-def test_a_file_truncated_anywhere_is_refused(tmp_path):
-    io.write(tmp_path / "good.exo", grid(2))
-    data = (tmp_path / "good.exo").read_bytes()
-    for length in range(4, len(data), 37):
-        (tmp_path / "cut.exo").write_bytes(data[:length])
-        with pytest.raises(FileError, match=r"cut\.exo: "):
-            io.read(tmp_path / "cut.exo")
-
-
 def test_counts_larger_than_the_file_are_refused_before_anything_is_allocated(tmp_path):
     io.write(tmp_path / "good.exo", grid(2))
     data = (tmp_path / "good.exo").read_bytes()

@@ -104,14 +104,6 @@ def test_what_is_wrong_is_named(old, new, words, tmp_path):
     assert words in str(error.value)
 
 
-def test_a_file_cut_short_is_an_error_or_ends_between_lines(tmp_path):
-    text = written(UNIT_CUBE, np.arange(8)[None])
-    for end in range(0, len(text) - 1, 3):
-        (tmp_path / "a.ovm").write_text(text[:end])
-        with pytest.raises(FileError):
-            io.read(tmp_path / "a.ovm")
-
-
 @pytest.mark.parametrize(("prop", "section"), [("VProp", "Vertices"), ("CProp", "Polyhedra")])
 def test_properties_of_what_is_not_there_yet_are_refused(prop, section, tmp_path):
     path = tmp_path / "a.ovm"

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.errors import FileError
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
@@ -158,22 +157,3 @@ def test_hexes_labelled_as_tetrahedra_are_read_where_all_have_eight_nodes(suffix
     corners = mesh.points[mesh.hexes[0]]
     a, b, c, d = corners[CORNER_TETRAHEDRA[0]]
     assert np.linalg.det([b - a, c - a, d - a]) > 0
-
-
-@SUFFIXES
-@pytest.mark.parametrize(
-    ("types", "words"),
-    [
-        ([12, 13], "cell 1 is of type 13 and has 8 nodes: expected 6"),
-        ([25, 12], "cell 0 is of type 25 and has 8 nodes: expected 20"),
-        ([12, 255], ""),
-    ],
-)
-def test_other_labels_are_refused_or_said(suffix, types, words, tmp_path):
-    path = tmp_path / f"a{suffix}"
-    relabelled(path, [12, 12], types)
-    if words:
-        with pytest.raises(FileError, match=words):
-            io.read(path)
-    else:
-        assert "Not read: 1 cell of another kind (type 255)." in io.read(path).notes
