@@ -96,7 +96,9 @@ def _given(args: argparse.Namespace) -> list[tuple[str, Any]]:
     given: list[tuple[str, Any]] = []
     if args.clip:
         planes = [parse_plane(text) for text in args.clip]
-        given.append(("cut.planes", [_other_side(plane) for plane in planes] if args.flip else planes))
+        if args.flip:
+            planes = [Plane(plane.flipped().normal, 1 - plane.position) for plane in planes]
+        given.append(("cut.planes", planes))
     options = vars(args)
     for name, path, _ in _VALUES:
         if text := options[name.replace("-", "_")]:
@@ -118,10 +120,6 @@ def parse_plane(text: str) -> Plane:
     if not 0 <= share <= 1:
         raise invalid_value("--clip", text, "a position from 0 to 1, as in x:0.5")
     return Plane(normal, share)
-
-
-def _other_side(plane: Plane) -> Plane:
-    return Plane(tuple(-c for c in plane.normal), 1 - plane.position)
 
 
 def _parse_structure(text: str) -> Structure:

@@ -79,7 +79,8 @@ class Cut(ConfigTable):
     @classmethod
     def at(cls, normal: Sequence[float], point: Sequence[float], style: CutStyle = CutStyle.CRINKLE) -> Cut:
         """Return the cut by a single plane."""
-        return cls((Plane(tuple(map(float, normal)), point=tuple(map(float, point))),), style=style)
+        normal, point = (tuple(np.asarray(vector, float).tolist()) for vector in (normal, point))
+        return cls((Plane(normal, point=point),), style=style)
 
     def check(self) -> None:
         """Raise `ParameterError` for several shapes, one that cannot be cut smoothly, and invalid hexes."""
@@ -163,11 +164,9 @@ class Cut(ConfigTable):
             )
         if self.absolute:
             return self
-        shapes = {"planes": tuple(plane.on(mesh) for plane in self.planes)}
-        for kind in (CutKind.BOX, CutKind.SLAB, CutKind.SPHERE):
-            shape = getattr(self, kind)
-            shapes[kind] = None if shape is None else shape.on(mesh)
-        return replace(self, **shapes)
+        shapes = {kind: getattr(self, kind) for kind in (CutKind.BOX, CutKind.SLAB, CutKind.SPHERE)}
+        placed = {kind: None if shape is None else shape.on(mesh) for kind, shape in shapes.items()}
+        return replace(self, planes=tuple(plane.on(mesh) for plane in self.planes), **placed)
 
     def with_plane(self, at: int, plane: Plane) -> Cut:
         """Return a copy in which the plane with the index `at` is replaced; it lists no hexes."""

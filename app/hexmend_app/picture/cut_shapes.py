@@ -69,7 +69,8 @@ class Plane(ConfigTable):
 
     def flipped(self) -> Plane:
         """Return the plane with the opposite normal."""
-        return dataclasses.replace(self, normal=tuple(-c for c in self.normal))
+        x, y, z = self.normal
+        return dataclasses.replace(self, normal=(-x, -y, -z))
 
     def snapped(self, degrees: float = SNAP) -> Plane:
         """Return the plane with its normal along an axis if they differ by at most `degrees`; else the plane itself."""
@@ -178,10 +179,9 @@ class Slab(ConfigTable):
         """Return the two planes; their normals point outwards or `inwards`. The slab has a point."""
         normal, point = np.array(self.normal), np.array(self.point)
         outwards = -1.0 if inwards else 1.0
-        return tuple(
-            Plane(tuple(sign * outwards * normal), point=tuple((point + sign * 0.5 * self.thickness * normal).tolist()))
-            for sign in (-1.0, 1.0)
-        )
+        half = 0.5 * self.thickness * normal
+        low, high = tuple((point - half).tolist()), tuple((point + half).tolist())
+        return Plane(tuple(-outwards * normal), point=low), Plane(tuple(outwards * normal), point=high)
 
 
 @dataclass(frozen=True)
@@ -260,7 +260,7 @@ class Depth(ConfigTable):
 def _normalised(normal: Vector) -> Vector:
     """Return a vector with length 1; one that has it, up to rounding, stays: copies of a plane are identical."""
     length = math.hypot(*normal)
-    return normal if abs(length - 1) < _ROUNDING else tuple(c / length for c in normal)
+    return normal if abs(length - 1) < _ROUNDING else tuple((np.array(normal) / length).tolist())
 
 
 def _check_place(name: str, normal: Vector, position: float | None, point: Vector | None) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from hexmend.errors import ParameterError
@@ -99,7 +100,7 @@ class Show(ConfigTable):
             raise ParameterError(f"[show] names hex {self.largest_hex:,}: expected one of the mesh, below {hexes:,}")
 
 
-def known_metric(name: str, known: object) -> None:
+def known_metric(name: str, known: Collection[str]) -> None:
     """Raise `ParameterError` if a metric is unknown."""
     if name not in known:
         raise ParameterError(f"metric = {name!r} is unknown: expected one of {', '.join(known)}")
