@@ -115,7 +115,7 @@ def test_figures_of_other_programs_are_those_of_the_measurements():
 
 
 def test_it_is_short():
-    assert len(README.splitlines()) <= 120
+    assert len(README.splitlines()) <= 110
     assert re.findall(r"!\[.*?\]\(docs/(.*?)\)", README) == [
         "pictures/before-after.gif",
         "pictures/window-smoothing.png",

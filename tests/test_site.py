@@ -73,12 +73,6 @@ def test_every_formula_is_mathml(site):
     assert (site / "fonts/math.ttf").stat().st_size > 100_000
 
 
-def test_links_are_called_as_their_pages_are(site):
-    text = (site / "start/window.html").read_text(encoding="utf-8")
-    assert '<a href="../reference/keys.html">Mouse and keys</a>' in text
-    assert not re.search(r"<a[^>]*>[\w-]+\.md</a>", text)
-
-
 @pytest.fixture(scope="module")
 def opened(site, tmp_path_factory):
     """A page of the site in Debian's browser, read from the disk, and what the browser asked for."""

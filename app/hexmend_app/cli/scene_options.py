@@ -42,7 +42,7 @@ def accept_negative_values(parser: argparse.ArgumentParser) -> None:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options to a parser."""
-    text = "x, y, z or nx,ny,nz, and :position from 0 to 1 through the mesh (x:0.5); repeat for more planes"
+    text = "x, y, z or nx,ny,nz, and :position from 0 to 1 through the mesh (x:0.5)"
     parser.add_argument("--clip", metavar="PLANE", action="append", default=[], help=text)
     parser.add_argument("--flip", action="store_true", help="hide the other side of each plane")
     for name, _, text in _VALUES:
@@ -52,10 +52,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--structure",
         metavar="NAMES",
-        help="draw layers: irregular, boundary or sharp edges, fixed, free or locked nodes, kinds of boundary nodes, "
-        "others (cells that are not hexes), or an additional layer; separate several by commas",
+        help="draw layers, with commas between them: irregular, boundary, sharp, fixed, free, locked, kinds, others, "
+        "or an additional layer",
     )
-    text = "another key of a scene file, as in page.margin=5 or cut.sphere='{ radius = 2 }'; repeat for more keys"
+    text = "another key of a scene file, as in page.margin=5 or cut.sphere='{ radius = 2 }'"
     parser.add_argument("--key", metavar="TABLE.KEY=VALUE", action="append", default=[], help=text)
 
 

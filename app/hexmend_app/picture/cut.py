@@ -50,23 +50,21 @@ class Cut(ConfigTable):
     Parameters
     ----------
     planes : tuple of Plane
-        Planes, for example { normal = [1, 0, 0], position = 0.5 }, or with a point instead of a position.
+        Planes, such as { normal = [1, 0, 0], position = 0.5 }; what lies beyond any of them is hidden.
     box : Box, optional
-        Box, for example { low = [0, 0, 0], high = [1, 1, 1] }, whose outside is hidden.
+        Box whose outside is hidden.
     slab : Slab, optional
-        Slab between two planes, for example { normal = [1, 0, 0], position = 0.5, thickness = 0.1 }, whose outside is
-        hidden.
+        Slab between two planes, whose outside is hidden.
     sphere : Sphere, optional
-        Sphere, for example { centre = [0, 0, 0], radius = 1 }; hexes whose centre lies outside are hidden.
+        Sphere; hexes whose centre lies outside are hidden.
     depth : Depth, optional
-        Depths of hexes below the boundary, for example { low = 2, high = 3, unit = "layers" }; other hexes are hidden.
+        Depths of the shown hexes below the boundary.
     style : CutStyle
-        crinkle shows hexes at the cut whole, smooth cuts them, which requires planes, a box or a slab.
+        crinkle shows hexes at the cut whole, smooth cuts them: with planes, a box or a slab.
     notch : bool
         Hide only what lies beyond all planes, which removes a corner; for another shape, hide its inside.
     hexes : str
-        Hexes that a cut by whole hexes has left, as ranges of numbers from 0, for example "0-120, 130"; by default
-        the hexes whose centre is not cut away.
+        Hexes that a crinkle cut leaves, such as "0-120, 130"; by default those whose centre is not cut away.
     """
 
     planes: tuple[Plane, ...] = option((), most=_MAX_PLANES)

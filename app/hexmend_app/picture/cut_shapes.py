@@ -31,11 +31,11 @@ class Plane(ConfigTable):
     Parameters
     ----------
     normal : Vector
-        Normal of the plane, of any length; it is normalised.
+        Normal of the plane, of any length.
     position : float, optional
-        Position along the normal, from 0 at one end of the mesh to 1 at the other; by default 0.5.
+        Position along the normal, as a fraction of the extent of the mesh; by default 0.5.
     point : Vector, optional
-        Point of the plane, in the unit of the mesh, instead of a position.
+        Point of the plane, instead of a position.
     """
 
     normal: Vector = option((1.0, 0.0, 0.0))
@@ -86,10 +86,12 @@ class Box(ConfigTable):
 
     Parameters
     ----------
-    low, high : Vector
-        Lowest and highest corner, in the unit of the mesh.
+    low : Vector
+        Lowest corner.
+    high : Vector
+        Highest corner.
     shares : bool
-        Corners are fractions of the bounding box of the mesh, from 0 to 1, instead of coordinates.
+        Corners are fractions of the bounding box of the mesh.
     """
 
     low: Vector = option((0.0, 0.0, 0.0))
@@ -134,14 +136,13 @@ class Slab(ConfigTable):
     Parameters
     ----------
     normal : Vector
-        Normal of the planes, of any length; it is normalised.
+        Normal of the planes, of any length.
     position : float, optional
-        Position of the middle along the normal, from 0 at one end of the mesh to 1 at the other; by default 0.5.
+        Position of the middle along the normal, as a fraction of the extent of the mesh; by default 0.5.
     point : Vector, optional
-        Point halfway between the planes, in the unit of the mesh, instead of a position.
+        Point halfway between the planes, instead of a position.
     thickness : float
-        Distance of the planes: with a point in the unit of the mesh, otherwise as a fraction of the extent of the mesh
-        along the normal.
+        Distance of the planes: with a point a length, otherwise a fraction of the extent of the mesh.
     """
 
     normal: Vector = option((1.0, 0.0, 0.0))
@@ -190,12 +191,11 @@ class Sphere(ConfigTable):
     Parameters
     ----------
     centre : Vector
-        Centre, in the unit of the mesh.
+        Centre of the sphere.
     radius : float
-        Radius, in the unit of the mesh.
+        Radius of the sphere.
     shares : bool
-        The centre is in fractions of the bounding box of the mesh, from 0 to 1, and the radius is a fraction of its
-        diagonal.
+        The centre is in fractions of the bounding box of the mesh, the radius a fraction of its diagonal.
     """
 
     centre: Vector = option((0.0, 0.0, 0.0))
@@ -240,8 +240,7 @@ class Depth(ConfigTable):
     low, high : float
         Least and greatest depth.
     unit : DepthUnit
-        layers counts layers of hexes, from 1 at the boundary; edges measures the distance of the centre of a hex from
-        the boundary in mean edge lengths.
+        layers: from 1 at the boundary; edges: distance of a hex's centre from the boundary in mean edge lengths.
     """
 
     low: float = option(1.0, low=0)

@@ -23,7 +23,7 @@ class Isolate(ConfigTable):
     hexes : tuple of int
         Hex numbers, from 0.
     rings : int
-        Number of rings of hexes around them; each ring adds the hexes that share a node.
+        Rings of hexes around them; each adds the hexes that share a node.
     """
 
     hexes: tuple[int, ...] = option((), low=0, high=_MAX_NUMBER)
@@ -37,7 +37,7 @@ class Show(ConfigTable):
     Parameters
     ----------
     quality : tuple of 2 floats, optional
-        Smallest and largest value of the metric of shown hexes; -inf and inf for no bound.
+        Smallest and largest value of shown hexes; -inf and inf for no bound.
     metric : str
         Metric of the range.
     inverted : bool
@@ -45,15 +45,15 @@ class Show(ConfigTable):
     peel : int
         Number of layers of hexes to hide, from the boundary inwards.
     isolate : Isolate, optional
-        Show only these hexes and their neighbours, for example { hexes = [12, 15], rings = 1 }.
+        Show only these hexes and their neighbours.
     hidden : frozenset of int
-        Hexes that are hidden individually, by number from 0.
+        Numbers of hexes that are hidden individually.
     shrink : float
         Fraction by which each hex is shrunk.
     outline : bool
         Draw sharp edges, and the outline of the whole mesh while part of it is hidden.
     marked : frozenset of int
-        Hexes whose edges are marked, by number from 0; in saved pictures, the selected hex.
+        Numbers of hexes whose edges are marked; in saved pictures, the selected hex.
     """
 
     quality: tuple[float, float] | None = option(open_ended=True)
