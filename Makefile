@@ -52,7 +52,7 @@ soak: $(VENV)/.test $(VENV)/.kernels
 	@$(PYTEST) -m hypothesis --hypothesis-profile=soak --hypothesis-seed=$(SEED) --timeout=3600
 
 mutants: $(VENV)/.test $(VENV)/.kernels
-	@status=0; for kind in "" --native; do $(BIN)/python scripts/mutants.py $$kind || status=1; done; exit $$status
+	@status=0; for script in mutants native_mutants; do $(BIN)/python scripts/$$script.py || status=1; done; exit $$status
 
 lint: $(VENV)/.test $(VENV)/.pins
 	@$(BIN)/ruff check
