@@ -1,9 +1,6 @@
 """Files on HDF5 that name other files: nothing outside of the file that is named is opened."""
 
 import itertools
-import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -150,17 +147,3 @@ def test_a_soft_link_inside_the_file_is_followed(suffix, tmp_path):
     FORMATS[suffix](tmp_path / f"b{suffix}", without_change)
     linked, plain = io.read(tmp_path / f"a{suffix}"), io.read(tmp_path / f"b{suffix}")
     np.testing.assert_array_equal(linked.points, plain.points)
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names on this system")
-@formats
-@pytest.mark.parametrize("change", [external_link, external_storage, virtual_dataset], ids=lambda one: one.__name__)
-def test_a_pipe_that_is_named_is_not_waited_for(suffix, change, tmp_path):
-    for name in ("other.h5", "other.raw"):
-        os.mkfifo(tmp_path / name)
-    FORMATS[suffix](tmp_path / f"a{suffix}", change)
-    command = [sys.executable, "-m", "hexmend", "info", str(tmp_path / f"a{suffix}")]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=50, check=False)
-    assert done.returncode == 3
-    assert "no other file is opened" in done.stderr
