@@ -9,6 +9,7 @@ from hexmend import io
 from hexmend.errors import FileError
 from tests.core.grids import grid
 from tests.core.io.formats.cgns.cgns_files import cgns, structured
+from tests.core.io.formats.vtk.test_vtkhdf import hand_made
 
 h5py = pytest.importorskip("h5py")
 
@@ -46,14 +47,7 @@ def on_cgns(path, change):
 
 
 def vtkhdf(path, change):
-    mesh = grid(1)
-    with h5py.File(path, "w") as file:
-        root = file.create_group("VTKHDF")
-        root.attrs["Version"], root.attrs["Type"] = (2, 2), np.bytes_("UnstructuredGrid")
-        root["NumberOfPoints"], root["NumberOfCells"], root["NumberOfConnectivityIds"] = [8], [1], [8]
-        root["Connectivity"], root["Offsets"], root["Types"] = mesh.hexes[0], [0, 8], np.array([12], np.uint8)
-        root["Points"] = mesh.points
-        change(root, "Points", (8, 3))
+    hand_made(path, lambda root: change(root, "Points", (8, 3)), parts=1)
 
 
 FORMATS = {".med": med, ".exo": exodus, ".cgns": on_cgns, ".vtkhdf": vtkhdf}
