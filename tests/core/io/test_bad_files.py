@@ -14,37 +14,6 @@ from hexmend.io import FORMATS
 from hexmend.io.storage.atomic import atomic_write
 from tests.core.grids import grid, scrambled
 
-HEAD = "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-CUBE = "POINTS 8 float\n0 0 0 1 0 0 1 1 0 0 1 0\n0 0 1 1 0 1 1 1 1 0 1 1\n"
-
-
-@pytest.mark.parametrize(
-    ("name", "text", "words"),
-    [
-        ("a.vtk", "hello\n", "line 1 is 'hello': expected '# vtk DataFile"),
-        ("a.vtk", "# vtk DataFile Version 2.0\nt\nASCII\nDATASET POLYDATA\n", "its dataset is POLYDATA: expected UNSTRUCTURED_GRID"),
-        ("a.vtk", HEAD + "POINTS 8 float\n0 0 0 1 0 0\n", "POINTS ends after 2 of 8 rows"),
-        ("a.vtk", HEAD + "POINTS 2 float\n0 0 0 1 x 0\n", "POINTS holds 'x' in row 2 of 2 (line 6): expected a number"),
-        ("a.vtk", HEAD + CUBE, "has no section CELLS"),
-        ("a.vtk", HEAD + CUBE + "CELLS 1 9\n8 0 1 2 3 4 5 6 8\nCELL_TYPES 1\n12\n", "expected numbers from 0 to 7"),
-        ("a.vtk", HEAD + CUBE + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n", "holds no hexahedra, but 1 tetra cell"),
-        ("a.vtk", HEAD + CUBE + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n", "holds no hexahedra"),
-        ("a.mesh", "MeshVersionFormatted 2\nDimension 2\n", "its Dimension is 2: expected 3"),
-        ("a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 0 0\nTetrahedra\n1\n1 1 1 1 0\nEnd\n", "holds no hexahedra, but 1 tetra cell"),
-        ("a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 0 0\nEnd\n", "holds no hexahedra"),
-        ("a.meshb", "words", "does not begin with the number 1"),
-        ("a.vtu", "<html/>", "does not begin with <VTKFile"),
-        ("a.vtu", '<VTKFile type="UnstructuredGrid"><Unstr', "its XML is broken at line 1"),
-        ("a.xyz", "1 2 3", "the suffix '.xyz' is unknown. Hexmend can read"),
-        ("a.vtk", "", "is empty"),
-    ],
-)  # fmt: skip
-def test_what_is_wrong_is_named(name, text, words, tmp_path):
-    (tmp_path / name).write_text(text)
-    with pytest.raises(FileError) as error:
-        io.read(tmp_path / name)
-    assert words in str(error.value)
-
 
 def test_a_missing_file_is_said_with_its_nearest(tmp_path):
     io.write(tmp_path / "bridge.vtk", grid(1))

@@ -1,10 +1,8 @@
 """SU2's files: one that Gmsh 4.15 wrote, zones, markers, and what is written and read again."""
 
 import numpy as np
-import pytest
 
 from hexmend import io
-from hexmend.errors import FileError
 from tests.core.io.kept import with_everything
 
 POINTS = "".join(f"{x} {y} {z}\n" for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
@@ -32,25 +30,3 @@ def test_markers_are_written(tmp_path):
     (quads,) = (one for one in io.read(tmp_path / "a.su2").cells if one.kind == "quad")
     np.testing.assert_array_equal(quads.nodes, with_everything().cells[0].nodes[[1, 3]])
     assert quads.sets["lid"].tolist() == [0, 1]
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ("NDIME= 3", "\0", "holds bytes that are not text"),
-        ("NDIME= 3", "NDIME= 2", "NDIME is '2': expected 3"),
-        ("NELEM= 1", "NELEM= 99999999999", "NELEM holds 10 numbers, which are not 99999999999 elements"),
-        ("12 0", "29 0", "NELEM holds 10 numbers, which are not 1 elements of the types"),
-        ("NPOIN= 8 8", "NPOIN= 9", "NPOIN holds 24 numbers: expected 3 or 4 for each of 9 nodes"),
-        ("6 7 0\n", "6 8 0\n", "refers to node 8: expected numbers from 0 to 7"),
-        ("1 0 0\n", "1 x 0\n", "NPOIN holds 'x'"),
-        ("NDIME= 3", "NZONE= 2\nNDIME= 3", "holds 1 zones: expected 2"),
-        (ZONE, "NDIME= 3\n", "has neither NELEM= nor NPOIN="),
-        ("NPOIN= 8 8\n" + POINTS, "", "zone 1 has no NPOIN="),
-    ],
-)
-def test_what_is_wrong_is_named(old, new, words, tmp_path):
-    assert old in ZONE
-    with pytest.raises(FileError) as error:
-        read(ZONE.replace(old, new), tmp_path)
-    assert words in str(error.value)

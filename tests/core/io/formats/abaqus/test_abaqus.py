@@ -5,7 +5,6 @@ import pytest
 
 from hexmend import io
 from hexmend.doctor import examine, repair
-from hexmend.errors import FileError
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
@@ -89,34 +88,6 @@ def test_element_types_survive(tmp_path):
     io.write(tmp_path / "b.inp", read(deck, tmp_path))
     written = (tmp_path / "b.inp").read_text()
     assert [line.split("=")[1] for line in written.splitlines() if "*ELEMENT" in line] == ["C3D8R", "C3D8I", "M3D4"]
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("\0" * 5000, "holds bytes that are not text"),
-        ("hello", "has no line that begins with *"),
-        ("*HEADING\n", "has no *NODE"),
-        ("*NODE\n1, 0, 0, x\n", "*NODE holds 'x' in row 4 of 4 (line 2)"),
-        ("*NODE\n1.5, 0, 0, 0\n", "has the number 1.5"),
-        (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7\n", "holds 8 numbers: expected 9 an element"),
-        (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 9\n", "node 9 is used"),
-        (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D4\n1, 1, 2, 4, 5\n", "holds no hexahedra, but 1 tetra cell"),
-        (f"*NODE\n{cube()}1, 0, 0, 0\n*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n", "node 1 is given twice"),
-        ("*INCLUDE, INPUT=nodes.inp\n", "reads 'nodes.inp', which does not exist"),
-        ("*NODE, INPUT=nodes.inp\n", "reads 'nodes.inp', which does not exist"),
-        ("*NODE\n1, 0, 0, 0\n*NGEN\n1, 5, 1\n", "*NGEN in line 3 generates nodes or elements from others"),
-        ("*NODE, SYSTEM=C\n1, 0, 0, 0\n", "has other coordinates than x, y and z"),
-        (DECK + "*NSET, NSET=x\nnowhere\n", "refers to the set 'NOWHERE'"),
-        (DECK + "*NSET, NSET=x\ny\n*NSET, NSET=y\nx\n", "is a member of itself"),
-        (DECK + "*NSET, NSET=x, GENERATE\n1, 5, 0\n", "expected first, last and step"),
-        ("*INSTANCE, NAME=a, PART=b\n", "refers to the part 'b', which does not exist"),
-    ],
-)  # fmt: skip
-def test_errors_name_the_problem(text, words, tmp_path):
-    with pytest.raises(FileError) as error:
-        read(text, tmp_path)
-    assert words in str(error.value)
 
 
 def test_a_generated_range_of_a_set_is_not_expanded(tmp_path):

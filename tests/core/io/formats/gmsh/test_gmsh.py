@@ -22,37 +22,6 @@ HEAD = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
 NODES = "$Nodes\n8\n" + "".join(f"{k + 1} {k & 1} {k >> 1 & 1} {k >> 2}\n" for k in range(8)) + "$EndNodes\n"
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("hello", "does not begin with $MeshFormat"),
-        ("$MeshFormat\n1 0 8\n$EndMeshFormat\n", "is of version '1'"),
-        ("$MeshFormat\n4 0 8\n$EndMeshFormat\n", "Save it as 4.1 with Gmsh"),
-        ("$MeshFormat\n4.1 1 8\nabcd\n$EndMeshFormat\n", "gives the byte order"),
-        (HEAD, "has no section $Nodes"),
-        (HEAD + NODES, "has no section $Elements"),
-        (HEAD + "$Nodes\n8\n1 0 0 0\n", "$Nodes ends without $EndNodes"),
-        (HEAD + "$Nodes\n9999999999\n1 0 0 0\n$EndNodes\n", "$Nodes holds 5 numbers: expected 39999999997"),
-        (HEAD + "$Nodes\n1\n1.5 0 0 0\n$EndNodes\n", "the tag 1.5"),
-        (HEAD + NODES + "$Elements\n1\n1 99 0 1\n$EndElements\n", "elements of the type 99"),
-        (HEAD + NODES + "$Elements\n1\n1 5 0 1 2 4\n$EndElements\n", "$Elements holds 1 whole elements of 1"),
-        (HEAD + NODES + "$Elements\n1\n1 5 -4 1 2 4 3 5 6 8 7\n$EndElements\n", "holds 0 whole elements of 1"),
-        (HEAD + NODES + "$Elements\n1\n1 5 0 1 2 4 3 5 6 8 77\n$EndElements\n", "node 77 is used"),
-        (HEAD + NODES + "$Elements\n1\n1 4 0 1 2 4 3\n$EndElements\n", "holds no hexahedra, but 1 tetra cell"),
-        (HEAD + NODES.replace("\n3 ", "\n2 "), "has no section $Elements"),
-        (
-            HEAD + NODES.replace("\n3 ", "\n2 ") + "$Elements\n1\n1 5 0 1 2 4 3 5 6 8 7\n$EndElements\n",
-            "node 2 is given twice",
-        ),
-    ],
-)
-def test_errors_name_the_problem(text, words, tmp_path):
-    (tmp_path / "a.msh").write_text(text)
-    with pytest.raises(FileError) as error:
-        io.read(tmp_path / "a.msh")
-    assert words in str(error.value)
-
-
 def test_a_hex_in_two_groups_is_one_hex_and_claimed_counts_are_checked(tmp_path):
     elements = "$Elements\n2\n1 5 2 1 1 1 2 4 3 5 6 8 7\n2 5 2 2 1 1 2 4 3 5 6 8 7\n$EndElements\n"
     (tmp_path / "a.msh").write_text(HEAD + NODES + elements)

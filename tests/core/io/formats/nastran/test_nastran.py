@@ -56,28 +56,6 @@ def test_hexes_with_some_mid_nodes_are_read_with_their_corners(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ("GRID,2,,", "\0", "holds bytes that are not text"),
-        ("GRID,2,,", "GRID,2,5,", "GRID in line 3 is in the coordinate system 5: expected 0"),
-        ("GRID,2,,1.0", "GRID,2,,one", "GRID in line 3 holds 'one': expected a number"),
-        ("GRID,2,", "GRID,1,", "node 1 is given twice"),
-        (",7,8\n", ",7\n", "CHEXA in line 10 has 7 nodes: expected 8"),
-        (",7,8\n", ",7,77\n", "node 77 is used"),
-        (",7,8\n", ",7,8.5\n", "CHEXA in line 10 holds '8.5': expected a whole number"),
-        ("CHEXA,9", "INCLUDE 'more.bdf'\nCHEXA,9", "INCLUDE in line 10 reads cards from another file"),
-        ("CHEXA", "CGAP", "holds no hexahedra"),
-        (GRIDS, "", "has no GRID"),
-    ],
-)
-def test_errors_name_the_problem(old, new, words, tmp_path):
-    assert old in CUBE
-    with pytest.raises(FileError) as error:
-        read(CUBE.replace(old, new), tmp_path)
-    assert words in str(error.value)
-
-
-@pytest.mark.parametrize(
     ("sets", "members", "said"),
     [
         ({"property 1": [0]}, {"property 1": [0], "property 2": [1]}, []),
