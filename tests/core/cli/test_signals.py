@@ -106,6 +106,7 @@ def test_an_end_while_writing_leaves_the_old_file_whole(mesh, tmp_path, number):
     assert [path.name for path in tmp_path.iterdir()] == ["mesh.vtu"]
 
 
+@pytest.mark.slow
 def test_a_program_that_is_killed_while_writing_leaves_the_old_file_whole(mesh):
     before = mesh.read_bytes()
     signalled(SLOW_TO_WRITE, signal.SIGKILL, "writing", "smooth", mesh, "-o", mesh, "--method", "laplacian")

@@ -141,3 +141,20 @@ def test_a_soft_link_inside_the_file_is_followed(suffix, tmp_path):
     FORMATS[suffix](tmp_path / f"b{suffix}", without_change)
     linked, plain = io.read(tmp_path / f"a{suffix}"), io.read(tmp_path / f"b{suffix}")
     np.testing.assert_array_equal(linked.points, plain.points)
+
+
+@pytest.mark.parametrize(
+    ("suffix", "words"),
+    [
+        (".med", "holds no mesh"),
+        (".vtkhdf", "no group VTKHDF"),
+        (".cgns", "no CGNSBase_t"),
+        (".exo", "no dimension num_nodes"),
+    ],
+)
+def test_hdf5_of_another_format_is_not_called_damaged(suffix, words, tmp_path):
+    with h5py.File(tmp_path / f"a{suffix}", "w") as file:
+        file["numbers"] = [1, 2, 3]
+    with pytest.raises(FileError, match=words) as caught:
+        io.read(tmp_path / f"a{suffix}")
+    assert "damaged" not in str(caught.value)

@@ -64,7 +64,7 @@ def test_rules_of_motion_hold_in_the_process_of_a_task(tmp_path):
 
 
 @pytest.mark.parametrize(("does", "status", "said"), [
-    ("print", "done", ""),
+    pytest.param("print", "done", "", marks=pytest.mark.slow),
     ("raise", "failed", "ValueError: it does not like this mesh"),
     ("crash", "lost", "Its process ended by SIGSEGV: it gave no reason."),
     pytest.param("vanish", "lost", "Its process ended with status 7: it gave no reason.", marks=pytest.mark.slow),
