@@ -25,7 +25,7 @@ from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
-    from vtkmodules.vtkRenderingCore import vtkCamera
+    pass
 
 #: Time without changes after which the fine frame is drawn, in milliseconds.
 _REST = 300
@@ -194,13 +194,9 @@ class CameraView(QWidget):
         self.camera_animation.stop()
         self.interactor.release_graphics()
 
-    def camera_move(self, event: QKeyEvent) -> Callable[[vtkCamera], None] | None:
-        """Return the camera movement of a key that is pressed in the view; None for an unbound key."""
-        return move_of(event, self.panes.camera_controller.up)
-
     def on_key(self, event: QKeyEvent) -> None:
         """Move the camera if the key is bound to a movement."""
-        move = self.camera_move(event)
+        move = move_of(event, self.panes.camera_controller.up)
         if move is not None:
             self._move_camera(partial(move, self.viewport.camera))
 

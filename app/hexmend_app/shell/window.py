@@ -121,7 +121,7 @@ class Window(QMainWindow):
         self.docks.add([panel for panel in panels if panel.place is not PanelPlace.EMPTY])
         in_menu_order = sorted(self.features.values(), key=lambda feature: feature.menu_order)
         actions = declared(in_menu_order, lambda feature: feature.actions())
-        self._menus = Menus(self, [*actions, *declare_actions(self, panels)], self.session.run.view.skip_easing)
+        self._menus = Menus(self, [*actions, *declare_actions(self, panels)])
         call_each(self.features.values(), lambda feature: feature.actions_ready())
         if self.canvas is not None:
             for feature in added:

@@ -136,15 +136,13 @@ class SessionParts(QObject):
         return self.document.modified or (is_session and self.saved_cameras.modified)
 
     def end_previews(self) -> None:
-        """End what is shown on the way to a result: a run that is shown eased, and a sweep node by node."""
-        self.run.view.skip_easing()
+        """End a sweep node by node, of which a state on the way is shown."""
         self.node_sweep.leave()
 
     def to_data(self) -> SessionData:
         """Return the data for a session file; a mesh is open, and no run and no sweep is active."""
         from hexmend_app.state.session.session_data import SessionData
 
-        self.run.view.skip_easing()
         self.about_to_save.emit()
         return SessionData(**{part.name: part.to_data() for part in self._parts})
 

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.slow
 _KEPT = ("session.", "camera ", "look that", "hexes that", "action ")
 _NOT_KEPT = (
     "session.boundary_classifier", "session.run_setup.active_stage", "session.run.record", "session.run.advice", "session.run.work",
-    "session.run.phase", "session.run.outcome", "session.run.view.pace", "session.run.view.eased", "action panel", "action drawer",
+    "session.run.phase", "session.run.outcome", "session.run.pace", "action panel", "action drawer",
     "action pace",
 )  # fmt: skip
 
