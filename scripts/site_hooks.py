@@ -18,7 +18,7 @@ from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 
 _ROOT = Path(__file__).resolve().parents[1]
-_BY_FILE = re.compile(r"\[([\w-]+\.md)\]\((\1(?:#[\w-]*)?)\)")
+_BY_FILE = re.compile(r"\[([\w-]+\.md)\]\(((?:[\w./-]*/)?\1(?:#[\w-]*)?)\)")
 _FORMULA = re.compile(r'<(span|div) class="arithmatex">(.*?)</\1>', re.DOTALL)
 #: Bars of norms, and slashes, which would get the space of operators.
 _CLOSE = re.compile(r"<mo[^>]*>(&#x0007C;|&#x0002F;|\||/)</mo>")
@@ -39,7 +39,7 @@ def on_files(files: Files, config: Any) -> Files:
 
 def on_page_markdown(markdown: str, config: Any, **_: Any) -> str:
     """Call links by the titles of their pages."""
-    titles = dict(_titles(config["nav"]))
+    titles = {Path(page).name: title for page, title in _titles(config["nav"])}
 
     def titled(found: re.Match[str]) -> str:
         return f"[{titles.get(found[1], found[1])}]({found[2]})"

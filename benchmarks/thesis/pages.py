@@ -106,7 +106,7 @@ GENERATED = """
 ORIGIN = """
 The figures come from `python -m benchmarks thesis --max-seconds 60`; `python -m benchmarks pages` arranges them. The
 folder `benchmarks/thesis/results` has all tables of Chapter 4, the claims of the thesis as tested, and the
-comparison of `offset`, remarks and orders of sweeps. The section *Where ours differs* is written by hand.
+comparison of `offset`, remarks and orders of sweeps.
 """
 
 ABOUT_OFFSETS = """

@@ -5,9 +5,9 @@
 >>> advice = advise(smooth(make("bridge-sharp", size=864), "laplacian", StoppingCriteria(keep_last=True)))
 >>> print(advice.reason)
 Converged: in the last of 48 iterations no node moved further than 0.0001 mean edge lengths.
->>> print(advice.left)
+>>> print(advice.state)
 12 of 864 hexes are inverted. None was at the start.
->>> print(advice.worse)
+>>> print(advice.regressions)
 Worse than at the start: inverted 0 → 12, invalid 0 → 12, q min 0.2522 → 0.1774, scaled Jacobian min 0.1625 → -0.8854.
 >>> [suggestion.title for suggestion in advice.suggestions]
 ['Mend', 'Undo, then Smart Laplacian']

@@ -40,7 +40,7 @@ def test_every_method_ends_with_finite_coordinates(name, turn):
     assert result.after.inverted <= result.before.inverted
     if boundary == "fixed":
         np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
-    assert advise(result).why
+    assert advise(result).reason
 
 
 def test_mend_brings_an_inner_node_back_and_leaves_a_fixed_one_where_it_is():

@@ -21,7 +21,7 @@ from hexmend_app.scene.layers.optional.structure import (
     SHARP,
     VALENCES,
 )  # fmt: skip
-from hexmend_app.state.mesh.structure import Structure as MeshStructure
+from hexmend_app.state.mesh.structure import MeshStructure
 from hexmend_app.state.tasks.boundary_classifier import LEFT, PIN, WHISKER, BoundaryClasses
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted

@@ -13,7 +13,7 @@ SHARP_DEGREES = 30.0
 
 
 @dataclass(frozen=True, eq=False)
-class Structure:
+class MeshStructure:
     """Irregular edges and nodes of a mesh, and its sharp boundary edges.
 
     Parameters
@@ -41,7 +41,7 @@ class Structure:
     sharp: np.ndarray
 
 
-def find_structure(mesh: Mesh) -> Structure:
+def find_structure(mesh: Mesh) -> MeshStructure:
     """Find the irregular edges and nodes of a mesh.
 
     Parameters
@@ -50,7 +50,7 @@ def find_structure(mesh: Mesh) -> Structure:
 
     Returns
     -------
-    Structure
+    MeshStructure
 
     Examples
     --------
@@ -64,7 +64,9 @@ def find_structure(mesh: Mesh) -> Structure:
     sharp = sharp_edges(mesh.points, topology.boundary_faces)
     inside, outside = topology.irregular_edges, topology.irregular_boundary_edges
     smooth = outside[~np.isin(_key(edges[outside], mesh.n_nodes), _key(sharp, mesh.n_nodes))]
-    return Structure(edges[inside], valence[inside], topology.irregular_nodes, edges[smooth], valence[smooth], sharp)
+    return MeshStructure(
+        edges[inside], valence[inside], topology.irregular_nodes, edges[smooth], valence[smooth], sharp
+    )
 
 
 def sharp_edges(points: np.ndarray, faces: np.ndarray, degrees: float = SHARP_DEGREES) -> np.ndarray:

@@ -12,7 +12,7 @@ from hexmend.terminal_text import count_phrase
 
 
 @dataclass(frozen=True)
-class Hit:
+class BreakpointHit:
     """A break-point that was reached.
 
     Parameters
@@ -60,7 +60,7 @@ class Breakpoints:
         """True if any event is set."""
         return self.inverts or self.q_min_falls or {self.node, self.hex, self.backtracks} != {None}
 
-    def hit(self, before: Iteration, now: Iteration, unit: float) -> Hit | None:
+    def hit(self, before: Iteration, now: Iteration, unit: float) -> BreakpointHit | None:
         """Return the first break-point that an iteration reaches, in the order of the fields, or None.
 
         Parameters
@@ -72,22 +72,22 @@ class Breakpoints:
         """
         return next(self._hits(before, now, unit), None)
 
-    def _hits(self, before: Iteration, now: Iteration, unit: float) -> Iterator[Hit]:
+    def _hits(self, before: Iteration, now: Iteration, unit: float) -> Iterator[BreakpointHit]:
         was, q = before.quality.q, now.quality.q
         inverted = np.flatnonzero(now.quality.inverted & ~before.quality.inverted)
         if self.inverts and inverted.size:
             more = f" and {inverted.size - 1:,} more" if inverted.size > 1 else ""
-            yield Hit(f"Hex {inverted[0]}{more} inverted", tuple(inverted.tolist()))
+            yield BreakpointHit(f"Hex {inverted[0]}{more} inverted", tuple(inverted.tolist()))
         if self.q_min_falls and q.min() < was.min():
             worst = int(q.argmin())
-            yield Hit(f"q min fell from {was.min():.4f} to {q[worst]:.4f}, at hex {worst}", (worst,))
+            yield BreakpointHit(f"q min fell from {was.min():.4f} to {q[worst]:.4f}, at hex {worst}", (worst,))
         if self.node is not None:
             move = float(np.linalg.norm(now.points[self.node] - before.points[self.node])) / unit
             if move > self.move:
-                yield Hit(f"Node {self.node} moved by {move:.3g} mean edge lengths", nodes=(self.node,))
+                yield BreakpointHit(f"Node {self.node} moved by {move:.3g} mean edge lengths", nodes=(self.node,))
         if self.hex is not None and abs(float(q[self.hex]) - float(was[self.hex])) > self.change:
-            yield Hit(f"q of hex {self.hex} went from {was[self.hex]:.4f} to {q[self.hex]:.4f}", (self.hex,))
+            yield BreakpointHit(f"q of hex {self.hex} went from {was[self.hex]:.4f} to {q[self.hex]:.4f}", (self.hex,))
         count = now.diagnostics.get("backtracks", 0)
         if self.backtracks is not None and count > self.backtracks:
             length = now.diagnostics.get("step_length", 0.0)
-            yield Hit(f"The line search shortened the step {count_phrase(count, 'time')}, to {length:.3g}")
+            yield BreakpointHit(f"The line search shortened the step {count_phrase(count, 'time')}, to {length:.3g}")

@@ -17,7 +17,7 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.metric_cache import metric_values
-from hexmend_app.state.run.breakpoints import Breakpoints, Hit
+from hexmend_app.state.run.breakpoints import BreakpointHit, Breakpoints
 from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.tasks.task import Task
 
@@ -28,7 +28,7 @@ class IterationFrame:
 
     iteration: Iteration
     state: State
-    hit: Hit | None = None
+    hit: BreakpointHit | None = None
 
 
 #: Seconds after which a worker that waits for its frame to be shown looks whether it still has to.
@@ -176,7 +176,7 @@ class Worker:
         finally:
             self.prepared.set()
 
-    def _hit(self, before: Iteration, iteration: Iteration) -> Hit | None:
+    def _hit(self, before: Iteration, iteration: Iteration) -> BreakpointHit | None:
         """Return the breakpoint that an iteration reaches, and pause; None if it reaches none."""
         mesh, breakpoints = self._inputs[0], self.breakpoints
         hit = breakpoints.hit(before, iteration, mesh.mean_edge_length or 1.0) if breakpoints.any else None
@@ -184,7 +184,7 @@ class Worker:
             self.grant(0)
         return hit
 
-    def _report(self, iteration: Iteration, hit: Hit | None = None) -> None:
+    def _report(self, iteration: Iteration, hit: BreakpointHit | None = None) -> None:
         moved = self._inputs[0].with_points(iteration.points)
         for metric in self.metrics:
             metric_values(metric, moved, iteration.quality)

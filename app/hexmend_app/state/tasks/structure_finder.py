@@ -6,7 +6,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.state.mesh.document import Document
-from hexmend_app.state.mesh.structure import Structure, find_structure
+from hexmend_app.state.mesh.structure import MeshStructure, find_structure
 from hexmend_app.state.tasks.task import Task, drop
 
 #: Milliseconds from opening a mesh to the search: the mesh is drawn first.
@@ -23,7 +23,7 @@ class StructureFinder(QObject):
 
     Attributes
     ----------
-    structure : Structure or None
+    structure : MeshStructure or None
         None while unknown.
     """
 
@@ -34,7 +34,7 @@ class StructureFinder(QObject):
         self._document = document
         self._mesh: Mesh | None = None  # the mesh that is being searched
         self._task: Task | None = None
-        self.structure: Structure | None = None
+        self.structure: MeshStructure | None = None
         self._soon = QTimer(self)
         self._soon.setSingleShot(True)
         self._soon.setInterval(_DELAY)

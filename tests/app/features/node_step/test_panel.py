@@ -101,7 +101,7 @@ def test_start_and_end_are_in_the_range_of_the_plot(shown, name):
 
 
 def test_trials_above_the_plot_are_drawn_at_its_upper_edge(shown):
-    step = step_of("local-sd", first_step=50.0)
+    step = step_of("local-sd", initial_step=50.0)
     assert step.backtracks > 5
     trials = (*(Trial(alpha, np.inf, bound) for alpha, _, bound in step.trials[:-1]), step.trials[-1])
     step = dataclasses.replace(step, trials=trials)

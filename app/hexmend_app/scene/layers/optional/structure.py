@@ -17,8 +17,7 @@ from hexmend_app.scene.geometry.curved_edges import CurvedEdges
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.marks import Marks
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.state.mesh.structure import Structure as MeshStructure
-from hexmend_app.state.mesh.structure import find_structure
+from hexmend_app.state.mesh.structure import MeshStructure, find_structure
 from hexmend_app.state.tasks.boundary_classifier import LEFT, PIN, WHISKER, departures_from_surface, node_classes
 
 #: Colours of edges by their number of hexes, from the palette of Okabe and Ito; OTHER is for all other numbers.

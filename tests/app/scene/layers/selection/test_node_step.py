@@ -10,8 +10,8 @@ from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.node_step import explain
 from hexmend_app.theme.palette import DESCENT, SEARCH
+from tests.app.state.node_step.test_descent import MIDDLE, sheared
 from tests.core.grids import grid, scrambled
-from tests.core.quality.test_descent import MIDDLE, sheared
 
 
 def arrows(mesh, node, name):
