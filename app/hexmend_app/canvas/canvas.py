@@ -32,7 +32,7 @@ from hexmend_app.state.mesh.inspection import NodeDetails
 from hexmend_app.state.node_step import NodeStep
 from hexmend_app.state.view.side_views import Wipe
 from hexmend_app.theme.palette import BLUE, THEME
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import on_theme_change
 
 if TYPE_CHECKING:
@@ -82,12 +82,10 @@ class Canvas(CameraView):
         self.box = BoxWidget(self.panes.pane, self.box_dragged.emit)
         self.sphere = SphereWidget(self.panes.pane, self.sphere_dragged.emit)
         self._handle_widgets = self.plane, self.box, self.sphere
-        layout = on_grid(QVBoxLayout(self))
-        layout.setContentsMargins(_RING, _RING, _RING, _RING)
         self.frame = ViewFrame(self.interactor)
         self._legend = ViewLegend(self.interactor, self.panes, self.frame)
         self.colour_bar = self._legend.colour_bar
-        layout.addLayout(self.frame, 1)
+        fill(QVBoxLayout(self), (self.frame, 1), margins=(_RING, _RING, _RING, _RING))
         self._handles = False, 0
         self._measuring = False
         self._selected: tuple[int | None, bool] = (None, False)

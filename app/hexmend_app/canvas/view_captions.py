@@ -9,8 +9,8 @@ from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
 
 from hexmend_app.theme.palette import Role
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import MUTED, WORSE, icon, set_help, smaller, tabular, tint
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import MUTED, WORSE, bold, icon, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -77,9 +77,7 @@ class CaptionRow(QWidget):
     def __init__(self, over: QWidget):
         super().__init__(over)
         self.setAutoFillBackground(True)
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(0)
+        self._row = fill(QHBoxLayout(self), margins=(0, 0, 0, 0), spacing=0)
         self._shown: list[tuple] = []
         self._parts: list[_Entry] = []
         self.hide()
@@ -135,8 +133,6 @@ class WipeRow(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        row = on_grid(QHBoxLayout(self))
-        row.setContentsMargins(8, 0, 8, 0)
         self._sides, self._figures = [], []
         for side in ("left", "right"):
             box, label = ComboBox(), _figures()
@@ -149,8 +145,7 @@ class WipeRow(QWidget):
             self._sides.append(box)
             self._figures.append(label)
         (left, right), (left_figures, right_figures) = self._sides, self._figures
-        for part, stretch in ((left, 0), (left_figures, 1), (right_figures, 1), (right, 0)):
-            row.addWidget(part, stretch)
+        fill(QHBoxLayout(self), left, (left_figures, 1), (right_figures, 1), right, margins=(8, 0, 8, 0))
         self.setFixedHeight(caption_height(self) + 4)
         right_figures.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.hide()
@@ -171,19 +166,12 @@ class _Entry(QWidget):
 
     def __init__(self, caption: Caption):
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(8, 0, 4, 0)
-        row.setSpacing(4)
-        if caption.colour is not None:
-            row.addWidget(Swatch(caption.colour))
         name = ElidingLabel(caption.name)
-        font = name.font()
-        font.setBold(True)
-        name.setFont(font)
-        row.addWidget(name)
+        name.setFont(bold(name.font()))
+        swatches = [] if caption.colour is None else [Swatch(caption.colour)]
         self._figures = _figures()
         self._figures.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-        row.addWidget(self._figures, 1)
+        fill(QHBoxLayout(self), *swatches, name, (self._figures, 1), margins=(8, 0, 4, 0), spacing=4)
         self.setFixedHeight(caption_height(self))
 
     def set_figures(self, caption: Caption) -> None:

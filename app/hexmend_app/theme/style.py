@@ -138,6 +138,20 @@ def smaller(font: QFont) -> QFont:
     return font
 
 
+def bold(font: QFont) -> QFont:
+    """Return a bold copy of `font`."""
+    font = QFont(font)
+    font.setBold(True)
+    return font
+
+
+def labelled(text: str, widget: QWidget) -> QLabel:
+    """Return a label of `widget`, whose mnemonic moves the focus there."""
+    label = QLabel(text)
+    label.setBuddy(widget)
+    return label
+
+
 def set_help(widget: QWidget, name: str, help: str) -> None:
     """Set the accessible name of `widget`, and its help, which is its tooltip and its text for Shift+F1.
 

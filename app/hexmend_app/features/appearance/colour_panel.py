@@ -16,7 +16,8 @@ from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.picture.quantities import MATERIAL, colour_quantity
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import better, declared_range
-from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import WORSE, labelled, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -100,23 +101,14 @@ class ColourPanel(QWidget):
     def _lay_out(self) -> None:
         grid = form_grid(self)
         for row, (text, widget) in enumerate(((tr("Colours"), self._metric), (tr("Map"), self._map))):
-            label = QLabel(text)
-            label.setBuddy(widget)
-            grid.addWidget(label, row, 0)
+            grid.addWidget(labelled(text, widget), row, 0)
             grid.addWidget(widget, row, 1, 1, 1 if widget is self._map else 2)
         grid.addWidget(self._range, 2, 0, 1, 3)  # four texts need the whole width
         grid.addWidget(self._reverse, 1, 2)
         self.setTabOrder(self._map, self._reverse)
-        numbers = QHBoxLayout()
-        numbers.setSpacing(4)
-        for widget in (self._low, QLabel(tr("to")), self._high):
-            numbers.addWidget(widget, 0 if isinstance(widget, QLabel) else 1)
+        numbers = fill(QHBoxLayout(), (self._low, 1), QLabel(tr("to")), (self._high, 1), spacing=4)
         grid.addLayout(numbers, 3, 0, 1, 3)
-        options = QHBoxLayout()
-        options.setSpacing(16)
-        options.addWidget(self._neutral)
-        options.addWidget(self._shading)
-        options.addStretch()
+        options = fill(QHBoxLayout(), self._neutral, self._shading, None, spacing=16)
         grid.addLayout(options, 4, 0, 1, 3)
         grid.addWidget(self._problem, 5, 0, 1, 3)
 

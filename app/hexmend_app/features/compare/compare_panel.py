@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout,
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_known
 from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import MUTED, icon, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -115,19 +116,12 @@ class ComparePanel(QWidget):
         return table
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
         buttons = (self._run, self._cancel, self._wipe, self._use, self._save)
         height = max(button.sizeHint().height() for button in buttons)  # buttons with an icon are taller
         for button in buttons:
             button.setFixedHeight(height)
-            head.addWidget(button)
-        head.insertStretch(2)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 4, 8, 4)
-        layout.setSpacing(4)
-        layout.addLayout(head)
-        layout.addWidget(self._table, 1)
-        layout.addWidget(self._status)
+        head = fill(QHBoxLayout(), *buttons[:2], None, *buttons[2:], spacing=4)
+        fill(QVBoxLayout(self), head, (self._table, 1), self._status, margins=(8, 4, 8, 4), spacing=4)
 
     def set_entries(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:
         """Show rows.

@@ -7,7 +7,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
 from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, ChartSettings
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.menu_button import MenuButton
@@ -74,14 +74,11 @@ class ConvergenceHead(QWidget):
         )
         self.axis.setFont(smaller(self.font()))
         self.axis.chosen.connect(self.axes_changed)
-        buttons = on_grid(QHBoxLayout())
         for button in (charts, options):
             button.setFixedHeight(self.axis.sizeHint().height())
-            buttons.addWidget(button)
-        self._layout = on_grid(QBoxLayout(QBoxLayout.Direction.TopToBottom, self))
-        self._layout.setContentsMargins(0, 0, 0, 0)
-        self._layout.addLayout(buttons, 1)
-        self._layout.addWidget(self.axis)
+        buttons = fill(QHBoxLayout(), charts, options)
+        self._layout = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
+        fill(self._layout, (buttons, 1), self.axis, margins=(0, 0, 0, 0))
 
     def _action(self, text: str, help: str, on: bool | None = None) -> QAction:
         action = QAction(text, self)

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSizePolicy, QToolButton, 
 
 from hexmend_app.features.convergence.curves import Curve, colour_of
 from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import MUTED, icon, set_help, set_variant, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.legend import Swatch
@@ -32,10 +33,7 @@ class RunLegend(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.rows: dict[RunRecord, RunRow] = {}
-        self._layout = QVBoxLayout(self)
-        self._layout.setContentsMargins(0, 0, 0, 0)
-        self._layout.setSpacing(0)
-        self._layout.addStretch()
+        self._layout = fill(QVBoxLayout(self), None, margins=(0, 0, 0, 0), spacing=0)
 
     def set_curves(self, curves: Sequence[Curve]) -> None:
         """List these runs."""
@@ -75,12 +73,7 @@ class RunRow(QWidget):
         self.cross.setIconSize(QSize(11, 11))
         self.cross.setFixedSize(16, 16)
         self.cross.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addWidget(Swatch(colour_of(curve)))
-        layout.addWidget(self.box, 1)
-        layout.addWidget(self.cross)
+        fill(QHBoxLayout(self), Swatch(colour_of(curve)), (self.box, 1), self.cross, margins=(0, 0, 0, 0), spacing=4)
 
     def show_curve(self, curve: Curve) -> None:
         """Show the current state of the run."""

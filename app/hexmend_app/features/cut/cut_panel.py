@@ -17,7 +17,8 @@ from hexmend_app.features.cut.plane_row import PlaneRow
 from hexmend_app.features.cut.sphere_page import SpherePage
 from hexmend_app.picture.cut import PLANE_KINDS, Cut, CutKind, CutStyle, proposed_cuts
 from hexmend_app.picture.cut_shapes import Box, Plane
-from hexmend_app.theme.style import set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import labelled, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -72,9 +73,8 @@ class CutPanel(QWidget):
         self._plane_row = PlaneRow(_MAX_PLANES)
         self._plane_page = PlanePage()
         self._box_page = BoxPage()
-        self._thickness_label = QLabel(tr("Thickness"))
         self._thickness = NumberRow([tr("Thickness")], tr("Distance of the two planes, in mesh units."), low=0.0)
-        self._thickness_label.setBuddy(self._thickness)
+        self._thickness_label = labelled(tr("Thickness"), self._thickness)
         self._sphere_page, self._depth_page = SpherePage(), DepthPage()
         self._hide_label = QLabel(tr("Hide"))
         self._hide_planes = Segmented(
@@ -103,18 +103,13 @@ class CutPanel(QWidget):
         self._refresh()
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.addWidget(self._switch)
-        head.addStretch()
-        head.addWidget(self._handles)
+        head = fill(QHBoxLayout(), self._switch, None, self._handles, spacing=None)
         grid = form_grid(self, tr("Thickness"))
         grid.addLayout(head, 0, 0, 1, 2)
         pages = self._kind, self._plane_row, self._plane_page, self._box_page, self._sphere_page, self._depth_page
         for row, widget in enumerate(pages, start=1):
             grid.addWidget(widget, row, 0, 1, 2)
-        hide = QHBoxLayout()
-        hide.addWidget(self._hide_planes)
-        hide.addWidget(self._hide_inside)
+        hide = fill(QHBoxLayout(), self._hide_planes, self._hide_inside, spacing=None)
         row = len(pages) + 1
         grid.addWidget(self._thickness_label, row, 0)
         grid.addWidget(self._thickness, row, 1)

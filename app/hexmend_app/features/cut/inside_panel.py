@@ -7,7 +7,8 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QSpin
 
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.geometry.skin import WHOLE
-from hexmend_app.theme.style import icon, narrow, note, set_help, tabular
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import icon, labelled, narrow, note, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.slider_box import SliderBox
@@ -108,21 +109,13 @@ class InsidePanel(QWidget):
 
     def _lay_out(self) -> None:
         grid = form_grid(self)
-        lines = QHBoxLayout(), QHBoxLayout()
-        groups = (self.isolated, self._all), (self.dug, self._undo, self._restore)
-        for line, widgets in zip(lines, groups, strict=True):
-            line.setSpacing(8)
-            for widget in widgets:
-                line.addWidget(widget, isinstance(widget, QLabel))
         for row, (text, widget) in enumerate(
             ((tr("Peel"), self._peel), (tr("Shrink"), self._shrink), (tr("Rings"), self._rings))
         ):
-            label = QLabel(text)
-            label.setBuddy(widget)
-            grid.addWidget(label, row, 0)
+            grid.addWidget(labelled(text, widget), row, 0)
             grid.addWidget(widget, row, 1)
-        for row, line in enumerate(lines, start=3):
-            grid.addLayout(line, row, 0, 1, 2)
+        grid.addLayout(fill(QHBoxLayout(), (self.isolated, 1), self._all), 3, 0, 1, 2)
+        grid.addLayout(fill(QHBoxLayout(), (self.dug, 1), self._undo, self._restore), 4, 0, 1, 2)
         grid.addWidget(self._outline, 5, 0, 1, 2)
         grid.addWidget(self.shown, 6, 0, 1, 2)
 

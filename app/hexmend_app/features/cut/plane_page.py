@@ -9,7 +9,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QSlider, QWidget
 
 from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.theme.style import icon, labelled, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -67,9 +67,7 @@ class PlanePage(QWidget):
         for row, (text, widget, companion) in enumerate(
             ((tr("Axis"), self._axis, self._flip), (tr("Position"), self._slider, self._value))
         ):
-            label = QLabel(text)
-            label.setBuddy(widget)
-            for column, cell in enumerate((label, widget, companion)):
+            for column, cell in enumerate((labelled(text, widget), widget, companion)):
                 grid.addWidget(cell, row, column)
 
         self._axis.chosen.connect(self._on_axis)

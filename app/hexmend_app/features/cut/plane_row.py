@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QTabBar, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QPushButton, QTabBar, QWidget
 
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import icon, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import icon, labelled, set_help
 from hexmend_app.translation import tr
 
 _SNAP = "Align a plane with an axis when it is rotated close to the axis."
@@ -53,14 +53,8 @@ class PlaneRow(QWidget):
         self._snap = QCheckBox(tr("Snap"))
         self._snap.setChecked(True)
         set_help(self._snap, tr("Snap to axes"), tr(_SNAP))
-        label = QLabel(tr("Plane"))
-        label.setBuddy(self._tabs)
-        row = on_grid(QHBoxLayout(self))
-        row.setContentsMargins(0, 0, 0, 0)
-        for widget in (label, self._tabs, self._add, self._remove):
-            row.addWidget(widget)
-        row.addStretch()
-        row.addWidget(self._snap)
+        label = labelled(tr("Plane"), self._tabs)
+        fill(QHBoxLayout(self), label, self._tabs, self._add, self._remove, None, self._snap, margins=(0, 0, 0, 0))
         self._tabs.currentChanged.connect(self.chosen)
         self._add.clicked.connect(self.add_requested)
         self._remove.clicked.connect(self.remove_requested)

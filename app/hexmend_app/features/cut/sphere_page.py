@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
 from hexmend_app.features.cut.number_row import NumberRow
 from hexmend_app.picture.cut_shapes import Sphere
-from hexmend_app.theme.style import set_help
+from hexmend_app.theme.style import labelled, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 
@@ -40,9 +40,7 @@ class SpherePage(QWidget):
         self._at_hex.setEnabled(False)
         grid = form_grid(self, tr("Thickness"))
         for row, (text, widget) in enumerate(((tr("Centre"), self._centre), (tr("Radius"), self._radius))):
-            label = QLabel(text)
-            label.setBuddy(widget)
-            grid.addWidget(label, row, 0)
+            grid.addWidget(labelled(text, widget), row, 0)
         for row, widget in enumerate((self._centre, self._radius, self._at_hex)):
             grid.addWidget(widget, row, 1)
         self._centre.changed.connect(lambda centre: self._change(Sphere(centre, self._sphere.radius)))

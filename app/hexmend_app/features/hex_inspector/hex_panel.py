@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QFont
 from PySide6.QtWidgets import (
     QCheckBox,
     QGridLayout,
@@ -21,12 +20,13 @@ from superqt import QFlowLayout
 
 from hexmend.quality import METRICS, Metric
 from hexmend_app.state.mesh.inspection import HexDetails, NodeDetails
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import (
     INVERTED_TEXT,
     MUTED,
     TEXT,
     WORSE,
+    bold,
     icon,
     note,
     set_help,
@@ -81,9 +81,7 @@ class HexPanel(QWidget):
         page = QWidget()
         self._stack.addWidget(page)
         self._title = QLabel()
-        font = QFont(self._title.font())
-        font.setBold(True)
-        self._title.setFont(font)
+        self._title.setFont(bold(self._title.font()))
         self._title.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._state = QLabel()
         tint(self._state, INVERTED_TEXT)
@@ -131,9 +129,7 @@ class HexPanel(QWidget):
         return label
 
     def _lay_out(self, page: QWidget) -> None:
-        head = on_grid(QHBoxLayout())
-        head.addWidget(self._title, 1)
-        head.addWidget(self._zoom)
+        head = fill(QHBoxLayout(), (self._title, 1), self._zoom)
         metrics = metrics_offered()
         rows = -(-len(metrics) // _METRIC_COLUMNS)
         values = [self._metric_grid(metrics[first : first + rows]) for first in range(0, len(metrics), rows)]
@@ -150,10 +146,7 @@ class HexPanel(QWidget):
                 corners.addWidget(label, row, column)
         for label in (self._state, self._neighbours, self._about_node):
             label.setWordWrap(True)
-        texts = on_grid(QVBoxLayout())
-        texts.addLayout(head)
-        for widget in (self._state, self._in_view, self._neighbours, self._about_node, self._pin):
-            texts.addWidget(widget)
+        texts = fill(QVBoxLayout(), head, self._state, self._in_view, self._neighbours, self._about_node, self._pin)
         columns = QFlowLayout(page)
         columns.setContentsMargins(8, 8, 8, 8)
         columns.setHorizontalSpacing(20)

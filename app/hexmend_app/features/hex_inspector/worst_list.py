@@ -10,7 +10,6 @@ from PySide6.QtGui import QAction, QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QTableView,
     QVBoxLayout,
@@ -22,7 +21,8 @@ from hexmend.quality import METRICS, ElementQuality
 from hexmend_app.codec.checks import check_known
 from hexmend_app.features.hex_inspector.worst_model import HEX, ID, JACOBIAN, STATE, VALUE, WorstModel
 from hexmend_app.state.mesh.worst_hexes import WorstHexes
-from hexmend_app.theme.style import icon, note, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import icon, labelled, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -116,20 +116,10 @@ class WorstList(QWidget):
         return table
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        label = QLabel(tr("Worst by"))
-        label.setBuddy(self._metric)
-        for widget in (label, self._metric):
-            head.addWidget(widget)
-        head.addStretch()
-        for widget in (self._isolate, self._previous, self._next, self._save):
-            head.addWidget(widget)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 4, 8, 4)
-        layout.setSpacing(4)
-        layout.addLayout(head)
-        layout.addWidget(self._table, 1)
-        layout.addWidget(self._text)
+        buttons = (self._isolate, self._previous, self._next, self._save)
+        label = labelled(tr("Worst by"), self._metric)
+        head = fill(QHBoxLayout(), label, self._metric, None, *buttons, spacing=4)
+        fill(QVBoxLayout(self), head, (self._table, 1), self._text, margins=(8, 4, 8, 4), spacing=4)
 
     def settings(self) -> WorstListSettings:
         """Return the current settings."""

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QSpinBox, QWidget, QWidg
 from hexmend.quality import METRICS
 from hexmend_app.codec.checks import check_count
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, MAX_BINS, MIN_BINS
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, set_help, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -117,13 +118,7 @@ class HistogramHead(QWidget):
         bins.setDefaultWidget(self.bins)
         menu.addActions([bins, self.keep, self.save])
         self.more.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(8)
-        layout.addWidget(self.metric_box, 1)
-        layout.addStretch()
-        layout.addWidget(self.scale)
-        layout.addWidget(self.more)
+        fill(QHBoxLayout(self), (self.metric_box, 1), None, self.scale, self.more, margins=(0, 0, 0, 0))
 
     @property
     def log(self) -> bool:

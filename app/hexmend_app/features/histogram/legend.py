@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
 from superqt import QFlowLayout
 
 from hexmend_app.theme.palette import KEPT
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import BLUE, GREY, MUTED, icon, set_help, set_variant, smaller, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -99,11 +100,7 @@ class SnapshotEntry(QWidget):
         self.cross.setFixedSize(16, 16)
         self.cross.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setFixedHeight(max(_HEIGHT, self.fontMetrics().height()))
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 4, 0)
-        layout.setSpacing(4)
-        for widget in (Swatch(KEPT[slot]), self.name, self.cross):
-            layout.addWidget(widget)
+        fill(QHBoxLayout(self), Swatch(KEPT[slot]), self.name, self.cross, margins=(0, 0, 4, 0), spacing=4)
 
 
 class _Name(QLineEdit):

@@ -22,7 +22,7 @@ from hexmend_app.features.histogram.outline import Gradient, Series
 from hexmend_app.features.histogram.range_row import RangeRow
 from hexmend_app.picture.visibility import Show
 from hexmend_app.theme.palette import KEPT
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import MUTED, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -72,16 +72,8 @@ class QualityHistogram(QWidget):
         self._range: Show | None = None
         self._colour_ends = (0.0, 1.0)
         self._make_widgets()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(4, 4, 4, 4)
-        layout.setSpacing(4)
-        layout.addWidget(self.head)
-        layout.addWidget(self.plot, 1)
-        self._bottom = on_grid(QBoxLayout(QBoxLayout.Direction.LeftToRight))
-        self._bottom.setSpacing(4)
-        self._bottom.addWidget(self.range_row)
-        self._bottom.addWidget(self.summary, 1)
-        layout.addLayout(self._bottom)
+        self._bottom = fill(QBoxLayout(QBoxLayout.Direction.LeftToRight), self.range_row, (self.summary, 1), spacing=4)
+        fill(QVBoxLayout(self), self.head, (self.plot, 1), self._bottom, margins=(4, 4, 4, 4), spacing=4)
         self._use_axis()
         self._refresh()
 

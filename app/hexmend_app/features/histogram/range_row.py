@@ -10,6 +10,7 @@ from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.end_box import EndBox
 from hexmend_app.picture.visibility import Show
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import INVERTED, narrow, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.metric_texts import in_sentence
@@ -51,13 +52,9 @@ class RangeRow(QWidget):
         self.inverted.clicked.connect(self._choose)
         self.inverted.setIcon(_swatch())
         self._label, to = QLabel(tr("Show")), QLabel(tr("to"))
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(_SPACING)
         self.controls = (self.low, to, self.high, self.inverted, self.all)
-        for widget in (self._label, *self.controls):
-            row.addWidget(widget)
-        row.insertStretch(row.count() - 1)
+        parts = (self._label, *self.controls[:-1], None, self.all)
+        fill(QHBoxLayout(self), *parts, margins=(0, 0, 0, 0), spacing=_SPACING)
         for box in (self.low, self.high):
             box.valueChanged.connect(lambda _, box=box: self._on_end(box))
         self.set_axis(self._axis)

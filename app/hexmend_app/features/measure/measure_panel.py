@@ -7,6 +7,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from hexmend_app.picture.appearance import Measurement
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, set_help, tabular
 from hexmend_app.translation import tr
 
@@ -51,16 +52,8 @@ class MeasurePanel(QWidget):
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
         self.text.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(8)
-        for button in (self._switch, self._copy, self._clear):
-            buttons.addWidget(button)
-        buttons.addStretch()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(8)
-        layout.addLayout(buttons)
-        layout.addWidget(self.text, 1)
+        buttons = fill(QHBoxLayout(), self._switch, self._copy, self._clear, None)
+        fill(QVBoxLayout(self), buttons, (self.text, 1), margins=(0, 0, 0, 0))
         self._switch.clicked.connect(self.toggled)
         self._clear.clicked.connect(self.clear_requested)
         self._copy.clicked.connect(self.copy)

@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHB
 from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, DisplacementCounts
 from hexmend_app.scene.layers.arrows import MAX_ARROWS
-from hexmend_app.theme.style import note, set_help, tabular
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import labelled, note, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import counted, figure, short_number
@@ -110,21 +111,13 @@ class MovementPanel(QWidget):
         grid.setHorizontalSpacing(12)
         grid.setVerticalSpacing(4)
         grid.setColumnStretch(1, 1)
-        lengths = QHBoxLayout()
-        lengths.setSpacing(8)
-        lengths.addWidget(self.factor)
-        lengths.addWidget(self._drawn, 1)
+        lengths = fill(QHBoxLayout(), self.factor, (self._drawn, 1))
         rows = ((tr("Since"), self.since), (tr("Colours"), self.colours), (tr("Arrows"), self.arrows))
         for row, (text, buttons) in enumerate(rows):
-            label = QLabel(text)
-            grid.addWidget(label, row, 0)
-            label.setBuddy(buttons)
+            grid.addWidget(labelled(text, buttons), row, 0)
             grid.addWidget(buttons, row, 1)
         grid.addLayout(lengths, 3, 1)
-        invalid = QHBoxLayout()
-        invalid.setSpacing(8)
-        invalid.addWidget(self._figures["Invalid"], 1)
-        invalid.addWidget(self.show_newly)
+        invalid = fill(QHBoxLayout(), (self._figures["Invalid"], 1), self.show_newly)
         for row, (text, label) in enumerate(self._figures.items(), start=4):
             grid.addWidget(QLabel(tr(text)), row, 0)
             set_help(label, tr(text), tr(_FIGURES[text]))

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWi
 
 from hexmend_app.features.open.recent_menu import elide
 from hexmend_app.state.settings.recent_files import RecentFiles
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import MUTED, icon, set_help, set_variant, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_folder
@@ -49,22 +49,11 @@ class Welcome(QWidget):
         self._demo = QPushButton(tr("Demo mesh"))
         self._open.clicked.connect(self.open_requested)
         self._demo.clicked.connect(self.demo_requested)
-        buttons = QHBoxLayout()
-        buttons.addStretch()
-        buttons.addWidget(self._open)
-        buttons.addWidget(self._demo)
-        buttons.addStretch()
-        layout = on_grid(QVBoxLayout(self))
-        layout.setSpacing(16)
-        layout.addStretch()
+        buttons = fill(QHBoxLayout(), None, self._open, self._demo, None, spacing=None)
+        self._links = fill(QVBoxLayout(), spacing=4)
         for label in (self._title, self._hint):
             label.setAlignment(Qt.AlignmentFlag.AlignCenter)
-            layout.addWidget(label)
-        layout.addLayout(buttons)
-        self._links = QVBoxLayout()
-        self._links.setSpacing(4)
-        layout.addLayout(self._links)
-        layout.addStretch()
+        fill(QVBoxLayout(self), None, self._title, self._hint, buttons, self._links, None, spacing=16)
         recent.changed.connect(self._show_recent)
         self._show_recent()
 

@@ -7,7 +7,6 @@ from html import escape
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QFont
 from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
@@ -19,8 +18,8 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.advice import Advice, Suggestion
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, icon, note, set_help, tint
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, bold, icon, note, set_help, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.scrolled import scrolled
@@ -60,9 +59,7 @@ class OutcomePanel(QWidget):
         self._hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._hint.setMargin(24)
         self._title, self._reason, self._state, self._regressions = QLabel(), *(self._text() for _ in range(3))
-        font = QFont(self._title.font())
-        font.setBold(True)
-        self._title.setFont(font)
+        self._title.setFont(bold(self._title.font()))
         self._locked = _HexList(tr("Locked"), tr("that fixed nodes alone keep inverted"))
         self._unlocked = _HexList(tr("Inverted"), tr("that are inverted but not locked"))
         self._surface = self._text()
@@ -78,7 +75,7 @@ class OutcomePanel(QWidget):
             request = self.visit_requested if hex_list is self._limiting else self.show_requested
             hex_list.show_requested.connect(request)
         self._suggestions_title = QLabel(tr("Suggestions"))
-        self._suggestions_title.setFont(font)
+        self._suggestions_title.setFont(self._title.font())
         self._no_suggestion = note()
         self._view_note = note("", AMBER)
         self._view_note.hide()
@@ -98,14 +95,10 @@ class OutcomePanel(QWidget):
 
     def _page(self) -> QWidget:
         page = QWidget()
-        column = QVBoxLayout(page)
-        column.setContentsMargins(8, 8, 8, 8)
-        column.setSpacing(8)
         summary = (self._title, self._view_note, self._reason, self._state, self._regressions)
-        for widget in (*summary, *self._hex_lists, self._surface, self._suggestions_title, self._no_suggestion):
-            column.addWidget(widget)
-        column.addLayout(self._suggestions)
-        column.addStretch()
+        suggestions = (self._suggestions_title, self._no_suggestion, self._suggestions)
+        parts = (*summary, *self._hex_lists, self._surface, *suggestions)
+        fill(QVBoxLayout(page), *parts, None, margins=(8, 8, 8, 8))
         return scrolled(page)
 
     def show_hint(self, hint: str = "") -> None:
@@ -194,9 +187,7 @@ class _HexList(QWidget):
                 description=description,
             ),
         )
-        row = on_grid(QHBoxLayout(self))
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self._links, 1)
+        row = fill(QHBoxLayout(self), (self._links, 1), margins=(0, 0, 0, 0))
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignTop)
 
     def show_hexes(self, hexes: np.ndarray, ids: np.ndarray | None) -> None:

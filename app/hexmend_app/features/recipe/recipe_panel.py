@@ -10,7 +10,6 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
@@ -20,7 +19,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.theme.style import icon, note, set_help
+from hexmend_app.theme.spacing import fill, on_grid
+from hexmend_app.theme.style import icon, labelled, note, set_help
 from hexmend_app.translation import tr
 
 _EMPTY = (
@@ -111,29 +111,15 @@ class RecipePanel(QWidget):
         return button
 
     def _lay_out(self) -> None:
-        head, edit, foot = QHBoxLayout(), QHBoxLayout(), QGridLayout()
-        label = QLabel(tr("Title"))
-        label.setBuddy(self._title)
-        head.addWidget(label)
-        head.addWidget(self._title, 1)
-        edit.setSpacing(4)
-        edit.addWidget(self._add, 1)
-        for button in (self._replace, self._up, self._down, self._remove):
-            edit.addWidget(button)
-        foot.setSpacing(8)
+        head = fill(QHBoxLayout(), labelled(tr("Title"), self._title), (self._title, 1), spacing=4)
+        edit = fill(QHBoxLayout(), (self._add, 1), self._replace, self._up, self._down, self._remove, spacing=4)
+        foot = on_grid(QGridLayout())
         for column, button in enumerate((self._run, self._load)):
             button.setMinimumWidth(button.minimumSizeHint().width())
             foot.addWidget(button, 0, column)
             foot.setColumnStretch(column, 1)
         foot.addWidget(self._save, 0, 2)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addLayout(head)
-        layout.addWidget(self._empty)
-        layout.addWidget(self._list)
-        layout.addLayout(edit)
-        layout.addLayout(foot)
+        fill(QVBoxLayout(self), head, self._empty, self._list, edit, foot, margins=(0, 0, 0, 0), spacing=4)
 
     def set_shipped(self, recipes: Iterable[tuple[str, Path]]) -> None:
         """List the titles and files of the built-in recipes in the menu."""

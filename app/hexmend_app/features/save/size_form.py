@@ -8,7 +8,7 @@ from PySide6.QtCore import QSize, Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QWidget
 
 from hexmend_app.picture import Page
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -65,10 +65,7 @@ class SizeForm(QWidget):
         self.dpi.setRange(5, 4800)
         self.dpi.setDecimals(0)
         self.dpi.setSuffix(tr(" dpi"))
-        row = on_grid(QHBoxLayout())
-        for widget in (self.width_box, QLabel("×"), self.height_box, self.unit):
-            row.addWidget(widget)
-        row.addStretch()
+        row = fill(QHBoxLayout(), self.width_box, QLabel("×"), self.height_box, self.unit, None)
         layout = on_grid(QFormLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addRow(self.preset)

@@ -25,6 +25,7 @@ from hexmend_app.features.smooth.set_rules import (
     rules_of_set,
     with_set_rules,
 )
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import WORSE, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -83,11 +84,17 @@ class RuleForm(QWidget):
         self._grid.setVerticalSpacing(4)
         self._grid.setColumnStretch(0, 1)
         self._grid.setColumnStretch(1, 1)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        for widget in (self._found, self.interfaces, self._filter, self._list, self._more, self._problem):
-            layout.addWidget(widget)
+        fill(
+            QVBoxLayout(self),
+            self._found,
+            self.interfaces,
+            self._filter,
+            self._list,
+            self._more,
+            self._problem,
+            margins=(0, 0, 0, 0),
+            spacing=4,
+        )
 
     @property
     def offered(self) -> bool:

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
 from hexmend_app.features.timeline.run_bar import RunBar
 from hexmend_app.features.timeline.track_slider import TrackSlider
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
@@ -77,20 +78,9 @@ class TimelineBar(QWidget):
         self._more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._more.setMenu(self._menu())
         set_help(self._more, tr("Timeline settings"), tr("Memory limit and playback speed."))
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(8, 0, 8, 0)
-        layout.setSpacing(4)
-        layout.addWidget(self.run_bar)
-        layout.addSpacing(8)
-        layout.addWidget(self._runs)
-        layout.addSpacing(4)
-        for button in self._buttons.values():
-            layout.addWidget(button)
-        layout.addSpacing(4)
-        layout.addWidget(self._slider, 1)
-        layout.addSpacing(4)
-        for widget in (self._at, self._branch, self._more):
-            layout.addWidget(widget)
+        left = (self.run_bar, 8, self._runs, 4, *self._buttons.values(), 4)
+        right = (4, self._at, self._branch, self._more)
+        fill(QHBoxLayout(self), *left, (self._slider, 1), *right, margins=(8, 0, 8, 0), spacing=4)
         self.set_runs(())
 
     def resizeEvent(self, event: QResizeEvent) -> None:

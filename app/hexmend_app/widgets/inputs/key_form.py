@@ -8,7 +8,7 @@ from enum import StrEnum
 from typing import Any
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFormLayout, QLabel, QWidget
+from PySide6.QtWidgets import QFormLayout, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
@@ -17,7 +17,7 @@ from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.codec.value_text import parse_value
 from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.theme.style import WORSE, labelled, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, Text, editor_for
 from hexmend_app.widgets.wording import name_in_words
@@ -59,9 +59,7 @@ class KeyForm(QWidget):
             editor.changed.connect(self._on_changed)
             title = tr(name_in_words(option.name)) + (f" ({tr(option.unit)})" if option.unit else "")
             set_help(editor, title, tr(helps(self._kind)[name]))
-            label = QLabel(title)
-            label.setBuddy(editor)
-            layout.addRow(label, editor)
+            layout.addRow(labelled(title, editor), editor)
         self._problem = note("", WORSE)
         self._problem.hide()
         layout.addRow(self._problem)

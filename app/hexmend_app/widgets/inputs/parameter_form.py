@@ -10,13 +10,13 @@ from typing import Any
 
 import shiboken6
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QFont, QFontMetrics
+from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import BLUE, WORSE, icon, note, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import BLUE, WORSE, bold, icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
 from hexmend_app.widgets.inputs.number_box import LONGEST_UNIT, NumberBox
@@ -107,16 +107,8 @@ class ParameterForm(QWidget):
         self._advanced = self._button(tr("Advanced"), "tune-variant", tr("Show the advanced parameters as well."))
         self._advanced.setCheckable(True)
         self._advanced.toggled.connect(self._show_rows)
-        foot = on_grid(QHBoxLayout())
-        foot.addWidget(self._advanced)
-        foot.addStretch()
-        foot.addWidget(self._explain)
-        foot.addWidget(self._defaults)
-        layout = on_grid(QVBoxLayout(self))
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addLayout(self._grid)
-        layout.addWidget(self.none)
-        layout.addLayout(foot)
+        foot = fill(QHBoxLayout(), self._advanced, None, self._explain, self._defaults)
+        fill(QVBoxLayout(self), self._grid, self.none, foot, margins=(0, 0, 0, 0))
         self.set_declarations(declarations)
 
     @staticmethod
@@ -253,9 +245,7 @@ class ParameterForm(QWidget):
 def _longest_word_width(label: QLabel, text: str) -> int:
     """Return the minimum width of a wrapped text in bold, in pixels."""
     label.ensurePolished()
-    bold = QFont(label.font())
-    bold.setBold(True)
-    metrics = QFontMetrics(bold)
+    metrics = QFontMetrics(bold(label.font()))
     return max(metrics.horizontalAdvance(word) for word in text.split()) + 2
 
 
