@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from hexmend_app.theme.palette import Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import MUTED, WORSE, bold, icon, set_help, smaller, tabular, tint
+from hexmend_app.theme.style import MUTED, WORSE, bold, set_help, smaller, tabular, tint, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -105,16 +105,10 @@ class CaptionRow(QWidget):
     def _part(self, caption: Caption, number: int) -> _Entry:
         part = _Entry(caption)
         if number:
-            cross = QToolButton()
-            cross.setIcon(icon("close", MUTED))
+            cross = tool_button("close", MUTED)
             cross.setIconSize(QSize(_CROSS, _CROSS))
-            cross.setAutoRaise(True)
-            cross.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            set_help(
-                cross,
-                tr("Close the view of {name}", name=caption.name),
-                tr("Close the view of {name}", name=caption.name),
-            )
+            help = tr("Close the view of {name}", name=caption.name)
+            set_help(cross, help, help)
             cross.clicked.connect(lambda: self.closed.emit(number))
             part.layout().addWidget(cross)
         return part

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushBut
 
 from hexmend_app.theme.palette import AMBER, BLUE, WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import bold, icon, on_theme_change, set_help, set_variant
+from hexmend_app.theme.style import bold, icon, on_theme_change, set_help, set_variant, tool_button
 from hexmend_app.translation import tr
 
 #: Maximum number of letters of a text that are shown, and of messages that are stored.
@@ -85,15 +85,9 @@ class MessageBar(QFrame):
         self._next.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(self._next, tr("Next message"), tr("Show the next message."))
         self._next.clicked.connect(self._show_next)
-        self._copy, self._dismiss = QToolButton(), QToolButton()
-        for button, icon_name, slot in (
-            (self._copy, "content-copy", self._copy_message),
-            (self._dismiss, "close", self.dismiss),
-        ):
-            button.setIcon(icon(icon_name))
-            button.setAutoRaise(True)
-            button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            button.clicked.connect(slot)
+        self._copy, self._dismiss = tool_button("content-copy"), tool_button("close")
+        self._copy.clicked.connect(self._copy_message)
+        self._dismiss.clicked.connect(self.dismiss)
         set_help(self._copy, tr("Copy message"), tr("Copy the whole message to the clipboard."))
         self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, self.dismiss)
         self._escape.setEnabled(False)

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 from hexmend_app.features.timeline.run_bar import RunBar
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.theme.style import set_help, tabular, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -72,9 +72,7 @@ class TimelineBar(QWidget):
         self._at = QLabel()
         self._at.setFont(tabular(self._at.font()))
         self._at.setAccessibleName(tr("Iteration shown"))
-        self._more = QToolButton()
-        self._more.setIcon(icon("cog-outline"))
-        self._more.setAutoRaise(True)
+        self._more = tool_button("cog-outline")
         self._more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._more.setMenu(self._menu())
         set_help(self._more, tr("Timeline settings"), tr("Memory limit and playback speed."))

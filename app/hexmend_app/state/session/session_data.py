@@ -14,7 +14,8 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
 from hexmend.smoothers import METHODS, Smoother
-from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter
+from hexmend_app.codec.codec import Codec, TypeAdapter
+from hexmend_app.codec.conversion import DecodeError
 from hexmend_app.formats.session import SUFFIX, is_session
 from hexmend_app.formats.session.session_file import SessionFolder, read_session, write_session
 from hexmend_app.picture.named_cameras import NamedCameras

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QTo
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import BLUE, WORSE, bold, icon, note, set_help
+from hexmend_app.theme.style import BLUE, WORSE, bold, note, set_help, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
 from hexmend_app.widgets.inputs.number_box import LONGEST_UNIT, NumberBox
@@ -113,13 +113,10 @@ class ParameterForm(QWidget):
 
     @staticmethod
     def _button(text: str, icon_name: str, help: str, with_text: bool = True) -> QToolButton:
-        button = QToolButton()
+        button = tool_button(icon_name)
         button.setText(text)
-        button.setIcon(icon(icon_name))
         style = Qt.ToolButtonStyle
         button.setToolButtonStyle(style.ToolButtonTextBesideIcon if with_text else style.ToolButtonIconOnly)
-        button.setAutoRaise(True)
-        button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(button, text, help)
         return button
 
@@ -167,10 +164,7 @@ class ParameterForm(QWidget):
         label.setMinimumWidth(_longest_word_width(label, name))
         label.setBuddy(editor)
         label.setToolTip(editor.toolTip())
-        reset = QToolButton()
-        reset.setIcon(icon("restore", BLUE))
-        reset.setAutoRaise(True)
-        reset.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        reset = tool_button("restore", BLUE)
         set_help(reset, tr("Reset {name}", name=name), tr("Reset to the default, {default}.", default=escape(shown)))
         row = _Row(declaration, label, editor, reset, note("", WORSE), note(help))
         editor.changed.connect(self._on_changed)
