@@ -8,7 +8,6 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QWidget
@@ -145,10 +144,6 @@ class CameraView(QWidget):
         mesh = self.viewport.frame.mesh
         self.camera_animation.fly(self.panes.camera_controller.flight_to(mesh.points[mesh.hexes[list(hexes)]]))
 
-    def fly_around(self, place: np.ndarray) -> None:
-        """Fly to a pose in which a point, (3,) float64, is the centre of the view and of rotation."""
-        self.camera_animation.fly(self.panes.camera_controller.flight_around(place))
-
     def _on_flight_frame(self) -> None:
         self.panes.camera_controller.reset_depth()
         self.turning()
@@ -174,10 +169,6 @@ class CameraView(QWidget):
         """Prepare for fast frames in which only the camera moves."""
         self._rest.stop()
         self.panes.turning()
-
-    def stay_coarse(self) -> None:
-        """Cancel the scheduled fine frame because more changes follow."""
-        self._rest.stop()
 
     def rest(self) -> None:
         """Schedule a fine frame."""

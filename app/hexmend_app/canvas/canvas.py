@@ -126,7 +126,7 @@ class Canvas(CameraView):
         self._legend.show_colours()
         self.changed()
         if live:
-            self.stay_coarse()
+            self._rest.stop()  # more changes follow
 
     def clear(self) -> None:
         """Draw no mesh."""
@@ -273,7 +273,7 @@ class Canvas(CameraView):
         """Make the picked point the centre of rotation."""
         hit = self._pick(place)
         if hit is not None:
-            self.fly_around(hit.place)
+            self.camera_animation.fly(self.panes.camera_controller.flight_around(hit.place))
 
     def _request_menu(self, place: QPointF) -> None:
         self.menu_requested.emit(self._at(place), self.interactor.mapToGlobal(place.toPoint()))

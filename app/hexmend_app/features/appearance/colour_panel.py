@@ -79,9 +79,9 @@ class ColourPanel(QWidget):
         self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
         set_help(self._low, tr("Minimum value"), tr("Value of the first colour; to set it, select Pinned."))
         set_help(self._high, tr("Maximum value"), tr("Value of the last colour; to set it, select Pinned."))
-        self._neutral, self._shading = QCheckBox(tr("Neutral")), QCheckBox(tr("Shading"))
+        self._neutral, self.shading = QCheckBox(tr("Neutral")), QCheckBox(tr("Shading"))
         set_help(self._neutral, tr("Neutral"), tr(NEUTRAL))
-        set_help(self._shading, tr("Shading"), tr(SHADING))
+        set_help(self.shading, tr("Shading"), tr(SHADING))
         self._problem = note(colour=WORSE)
         self._problem.hide()
         self._lay_out()
@@ -91,7 +91,7 @@ class ColourPanel(QWidget):
         self._reverse.clicked.connect(lambda on: self._change(reverse=on))
         self._range.chosen.connect(self._on_range)
         self._neutral.clicked.connect(lambda on: self._change(neutral=on))
-        self._shading.clicked.connect(self.shading_changed)
+        self.shading.clicked.connect(self.shading_changed)
         for box in (self._low, self._high):
             box.changed.connect(lambda box=box: self._on_number(box))
             box.editingFinished.connect(self._on_numbers)
@@ -108,7 +108,7 @@ class ColourPanel(QWidget):
         self.setTabOrder(self._map, self._reverse)
         numbers = fill(QHBoxLayout(), (self._low, 1), QLabel(tr("to")), (self._high, 1), spacing=4)
         grid.addLayout(numbers, 3, 0, 1, 3)
-        options = fill(QHBoxLayout(), self._neutral, self._shading, None, spacing=16)
+        options = fill(QHBoxLayout(), self._neutral, self.shading, None, spacing=16)
         grid.addLayout(options, 4, 0, 1, 3)
         grid.addWidget(self._problem, 5, 0, 1, 3)
 
@@ -116,10 +116,6 @@ class ColourPanel(QWidget):
         """Show colours; emits no signal."""
         if colours != self._colours:
             self._apply(colours)
-
-    def set_shading(self, on: bool) -> None:
-        """Show whether ambient occlusion is on; emits no signal."""
-        self._shading.setChecked(on)
 
     def colours(self) -> Colours:
         """Return the colours shown."""

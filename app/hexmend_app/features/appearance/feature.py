@@ -119,7 +119,7 @@ class FeatureAppearance(Feature):
     def _show_panel(self) -> None:
         self.panel.setEnabled(self.session.document.is_open)
         self.panel.set_colours(self._view.look.colours)
-        self.panel.set_shading(self._view.look.page.shading)
+        self.panel.shading.setChecked(self._view.look.page.shading)
         if self.canvas is not None and self.canvas.colouring is not None:
             self.panel.set_ends(self.canvas.colouring.low, self.canvas.colouring.high)
 

@@ -64,7 +64,7 @@ class FeatureCamera(Feature):
             ),
             *self._directions(),
             self._move("face", tr("Face cutting pl&ane"), "Shift+C", tr("Look along the normal of the plane."),
-                       self._face, lambda: self._plane is not None, in_view=True),
+                       lambda: self.canvas.face(self._plane), lambda: self._plane is not None, in_view=True),
             self._move("roll_left", tr("Roll &left"), "Shift+[", tr("Rotate the view by {angle}° counter-clockwise.",
                        angle=_ROLL), lambda: self.canvas.roll(_ROLL)),
             self._move("roll_right", tr("Roll ri&ght"), "Shift+]", tr("Rotate the view by {angle}° clockwise.",
@@ -271,9 +271,6 @@ class FeatureCamera(Feature):
         if cut.slab is not None:
             return cut.slab.middle
         return cut.planes[self.session.view.plane_at] if cut.planes else None
-
-    def _face(self) -> None:
-        self.canvas.face(self._plane)
 
     def _fly(self, hexes: tuple[int, ...]) -> None:
         if self.canvas is not None and self.session.document.is_open:

@@ -184,10 +184,6 @@ class ConvergencePlot(QWidget):
         if x is not None:
             self.marker.setValue(x)
 
-    def set_x_range(self, low: float, high: float) -> None:
-        """Set the ends of the horizontal axis."""
-        self.plot.setXRange(low, high, padding=0)
-
     def set_bottom_axis(self, label: str | None, left_width: int) -> None:
         """Set the label of the horizontal axis, and the width of the vertical axis.
 

@@ -189,7 +189,7 @@ class ConvergencePanel(QWidget):
         margin = 0.012 * (high - low)
         left_width = self.fontMetrics().horizontalAdvance("000,000")
         for plot in self.drawn:
-            plot.set_x_range(low - margin, high + margin)
+            plot.plot.setXRange(low - margin, high + margin, padding=0)
             has_axis = self.in_row or plot is self.drawn[-1]
             plot.set_bottom_axis(label if has_axis else None, left_width)
 

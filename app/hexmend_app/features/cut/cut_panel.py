@@ -283,7 +283,7 @@ class CutPanel(QWidget):
         for widget, shown in visible.items():
             widget.setVisible(on and shown)
         self._plane_row.set_planes(len(planes), self._selected)
-        self._plane_page.set_flip(by_planes)
+        self._plane_page.flip.setVisible(by_planes)
         self._plane_page.set_plane(cut.slab.middle if slab else planes[self._selected])
         box, sphere, depth = (self._cuts[kind] for kind in (CutKind.BOX, CutKind.SPHERE, CutKind.DEPTH))
         self._box_page.set_corners(box.box.low, box.box.high)

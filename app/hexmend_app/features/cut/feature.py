@@ -44,7 +44,7 @@ class FeatureCut(Feature):
         self.inside.rings_changed.connect(view.set_rings)
         self.inside.all_requested.connect(view.end_isolation)
         self.inside.undo_requested.connect(view.undig_last)
-        self.inside.restore_requested.connect(view.undig_all)
+        self.inside.restore_requested.connect(lambda: view.change(show={"hidden": frozenset()}))
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that cut, isolate and dig."""

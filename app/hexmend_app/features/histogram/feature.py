@@ -56,7 +56,7 @@ class FeatureHistogram(Feature):
         panel.removed.connect(self._snapshots.remove)
         panel.save_requested.connect(self.ask)
         panel.inverted_requested.connect(self._isolate_inverted)
-        panel.colours_dragged.connect(self._pin_colours)
+        panel.colours_dragged.connect(lambda low, high: self._view.change(colours={"range": (low, high)}))
 
     def states(self) -> Sequence[StatePart]:
         """Return the settings of the histogram."""
@@ -145,10 +145,6 @@ class FeatureHistogram(Feature):
         """Show the hexes of a range, or of all values."""
         range = Show() if range is None else range
         self._view.change(show={"quality": range.quality, "metric": range.metric, "inverted": range.inverted})
-
-    def _pin_colours(self, low: float, high: float) -> None:
-        """Pin the range of colours."""
-        self._view.change(colours={"range": (low, high)})
 
     def _isolate_inverted(self) -> None:
         now = self._document.now

@@ -57,10 +57,10 @@ class TimelineBar(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.run_bar = RunBar()
-        self._runs = ComboBox()
-        let_shrink(self._runs, 5)
-        self._runs.activated.connect(self.run_chosen)
-        set_help(self._runs, tr("Run"), tr("Run shown in the timeline."))
+        self.runs = ComboBox()
+        let_shrink(self.runs, 5)
+        self.runs.activated.connect(self.run_chosen)
+        set_help(self.runs, tr("Run"), tr("Run shown in the timeline."))
         self._buttons = {name: ActionButton() for name in _STEPS}
         self._branch = ActionButton()
         for button in (*self._buttons.values(), self._branch):
@@ -76,7 +76,7 @@ class TimelineBar(QWidget):
         self._more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._more.setMenu(self._menu())
         set_help(self._more, tr("Timeline settings"), tr("Memory limit and playback speed."))
-        left = (self.run_bar, 8, self._runs, 4, *self._buttons.values(), 4)
+        left = (self.run_bar, 8, self.runs, 4, *self._buttons.values(), 4)
         right = (4, self._at, self._branch, self._more)
         fill(QHBoxLayout(self), *left, (self._slider, 1), *right, margins=(8, 0, 8, 0), spacing=4)
         self.set_runs(())
@@ -89,22 +89,18 @@ class TimelineBar(QWidget):
 
     def set_runs(self, names: Sequence[tuple[str, str]]) -> None:
         """List the names and tooltips of runs without sending a signal."""
-        with QSignalBlocker(self._runs):
-            self._runs.clear()
+        with QSignalBlocker(self.runs):
+            self.runs.clear()
             for at, (name, help) in enumerate(names):
-                self._runs.addItem(name)
-                self._runs.setItemData(at, help, Qt.ItemDataRole.ToolTipRole)
-        for widget in (self._runs, self._slider):
+                self.runs.addItem(name)
+                self.runs.setItemData(at, help, Qt.ItemDataRole.ToolTipRole)
+        for widget in (self.runs, self._slider):
             widget.setEnabled(bool(names))
         if not names:
-            self._runs.setPlaceholderText(tr("No runs"))
+            self.runs.setPlaceholderText(tr("No runs"))
             self.set_labels("iteration", ())
             self.set_track(0, np.zeros(1, np.int64), {}, 0)
             self.set_number(None)
-
-    def set_run(self, at: int) -> None:
-        """Select a run in the list."""
-        self._runs.setCurrentIndex(at)
 
     def set_track(self, newest: int, kept: np.ndarray, marks: Mapping[int, str], used: int) -> None:
         """Show the iterations of the run.
@@ -146,7 +142,7 @@ class TimelineBar(QWidget):
         if self._labels:
             self._at.setText("–" if number is None else self._labels[number])
         else:
-            self._at.setText(tr("{number} of {newest}", number=shown, newest=newest) if self._runs.count() else "")
+            self._at.setText(tr("{number} of {newest}", number=shown, newest=newest) if self.runs.count() else "")
         # the width of the longest text keeps the slider in place under the pointer
         longest = max(self._labels, key=len) if self._labels else f"{max(newest, 999)} of {max(newest, 999)}"
         self._at.setMinimumWidth(self._at.fontMetrics().horizontalAdvance(longest))
@@ -156,10 +152,6 @@ class TimelineBar(QWidget):
         for group, value in ((self._limits, limit), (self._speeds, speed)):
             for action in group.actions():
                 action.setChecked(action.data() == value)
-
-    def set_deletable(self, on: bool) -> None:
-        """Enable or disable deleting the run."""
-        self._delete.setEnabled(on)
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:
         """Show the actions "first", "back", "play", "on", "newest" and "branch"."""
@@ -179,7 +171,7 @@ class TimelineBar(QWidget):
         menu.addSection(tr("Playback speed"))
         self._speeds = self._options(menu, SPEEDS, lambda n: tr("{n} iterations per second", n=n), self.speed_changed)
         menu.addSeparator()
-        self._delete = menu.addAction(tr("Delete this run"), self.delete_requested.emit)
+        self.delete = menu.addAction(tr("Delete this run"), self.delete_requested.emit)
         return menu
 
     def _options(

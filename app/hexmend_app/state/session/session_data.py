@@ -133,7 +133,7 @@ def _writing_codec(numbers: dict[Mesh, int]) -> Codec:
     return Codec({
         Mesh: TypeAdapter(partial(_number, numbers), _unused),
         State: TypeAdapter(lambda state: _number(numbers, state.mesh), _unused),
-        Smoother: TypeAdapter(_smoother_data, _unused),
+        Smoother: TypeAdapter(lambda smoother: {"method": smoother.name, "parameters": smoother.values()}, _unused),
     })  # fmt: skip
 
 
@@ -183,10 +183,6 @@ class _States:
                 self._figures[key] = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
             self._states[number] = State(mesh, self._figures[key], summarise(mesh, self._figures[key]))
         return self._states[number]
-
-
-def _smoother_data(smoother: Smoother) -> dict[str, Any]:
-    return {"method": smoother.name, "parameters": smoother.values()}
 
 
 def _smoother(data: Any) -> Smoother:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.mesh.comparison_base import ComparisonBases
 from hexmend_app.state.mesh.document import Document
@@ -169,7 +170,7 @@ class SessionParts(QObject):
 
     def _drop_unknown_rules(self) -> None:
         if self.document.is_open:
-            self.run_setup.keep_rules_of(self.document.now.mesh)
+            self.run_setup.set_rules(self.run_setup.rules.limited_to(set_names(self.document.now.mesh)))
 
     def _follow_renamed_sets(self) -> None:
         if self.document.is_open:
