@@ -49,12 +49,9 @@ class ColourPanel(QWidget):
     -------
     colours_changed(Colours)
         The user changed the colours. Limits count once entered, stepped, or left for another field.
-    shading_changed(bool)
-        The user switched ambient occlusion.
     """
 
     colours_changed = Signal(object)
-    shading_changed = Signal(bool)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -91,7 +88,6 @@ class ColourPanel(QWidget):
         self._reverse.clicked.connect(lambda on: self._change(reverse=on))
         self._range.chosen.connect(self._on_range)
         self._neutral.clicked.connect(lambda on: self._change(neutral=on))
-        self.shading.clicked.connect(self.shading_changed)
         for box in (self._low, self._high):
             box.changed.connect(lambda box=box: self._on_number(box))
             box.editingFinished.connect(self._on_numbers)

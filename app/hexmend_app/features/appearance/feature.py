@@ -36,7 +36,7 @@ class FeatureAppearance(Feature):
         self._metric_before = view.look.colours.metric  # before the colours showed materials
         self.panel = ColourPanel()
         self.panel.colours_changed.connect(lambda colours: view.change(colours=colours))
-        self.panel.shading_changed.connect(self._shade)
+        self.panel.shading.clicked.connect(self._shade)
         view.metric_wanted.connect(self.panel.choose_metric)
 
     def actions(self) -> Sequence[Action]:

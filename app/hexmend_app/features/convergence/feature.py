@@ -43,11 +43,11 @@ class FeatureConvergence(Feature):
         self._throttler = QSignalThrottler(parent=panel)
         self._throttler.setTimeout(_PERIOD)
         self._throttler.triggered.connect(self._show)
-        panel.from_zero_changed.connect(self._show)
-        panel.toggled.connect(self._on_toggled)
-        panel.forget_requested.connect(timeline.delete)
+        panel.head.from_zero.toggled.connect(self._show)
+        panel.legend.toggled.connect(self._on_toggled)
+        panel.legend.forget_requested.connect(timeline.delete)
         panel.picked.connect(timeline.go_soon)
-        panel.save_requested.connect(self.ask)
+        panel.head.save.triggered.connect(self.ask)
 
     def states(self) -> Sequence[StatePart]:
         """Return the settings of the charts."""

@@ -33,15 +33,10 @@ class ConvergenceHead(QWidget):
         The user selected other charts.
     axes_changed
         The user changed between iterations and seconds, or between linear and logarithmic.
-    from_zero_changed
-        The user changed the start of branches.
-    save_requested
     """
 
     charts_changed = Signal()
     axes_changed = Signal()
-    from_zero_changed = Signal()
-    save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -57,11 +52,9 @@ class ConvergenceHead(QWidget):
         self.log = self._action(tr("Logarithmic axes"), tr(_LOG), True)
         self.log.toggled.connect(self.axes_changed)
         self.from_zero = self._action(tr("Start branches at 0"), tr(_FROM_ZERO), False)
-        self.from_zero.toggled.connect(self.from_zero_changed)
         self.save = self._action(
             tr("Save…"), tr("Save the charts as SVG, PDF or PNG, or the values of all runs as CSV.")
         )
-        self.save.triggered.connect(self.save_requested)
         options = MenuButton(tr("Chart options"), tr("Logarithmic axes, start of branches, save."))
         options.setIcon(icon("dots-vertical"))
         options.menu().addActions([self.log, self.from_zero, self.save])

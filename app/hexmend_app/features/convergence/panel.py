@@ -50,18 +50,9 @@ class ConvergencePanel(QWidget):
     -------
     picked(RunRecord, number)
         The user selected an iteration.
-    toggled(RunRecord, bool), forget_requested(RunRecord)
-        The user showed, hid or deleted a run.
-    from_zero_changed
-        The user changed the start of branches.
-    save_requested
     """
 
     picked = Signal(object, int)
-    toggled = Signal(object, bool)
-    forget_requested = Signal(object)
-    from_zero_changed = Signal()
-    save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -75,10 +66,6 @@ class ConvergencePanel(QWidget):
         self.head, self.legend = ConvergenceHead(), RunLegend()
         self.head.charts_changed.connect(self._arrange)
         self.head.axes_changed.connect(self._redraw)
-        self.head.from_zero_changed.connect(self.from_zero_changed)
-        self.head.save_requested.connect(self.save_requested)
-        self.legend.toggled.connect(self.toggled)
-        self.legend.forget_requested.connect(self.forget_requested)
         self._lay_out()
         self._arrange()
         self.set_curves(())

@@ -19,12 +19,9 @@ class SpherePage(QWidget):
     -------
     changed(Sphere)
         The user changed the sphere.
-    centre_requested
-        Move the centre to the selected hex.
     """
 
     changed = Signal(object)
-    centre_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -33,19 +30,16 @@ class SpherePage(QWidget):
             [tr("Centre {axis}", axis=axis) for axis in "XYZ"], tr("Centre of the sphere, in mesh units.")
         )
         self._radius = NumberRow([tr("Radius")], tr("Radius of the sphere, in mesh units."), low=0.0)
-        self._at_hex = QPushButton(tr("Centre on hex"))
-        set_help(
-            self._at_hex, tr("Centre on hex"), tr("Move the centre to the selected hex; click a hex to select it.")
-        )
-        self._at_hex.setEnabled(False)
+        self.at_hex = QPushButton(tr("Centre on hex"))
+        set_help(self.at_hex, tr("Centre on hex"), tr("Move the centre to the selected hex; click a hex to select it."))
+        self.at_hex.setEnabled(False)
         grid = form_grid(self, tr("Thickness"))
         for row, (text, widget) in enumerate(((tr("Centre"), self._centre), (tr("Radius"), self._radius))):
             grid.addWidget(labelled(text, widget), row, 0)
-        for row, widget in enumerate((self._centre, self._radius, self._at_hex)):
+        for row, widget in enumerate((self._centre, self._radius, self.at_hex)):
             grid.addWidget(widget, row, 1)
         self._centre.changed.connect(lambda centre: self._change(Sphere(centre, self._sphere.radius)))
         self._radius.changed.connect(lambda radius: self._change(Sphere(self._sphere.centre, *radius)))
-        self._at_hex.clicked.connect(self.centre_requested)
 
     def set_sphere(self, sphere: Sphere) -> None:
         """Show a sphere; emits no signal."""
@@ -55,7 +49,7 @@ class SpherePage(QWidget):
 
     def set_hex_selected(self, selected: bool) -> None:
         """Set whether there is a selected hex, to which the centre can be moved."""
-        self._at_hex.setEnabled(selected)
+        self.at_hex.setEnabled(selected)
 
     def _change(self, sphere: Sphere) -> None:
         self._sphere = sphere

@@ -49,12 +49,12 @@ class FeatureHistogram(Feature):
         #: Metric, points and values of the snapshots, by slot.
         self._snapshot_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
         panel = self.panel = QualityHistogram()
-        panel.metric_chosen.connect(self._on_metric)
+        panel.head.metric_chosen.connect(self._on_metric)
         panel.range_changed.connect(self._filter)
-        panel.keep_requested.connect(self._keep)
-        panel.renamed.connect(self._snapshots.rename)
-        panel.removed.connect(self._snapshots.remove)
-        panel.save_requested.connect(self.ask)
+        panel.head.keep.triggered.connect(self._keep)
+        panel.legend.renamed.connect(self._snapshots.rename)
+        panel.legend.removed.connect(self._snapshots.remove)
+        panel.head.save.triggered.connect(self.ask)
         panel.inverted_requested.connect(self._isolate_inverted)
         panel.colours_dragged.connect(lambda low, high: self._view.change(colours={"range": (low, high)}))
 

@@ -47,17 +47,10 @@ class HistogramHead(QWidget):
         The user selected a metric, or "" for that of the colours.
     scale_changed
         The heights changed between linear and logarithmic, or counts and cumulative shares.
-    bins_changed
-        The number of bins changed.
-    keep_requested, save_requested
-        The user asked to keep the present distribution, or to save the histogram.
     """
 
     metric_chosen = Signal(str)
     scale_changed = Signal()
-    bins_changed = Signal()
-    keep_requested = Signal()
-    save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -84,9 +77,7 @@ class HistogramHead(QWidget):
         self.cumulative.setCheckable(True)
         self.cumulative.toggled.connect(self.scale_changed)
         self.keep = self._action(tr("Keep"), tr(_KEEP))
-        self.keep.triggered.connect(self.keep_requested)
         self.save = self._action(tr("Save…"), tr(_SAVE))
-        self.save.triggered.connect(self.save_requested)
         self._make_bins()
         self._lay_out()
         self.show_metric("q", True)
@@ -107,7 +98,6 @@ class HistogramHead(QWidget):
         self.bins.setKeyboardTracking(False)
         self.bins.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(self.bins, tr("Bins"), tr(_BINS))
-        self.bins.valueChanged.connect(self.bins_changed)
 
     def _lay_out(self) -> None:
         self.more = MenuButton(tr("More"), tr("Cumulative shares, number of bins, keep, save."))

@@ -41,28 +41,15 @@ class QualityHistogram(QWidget):
 
     Signals
     -------
-    metric_chosen(str)
-        The user selected a metric, or "" for that of the colours.
     range_changed(Show or None)
         The user brushed or typed a range, or cleared it.
-    keep_requested
-        The user asked to keep the present distribution.
-    renamed(slot, name), removed(slot)
-        The user renamed or removed a snapshot.
-    save_requested
-        The user asked to save the histogram.
     inverted_requested
         The user clicked the bar of inverted hexes, which is not empty.
     colours_dragged(low, high)
         The user dragged an end of the range of colours to these values.
     """
 
-    metric_chosen = Signal(str)
     range_changed = Signal(object)
-    keep_requested = Signal()
-    renamed = Signal(int, str)
-    removed = Signal(int)
-    save_requested = Signal()
     inverted_requested = Signal()
     colours_dragged = Signal(float, float)
 
@@ -80,15 +67,10 @@ class QualityHistogram(QWidget):
     def _make_widgets(self) -> None:
         self.head, self.legend = HistogramHead(), HistogramLegend(tr(_HELP))
         self.plot, self.range_row = HistogramPlot(self.legend), RangeRow()
-        self.head.metric_chosen.connect(self.metric_chosen)
         self.head.scale_changed.connect(self._on_scale)
-        self.head.bins_changed.connect(self._on_bins)
-        self.head.keep_requested.connect(self.keep_requested)
-        self.head.save_requested.connect(self.save_requested)
-        self.legend.renamed.connect(self.renamed)
-        self.legend.removed.connect(self.removed)
+        self.head.bins.valueChanged.connect(self._on_bins)
         self.range_row.chosen.connect(self._on_typed)
-        self.range_row.cleared.connect(lambda: self._choose(None))
+        self.range_row.all.clicked.connect(lambda: self._choose(None))
         # The tooltip of the plot shows counts; the help is the tooltip of the legend.
         self.plot.plot.setAccessibleName(tr("Histogram of hex quality"))
         self.plot.plot.setAccessibleDescription(tr(_HELP))

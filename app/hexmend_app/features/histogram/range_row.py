@@ -26,12 +26,9 @@ class RangeRow(QWidget):
     -------
     chosen(low, high, inverted)
         The user changed an end of the range, or showed or hid inverted hexes.
-    cleared
-        The user asked to show all hexes.
     """
 
     chosen = Signal(float, float, bool)
-    cleared = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -42,7 +39,6 @@ class RangeRow(QWidget):
         self.low, self.high, self.all = EndBox(), EndBox(), QPushButton(tr("All"))
         set_help(self.all, tr("Show all"), tr("Show the hexes of all values (or double-click the plot)."))
         narrow(self.all)
-        self.all.clicked.connect(self.cleared)
         self.inverted = QToolButton()
         self.inverted.setCheckable(True)
         self.inverted.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

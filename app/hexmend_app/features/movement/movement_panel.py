@@ -67,15 +67,9 @@ class MovementPanel(QWidget):
     -------
     traces_changed(Traces)
         The user changed the reference state or the arrows.
-    colours_chosen(name)
-        The user selected a name of `DISPLACEMENT_QUANTITIES` for the colours, or "" for a metric.
-    newly_invalid_requested
-        The user asked to isolate the newly invalid hexes.
     """
 
     traces_changed = Signal(object)
-    colours_chosen = Signal(str)
-    newly_invalid_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -99,8 +93,6 @@ class MovementPanel(QWidget):
         self.since.chosen.connect(lambda key: self._change(since=Since(key)))
         self.arrows.chosen.connect(lambda key: self._change(arrows=Arrows(key)))
         self.factor.valueChanged.connect(lambda value: self._change(factor=value))
-        self.colours.chosen.connect(self.colours_chosen)
-        self.show_newly.clicked.connect(self.newly_invalid_requested)
         self.set_traces(self._traces)
         self.set_counts(None, "", 0)
         self.set_arrows(0, 0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -49,18 +49,7 @@ _NO_PLOT = "No plot: along the direction, the energy changes by rounding only."
 
 
 class NodePanel(QWidget):
-    """Shows the step of a node, or the reason why it has none.
-
-    Signals
-    -------
-    node_chosen(int)
-        The user selected this node.
-    patch_toggled(bool)
-        The user isolated the hexes of the node, or ended the isolation.
-    """
-
-    node_chosen = Signal(int)
-    patch_toggled = Signal(bool)
+    """Shows the step of a node, or the reason why it has none."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -79,18 +68,16 @@ class NodePanel(QWidget):
         self._no_plot.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._no_plot.setMargin(16)
         self.figures = NodeFigures()
-        self._nodes = LinkLabel()
-        self._nodes.setWordWrap(True)
-        self._nodes.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self._nodes.followed.connect(self.node_chosen)
+        self.nodes = LinkLabel()
+        self.nodes.setWordWrap(True)
+        self.nodes.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         set_help(
-            self._nodes,
+            self.nodes,
             tr("Free nodes"),
             tr("Nodes of the selected hex that methods may move; click one to select it."),
         )
-        self._patch = QCheckBox(tr("Isolate patch"))
-        set_help(self._patch, tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again."))
-        self._patch.toggled.connect(self.patch_toggled)
+        self.patch_box = QCheckBox(tr("Isolate patch"))
+        set_help(self.patch_box, tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again."))
         self._buttons = {name: ActionButton(with_text=True) for name in SWEEP}
         self._progress = QLabel()
         self._progress.setFont(tabular(self._progress.font()))
@@ -119,10 +106,8 @@ class NodePanel(QWidget):
         page = QWidget()
         fill(QHBoxLayout(page), (self.plot, 1), (self._no_plot, 1), (self.figures, 1), margins=(0, 0, 0, 0))
         self._stack.addWidget(page)
-        foot = fill(QHBoxLayout(), self._patch, None, *self._buttons.values())
-        fill(
-            QVBoxLayout(self), head, (self._stack, 1), self._legend, self._nodes, foot, margins=(8, 4, 8, 4), spacing=4
-        )
+        foot = fill(QHBoxLayout(), self.patch_box, None, *self._buttons.values())
+        fill(QVBoxLayout(self), head, (self._stack, 1), self._legend, self.nodes, foot, margins=(8, 4, 8, 4), spacing=4)
 
     def show_message(self, message: str, title: str = "") -> None:
         """Show a message instead of a step."""
@@ -161,11 +146,11 @@ class NodePanel(QWidget):
 
     def set_nodes(self, nodes: Sequence[int] | None, selected: int | None = None) -> None:
         """List the free nodes of the selected hex as links, the `selected` node in bold; None hides the list."""
-        self._nodes.setVisible(nodes is not None)
+        self.nodes.setVisible(nodes is not None)
         if nodes is None:
             return
         links = (f"<b>{i:,}</b>" if i == selected else f'<a href="{i}">{i:,}</a>' for i in nodes)
-        self._nodes.setText(tr("Free nodes: {nodes}", nodes=" ".join(links) or tr("none")))
+        self.nodes.setText(tr("Free nodes: {nodes}", nodes=" ".join(links) or tr("none")))
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:
         """Show the actions of `SWEEP` on the buttons."""
@@ -178,10 +163,10 @@ class NodePanel(QWidget):
 
     def set_patch(self, on: bool) -> None:
         """Show whether the patch is isolated in the view, without emitting a signal."""
-        with QSignalBlocker(self._patch):
-            self._patch.setChecked(on)
+        with QSignalBlocker(self.patch_box):
+            self.patch_box.setChecked(on)
 
     @property
     def patch_alone(self) -> bool:
         """True if the hexes of the node are isolated in the view."""
-        return self._patch.isChecked()
+        return self.patch_box.isChecked()

@@ -24,14 +24,10 @@ class Welcome(QWidget):
 
     Signals
     -------
-    open_requested, demo_requested
-        The user asked for the file dialog or the demo mesh.
     recent_requested(Path)
         The user selected this file.
     """
 
-    open_requested = Signal()
-    demo_requested = Signal()
     recent_requested = Signal(object)
 
     def __init__(self, recent: RecentFiles, parent: QWidget | None = None):
@@ -45,11 +41,9 @@ class Welcome(QWidget):
             tr("Drop a file here or open one: VTK, Exodus, CGNS, MED, Gmsh, Abaqus, Nastran, Medit and more.")
         )
         tint(self._hint, MUTED)
-        self._open = QPushButton(icon("folder-open-outline"), tr("Open…"))
-        self._demo = QPushButton(tr("Demo mesh"))
-        self._open.clicked.connect(self.open_requested)
-        self._demo.clicked.connect(self.demo_requested)
-        buttons = fill(QHBoxLayout(), None, self._open, self._demo, None, spacing=None)
+        self.open_button = QPushButton(icon("folder-open-outline"), tr("Open…"))
+        self.demo_button = QPushButton(tr("Demo mesh"))
+        buttons = fill(QHBoxLayout(), None, self.open_button, self.demo_button, None, spacing=None)
         self._links = fill(QVBoxLayout(), spacing=4)
         for label in (self._title, self._hint):
             label.setAlignment(Qt.AlignmentFlag.AlignCenter)

@@ -38,8 +38,8 @@ class FeatureTimeline(Feature):
         timeline = self._timeline = session.timeline
         self._seen = ChangeTracker()
         bar = self.panel = TimelineBar()
-        bar.run_chosen.connect(lambda at: timeline.choose(session.history.records[at]))
-        bar.number_chosen.connect(lambda number: timeline.go_soon(timeline.record, number))
+        bar.runs.activated.connect(lambda at: timeline.choose(session.history.records[at]))
+        bar.slider.valueChanged.connect(lambda number: timeline.go_soon(timeline.record, number))
         bar.delete_requested.connect(lambda: timeline.delete(timeline.record))
         bar.limit_changed.connect(self._set_limit)
         bar.speed_changed.connect(self._set_speed)

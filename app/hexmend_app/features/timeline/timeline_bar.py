@@ -38,18 +38,12 @@ class TimelineBar(QWidget):
 
     Signals
     -------
-    run_chosen(int)
-        The user has selected a run, by its index in the list.
-    number_chosen(int)
-        The user has selected an iteration of the run.
     delete_requested
         The user wants to delete the run.
     limit_changed(int), speed_changed(int)
         In megabytes, and in iterations per second.
     """
 
-    run_chosen = Signal(int)
-    number_chosen = Signal(int)
     delete_requested = Signal()
     limit_changed = Signal(int)
     speed_changed = Signal(int)
@@ -59,16 +53,14 @@ class TimelineBar(QWidget):
         self.run_bar = RunBar()
         self.runs = ComboBox()
         let_shrink(self.runs, 5)
-        self.runs.activated.connect(self.run_chosen)
         set_help(self.runs, tr("Run"), tr("Run shown in the timeline."))
         self._buttons = {name: ActionButton() for name in _STEPS}
         self._branch = ActionButton()
         for button in (*self._buttons.values(), self._branch):
             button.setAutoRaise(True)
-        self._slider = TrackSlider()
-        self._slider.setMinimumWidth(_LEAST_TRACK)
-        self._slider.valueChanged.connect(self.number_chosen)
-        set_help(self._slider, tr("Iteration"), tr("Displayed iteration."))
+        self.slider = TrackSlider()
+        self.slider.setMinimumWidth(_LEAST_TRACK)
+        set_help(self.slider, tr("Iteration"), tr("Displayed iteration."))
         self._at = QLabel()
         self._at.setFont(tabular(self._at.font()))
         self._at.setAccessibleName(tr("Iteration shown"))
@@ -78,7 +70,7 @@ class TimelineBar(QWidget):
         set_help(self._more, tr("Timeline settings"), tr("Memory limit and playback speed."))
         left = (self.run_bar, 8, self.runs, 4, *self._buttons.values(), 4)
         right = (4, self._at, self._branch, self._more)
-        fill(QHBoxLayout(self), *left, (self._slider, 1), *right, margins=(8, 0, 8, 0), spacing=4)
+        fill(QHBoxLayout(self), *left, (self.slider, 1), *right, margins=(8, 0, 8, 0), spacing=4)
         self.set_runs(())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -94,7 +86,7 @@ class TimelineBar(QWidget):
             for at, (name, help) in enumerate(names):
                 self.runs.addItem(name)
                 self.runs.setItemData(at, help, Qt.ItemDataRole.ToolTipRole)
-        for widget in (self.runs, self._slider):
+        for widget in (self.runs, self.slider):
             widget.setEnabled(bool(names))
         if not names:
             self.runs.setPlaceholderText(tr("No runs"))
@@ -116,7 +108,7 @@ class TimelineBar(QWidget):
         used : int
             Memory of all runs in bytes.
         """
-        self._slider.set_track(newest, kept, marks)
+        self.slider.set_track(newest, kept, marks)
         stored = (
             ""
             if len(kept) == newest + 1
@@ -124,8 +116,8 @@ class TimelineBar(QWidget):
         )
         pauses = "".join(f"<br>{number}: {sentence}" for number, sentence in marks.items())
         tip = f"<qt>{counted(newest, self._unit)}.{stored}{pauses}</qt>"
-        if tip != self._slider.toolTip():
-            self._slider.setToolTip(tip)
+        if tip != self.slider.toolTip():
+            self.slider.setToolTip(tip)
         self._used.setText(tr("In use: {count}", count=size(used)))
 
     def set_labels(self, unit: str, labels: Sequence[str]) -> None:
@@ -134,10 +126,10 @@ class TimelineBar(QWidget):
 
     def set_number(self, number: int | None) -> None:
         """Show the number of the displayed iteration; None if it is not in the run."""
-        newest = self._slider.maximum()
-        if number is not None and not self._slider.isSliderDown():
-            with QSignalBlocker(self._slider):
-                self._slider.setValue(number)
+        newest = self.slider.maximum()
+        if number is not None and not self.slider.isSliderDown():
+            with QSignalBlocker(self.slider):
+                self.slider.setValue(number)
         shown = "–" if number is None else number
         if self._labels:
             self._at.setText("–" if number is None else self._labels[number])
