@@ -33,6 +33,13 @@ def on_grid(layout: Layout) -> Layout:
     return layout
 
 
+def clear(layout: QLayout) -> None:
+    """Remove and delete the widgets of a layout."""
+    while (item := layout.takeAt(0)) is not None:
+        item.widget().hide()
+        item.widget().deleteLater()
+
+
 def fill(layout: Box, *parts: Part, margins: tuple[int, int, int, int] | None = None, spacing: int | None = GAP) -> Box:
     """Add parts to a new row or column and return it.
 

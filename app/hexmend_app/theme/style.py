@@ -207,6 +207,12 @@ def note(text: str = "", colour: Role = MUTED, parent: QWidget | None = None) ->
     return label
 
 
+def show_text(label: QLabel, text: str) -> None:
+    """Set the text of a label, which is hidden while it has none."""
+    label.setText(text)
+    label.setVisible(bool(text))
+
+
 def tint(widget: QWidget, colour: Role) -> None:
     """Set the text colour of `widget`."""
     listening = widget.property("tint") is not None

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 from hexmend.errors import ParameterError
 from hexmend_app.state.view.saved_cameras import SavedCameras
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.theme.style import WORSE, note, set_help, show_text
 from hexmend_app.translation import tr
 
 _NAME = Qt.ItemDataRole.UserRole
@@ -108,12 +108,12 @@ class CamerasDialog(QDialog):
         self.list.blockSignals(True)
         item.setText(before)
         self.list.blockSignals(False)
-        self._show_problem(problem)
+        show_text(self._problem, problem)
 
     def _on_changed(self) -> None:
         """Refresh the list and keep the selected row."""
         row = self.list.currentRow()
-        self._show_problem("")
+        show_text(self._problem, "")
         self._fill()
         self.list.setCurrentRow(min(max(row, 0), self.list.count() - 1))
 
@@ -132,7 +132,3 @@ class CamerasDialog(QDialog):
     def _enable(self) -> None:
         for button in self._buttons:
             button.setEnabled(bool(self._name))
-
-    def _show_problem(self, problem: str) -> None:
-        self._problem.setText(problem)
-        self._problem.setVisible(bool(problem))

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.doctor import PROBLEMS, Finding
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.theme.spacing import fill, on_grid
+from hexmend_app.theme.spacing import clear, fill, on_grid
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.scrolled import scrolled
@@ -62,9 +62,7 @@ class DoctorPanel(QWidget):
 
     def show_findings(self, findings: Sequence[Finding] | None, problem: str = "", mesh: Mesh | None = None) -> None:
         """List the findings in a mesh; None while it is being checked, with `problem` if the check failed."""
-        while (item := self._rows.takeAt(0)) is not None:
-            item.widget().hide()
-            item.widget().deleteLater()
+        clear(self._rows)
         self._repair_buttons = []
         if findings is None:
             self._head.setText(problem or tr(_CHECKING))

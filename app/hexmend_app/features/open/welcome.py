@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWi
 
 from hexmend_app.features.open.recent_menu import elide
 from hexmend_app.state.settings.recent_files import RecentFiles
-from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.spacing import clear, fill
 from hexmend_app.theme.style import MUTED, icon, set_help, set_variant, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_folder
@@ -52,9 +52,7 @@ class Welcome(QWidget):
         self._show_recent()
 
     def _show_recent(self) -> None:
-        while (item := self._links.takeAt(0)) is not None:
-            item.widget().hide()
-            item.widget().deleteLater()
+        clear(self._links)
         for path in self._recent.files():
             if path.exists():
                 link = QPushButton(elide(f"{path.name}  ({short_folder(path)})", self).replace("&", "&&"))

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
@@ -158,9 +158,8 @@ class RecipePanel(QWidget):
 
     def select(self, at: int) -> None:
         """Select a stage without sending a signal."""
-        self._list.blockSignals(True)
-        self._list.setCurrentRow(at)
-        self._list.blockSignals(False)
+        with QSignalBlocker(self._list):
+            self._list.setCurrentRow(at)
         self._enable()
 
     def set_active(self, number: int | None) -> None:

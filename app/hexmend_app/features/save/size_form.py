@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from PySide6.QtCore import QSize, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QWidget
 
 from hexmend_app.picture import Page
@@ -82,9 +82,8 @@ class SizeForm(QWidget):
         unit = _MM if page.pixels is None and (page.width or page.height) else _PIXELS
         size = [side * 25.4 / page.resolution for side in page.size] if unit == _MM else page.size
         self._show(unit, *size)
-        self.dpi.blockSignals(True)
-        self.dpi.setValue(page.resolution if unit == _MM else _DPI)
-        self.dpi.blockSignals(False)
+        with QSignalBlocker(self.dpi):
+            self.dpi.setValue(page.resolution if unit == _MM else _DPI)
         self._find_preset()
 
     def page(self, base: Page) -> Page:
@@ -104,11 +103,10 @@ class SizeForm(QWidget):
         self.unit.setCurrentIndex(self.unit.findData(unit))
         low, high, decimals = _RANGES[unit]
         for box, value in ((self.width_box, width), (self.height_box, height)):
-            box.blockSignals(True)
-            box.setDecimals(decimals)
-            box.setRange(low, high)
-            box.setValue(value)
-            box.blockSignals(False)
+            with QSignalBlocker(box):
+                box.setDecimals(decimals)
+                box.setRange(low, high)
+                box.setValue(value)
         self.dpi.setEnabled(unit == _MM)
 
     def _find_preset(self) -> None:

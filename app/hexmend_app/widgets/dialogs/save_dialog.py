@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLayout, QPushButton, Q
 
 from hexmend.errors import FileError, ParameterError
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import WORSE, note
+from hexmend_app.theme.style import WORSE, note, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.target_row import TargetRow
 
@@ -75,5 +75,4 @@ class SaveDialog(QDialog):
 
     def refuse(self, problem: str) -> None:
         """Show a problem; "" hides it."""
-        self._problem.setText(problem)
-        self._problem.setVisible(bool(problem))
+        show_text(self._problem, problem)

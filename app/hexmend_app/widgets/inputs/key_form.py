@@ -17,7 +17,7 @@ from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.codec.value_text import parse_value
 from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import WORSE, labelled, note, set_help
+from hexmend_app.theme.style import WORSE, labelled, note, set_help, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, Text, editor_for
 from hexmend_app.widgets.wording import name_in_words
@@ -70,7 +70,7 @@ class KeyForm(QWidget):
         for name, editor in self.editors.items():
             value = getattr(table, name)
             editor.set_value(_text(value) if isinstance(editor, Text) else value)
-        self._show_problem("")
+        show_text(self._problem, "")
 
     def table(self, base: ConfigTable) -> ConfigTable:
         """Return a copy of `base` with the values of the form.
@@ -90,14 +90,10 @@ class KeyForm(QWidget):
     def _on_changed(self) -> None:
         try:
             self.table(self._kind())
-            self._show_problem("")
+            show_text(self._problem, "")
         except ParameterError as error:
-            self._show_problem(str(error))
+            show_text(self._problem, str(error))
         self.changed.emit()
-
-    def _show_problem(self, problem: str) -> None:
-        self._problem.setText(problem)
-        self._problem.setVisible(bool(problem))
 
 
 def _editor(option: Option) -> Editor:

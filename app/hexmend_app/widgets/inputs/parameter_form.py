@@ -16,7 +16,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QTo
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import BLUE, WORSE, bold, note, set_help, tool_button
+from hexmend_app.theme.style import BLUE, WORSE, bold, note, set_help, show_text, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
 from hexmend_app.widgets.inputs.number_box import LONGEST_UNIT, NumberBox
@@ -40,8 +40,7 @@ class _Row:
         font.setBold(modified)
         self.label.setFont(font)
         self.reset.setVisible(modified)
-        self.problem.setText(self.editor.problem)
-        self.problem.setVisible(bool(self.editor.problem))
+        show_text(self.problem, self.editor.problem)
 
     @property
     def is_needed(self) -> bool:
