@@ -95,8 +95,6 @@ class Action:
         The action is in the context menu of the view.
     submenu : QMenu, optional
         Menu that is added after the action.
-    moves_camera : bool
-        The action moves the camera and changes nothing else, so that a run goes on being shown eased.
     """
 
     id: str
@@ -116,7 +114,6 @@ class Action:
     exclusive: bool = False
     in_view: bool = False
     submenu: QMenu | None = None
-    moves_camera: bool = False
 
 
 class PanelPlace(Enum):

@@ -8,7 +8,6 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QWidget
@@ -25,7 +24,7 @@ from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
-    from vtkmodules.vtkRenderingCore import vtkCamera
+    pass
 
 #: Time without changes after which the fine frame is drawn, in milliseconds.
 _REST = 300
@@ -145,10 +144,6 @@ class CameraView(QWidget):
         mesh = self.viewport.frame.mesh
         self.camera_animation.fly(self.panes.camera_controller.flight_to(mesh.points[mesh.hexes[list(hexes)]]))
 
-    def fly_around(self, place: np.ndarray) -> None:
-        """Fly to a pose in which a point, (3,) float64, is the centre of the view and of rotation."""
-        self.camera_animation.fly(self.panes.camera_controller.flight_around(place))
-
     def _on_flight_frame(self) -> None:
         self.panes.camera_controller.reset_depth()
         self.turning()
@@ -175,10 +170,6 @@ class CameraView(QWidget):
         self._rest.stop()
         self.panes.turning()
 
-    def stay_coarse(self) -> None:
-        """Cancel the scheduled fine frame because more changes follow."""
-        self._rest.stop()
-
     def rest(self) -> None:
         """Schedule a fine frame."""
         self._rest.start()
@@ -194,13 +185,9 @@ class CameraView(QWidget):
         self.camera_animation.stop()
         self.interactor.release_graphics()
 
-    def camera_move(self, event: QKeyEvent) -> Callable[[vtkCamera], None] | None:
-        """Return the camera movement of a key that is pressed in the view; None for an unbound key."""
-        return move_of(event, self.panes.camera_controller.up)
-
     def on_key(self, event: QKeyEvent) -> None:
         """Move the camera if the key is bound to a movement."""
-        move = self.camera_move(event)
+        move = move_of(event, self.panes.camera_controller.up)
         if move is not None:
             self._move_camera(partial(move, self.viewport.camera))
 

@@ -15,6 +15,7 @@ from hexmend_app.canvas.name_list import NameList
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
 from hexmend_app.scene.colour.colouring import end_label
 from hexmend_app.scene.colour.ticks import ticks_with_ends
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import INVALID_INSIDE, INVERTED, LINE, MUTED, TEXT, set_help, smaller, tabular
 from hexmend_app.translation import tr
 
@@ -53,12 +54,9 @@ class ColourBar(QFrame):
         self._names = NameList()
         self._names.hide()
         self.swatches: list[SwatchButton] = []
-        self._layout = QVBoxLayout(self)
-        self._layout.setContentsMargins(8, 8, 8, 4)
-        self._layout.setSpacing(4)
-        self._layout.addWidget(self._title)
-        self._layout.addWidget(self._gradient, 1)
-        self._layout.addWidget(self._names, 1)
+        self._layout = fill(
+            QVBoxLayout(self), self._title, (self._gradient, 1), (self._names, 1), margins=(8, 8, 8, 4), spacing=4
+        )
         self.set_special([("inverted", 0, INVERTED), ("invalid inside", 0, INVALID_INSIDE)])
 
     def set_table(self, table: np.ndarray) -> None:

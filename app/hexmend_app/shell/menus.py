@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
@@ -21,8 +21,6 @@ class Menus:
     window : QMainWindow
     actions : sequence of Action
         Sorted by feature.
-    before : callable
-        Called before each action that does more than move the camera.
 
     Attributes
     ----------
@@ -30,8 +28,8 @@ class Menus:
         By id, sorted by menu.
     """
 
-    def __init__(self, window: QMainWindow, actions: Sequence[Action], before: Callable[[], object]):
-        self._window, self._before = window, before
+    def __init__(self, window: QMainWindow, actions: Sequence[Action]):
+        self._window = window
         self._declared: dict[str, Action] = {}
         self.actions: dict[str, QAction] = {}
         self._bar = QToolBar(tr("Tools"))
@@ -82,8 +80,6 @@ class Menus:
         _show_face(action, ActionFace(declared.tool, declared.icon, declared.help))
         action.setProperty("within", tr(declared.menu.rpartition("/")[2]) if "/" in declared.menu else "")
         action.setCheckable(declared.checked is not None)
-        if not declared.moves_camera:
-            action.triggered.connect(lambda checked=False: self._before())
         handle = declared.handle
         if declared.checked is not None:
             action.triggered.connect(handle)  # `refresh` would emit `toggled` too

@@ -59,7 +59,6 @@ class FeatureCamera(Feature):
                 icon="arrow-expand-all",
                 help=tr("Fit the visible mesh to the view."),
                 tool=tr("Fit"),
-                moves_camera=True,
                 handle=lambda: self.canvas.fit(),
                 enabled=self._ready,
                 in_view=True,
@@ -87,7 +86,6 @@ class FeatureCamera(Feature):
                     enabled=self._ready,
                     checked=lambda axis=axis: self.canvas is not None and self.canvas.up == axis,
                     exclusive=True,
-                    moves_camera=True,
                 )
                 for axis in "xyz"
             ),
@@ -105,7 +103,6 @@ class FeatureCamera(Feature):
                 handle=lambda on: self.canvas.set_parallel(on),
                 enabled=self._ready,
                 checked=lambda: self.canvas is not None and self.canvas.parallel,
-                moves_camera=True,
             ),
         )  # fmt: skip
 
@@ -122,7 +119,6 @@ class FeatureCamera(Feature):
                 if name == "iso"
                 else tr("Look at the mesh from {direction}.", direction=name.replace("-", "−")),
                 tool=tr(tool),
-                moves_camera=True,
                 handle=lambda name=name: self.canvas.look_along(name),
                 enabled=self._ready,
             )
@@ -196,7 +192,6 @@ class FeatureCamera(Feature):
             handle=handle,
             enabled=lambda: self._ready() and enabled(),
             in_view=in_view,
-            moves_camera=True,
         )
 
     def copy(self) -> None:

@@ -13,7 +13,7 @@ from hexmend.quality import REGRESSION_KEYS
 from hexmend.quantity import Quantity, format_column
 from hexmend.report.comparison import KEPT_START, LINES, label
 from hexmend.smoothers import METHODS
-from hexmend_app.theme.style import BETTER, MUTED, WORSE, tabular
+from hexmend_app.theme.style import BETTER, MUTED, WORSE, bold, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import with_minus
 
@@ -212,9 +212,7 @@ class ComparisonModel(QAbstractTableModel):
     def _emphasis(self, entry: ComparisonRow, quantity: Quantity, at: int, role: int) -> Any:
         is_best, texts = entry.name in self._best[at], self._texts[at]
         if role == _Role.FontRole and is_best:
-            font = tabular(QFont())
-            font.setBold(True)
-            return font
+            return bold(tabular(QFont()))
         regressed = quantity.key in {REGRESSION_KEYS.get(name, name) for name in entry.record.get("worse", ())}
         regressed = regressed and texts[entry.name] != texts.get(INITIAL)
         if role == _Role.AccessibleTextRole and (is_best or regressed):

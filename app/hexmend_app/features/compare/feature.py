@@ -42,11 +42,11 @@ class FeatureCompare(Feature):
         self._style = ChartStyle()  # of the last saved table
         panel = self.panel = ComparePanel(TICKED)
         panel.run_requested.connect(lambda names: session.run_setup.use(lambda stage: self._start(names, stage)))
-        panel.cancel_requested.connect(self._comparison.cancel)
+        panel.cancel_button.clicked.connect(self._comparison.cancel)
         panel.view_toggled.connect(self._toggle)
         panel.use_requested.connect(self._use)
-        panel.wipe_toggled.connect(self._views.set_wiping)
-        panel.save_requested.connect(self.ask)
+        panel.wipe_button.clicked.connect(self._views.set_wiping)
+        panel.save_button.clicked.connect(self.ask)
         panel.can_run_changed.connect(host.refresh_soon)
 
     def actions(self) -> Sequence[Action]:

@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QFontDatabase, QKeyEvent, QTextCharFormat, QTe
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
 from hexmend_app.theme.palette import MUTED, TEXT, WORSE, Role
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import BLUE, icon, set_help
 from hexmend_app.translation import tr
 
@@ -58,17 +58,9 @@ class ConsolePanel(QWidget):
         set_help(clear, tr("Clear output"), tr("Clear the output of the console."))
         clear.clicked.connect(self.output.clear)
         self._prompt = QLabel(">>>")
-        for part in (self.output, self.input, self._prompt):
-            part.setFont(font)
-        line = on_grid(QHBoxLayout())
-        line.addWidget(self._prompt)
-        line.addWidget(self.input, 1)
-        line.addWidget(self._interrupt)
-        line.addWidget(clear)
-        column = on_grid(QVBoxLayout(self))
-        column.setContentsMargins(8, 8, 8, 8)
-        column.addWidget(self.output, 1)
-        column.addLayout(line)
+        self._prompt.setFont(font)
+        line = fill(QHBoxLayout(), self._prompt, (self.input, 1), self._interrupt, clear)
+        fill(QVBoxLayout(self), (self.output, 1), line, margins=(8, 8, 8, 8))
         self._history: list[str] = []
         self._at = 0
         self.completions: Callable[[str], list[str]] = lambda text: []

@@ -7,7 +7,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QLabel, QWidget
 from superqt import QRangeSlider
 
-from hexmend_app.theme.style import set_help, smaller, tabular
+from hexmend_app.theme.style import labelled, set_help, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.wording import position
@@ -44,9 +44,7 @@ class BoxPage(QWidget):
             text.setFont(tabular(smaller(text.font())))
             text.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
             text.setMinimumWidth(text.fontMetrics().horizontalAdvance("-0.000 – -0.000"))
-            label = QLabel(name)
-            label.setBuddy(slider)
-            for column, widget in enumerate((label, slider, text)):
+            for column, widget in enumerate((labelled(name, slider), slider, text)):
                 grid.addWidget(widget, axis, column)
             self._sliders.append(slider)
             self._texts.append(text)

@@ -51,8 +51,8 @@ class FeatureNodeStep(Feature):
             lambda: self._draw_message(tr("Computing… A global method takes several seconds on a large mesh."))
         )
         session.node_step_task.answered.connect(self._computing_timer.stop)
-        panel.node_chosen.connect(lambda node: self._selection.choose(self._selection.hex, node))
-        panel.patch_toggled.connect(self._on_patch_toggled)
+        panel.nodes.followed.connect(lambda node: self._selection.choose(self._selection.hex, node))
+        panel.patch_box.toggled.connect(self._on_patch_toggled)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that explain a node and run a sweep node by node."""

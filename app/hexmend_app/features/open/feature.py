@@ -44,8 +44,8 @@ class FeatureOpen(Feature):
         self._menu = RecentMenu(self.recent, host.dialog_parent)
         self._menu.chosen.connect(self.open)
         self.welcome = Welcome(self.recent)
-        self.welcome.open_requested.connect(self.ask)
-        self.welcome.demo_requested.connect(self.open_demo)
+        self.welcome.open_button.clicked.connect(self.ask)
+        self.welcome.demo_button.clicked.connect(self.open_demo)
         self.welcome.recent_requested.connect(self.open)
         opener = self._opener
         opener.began.connect(lambda path: self._show_progress(LoadProgress(LoadStage.READING, path)))

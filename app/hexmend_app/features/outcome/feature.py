@@ -14,6 +14,7 @@ from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelP
 from hexmend_app.features.outcome.notice import notice
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.theme.style import show_text
 from hexmend_app.translation import tr
 
 #: Rings of hexes around the inverted ones whose nodes are unpinned where the part of the mesh was too small.
@@ -86,7 +87,7 @@ class FeatureOutcome(Feature):
         elif advice is None:
             self.panel.show_hint()
         self._shown = advice
-        self.panel.set_view_note(self._view_note())
+        show_text(self.panel.view_note, self._view_note())
         self.panel.set_busy(not self.session.editable)
 
     def _on_ended(self) -> None:

@@ -14,7 +14,7 @@ from hexmend.quality import SUMMARY_QUANTITIES
 from hexmend_app.features.runs.dominance import KEY_FIGURES
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.theme.palette import Role
-from hexmend_app.theme.style import MUTED, TEXT, WORSE, tabular
+from hexmend_app.theme.style import MUTED, TEXT, WORSE, bold, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import figure
 
@@ -106,9 +106,7 @@ class RunTable(QAbstractTableModel):
         if role == _Role.ForegroundRole:
             return QBrush(QColor(str(self._colour(row, column))))
         if role == _Role.FontRole and column >= FIRST and self._is_best(row, QUANTITIES[column - FIRST].key):
-            font = tabular(QFont())
-            font.setBold(True)
-            return font
+            return bold(tabular(QFont()))
         if role == _Role.ToolTipRole:
             settings = f"<br>{escape(row.settings)}" if row.settings else ""
             return f"<qt><b>{escape(row.name)}</b>{settings}<br>{escape(row.help)}</qt>"

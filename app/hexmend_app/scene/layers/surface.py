@@ -101,10 +101,6 @@ class Surface:
         """True while the surface is drawn."""
         return bool(self.actor.GetVisibility())
 
-    def cull(self, on: bool) -> None:
-        """Turn culling of back faces on or off."""
-        self.actor.GetProperty().SetBackfaceCulling(on)
-
     def show_edges(self, on: bool) -> None:
         """Show or hide the edges of the polygons."""
         self._edges = on

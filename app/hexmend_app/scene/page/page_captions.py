@@ -37,7 +37,7 @@ def draw_captions(drawing: Drawing, layout: Layout) -> None:
     if not layout.captions:
         return
     captions = list(_captions(layout))
-    shares = [_largest_share(drawing, caption) for caption in captions]
+    shares = [next((one for one in _SHARES if _fits(drawing, caption, one)), 0.0) for caption in captions]
     common = min((share for share in shares if share), default=0.0)
     for caption, share in zip(captions, shares, strict=True):
         _draw(drawing, caption, common if share else _SHARES[-1])
@@ -64,11 +64,6 @@ def _captions(layout: Layout) -> Iterator[_Caption]:
             other, edge = meshes[panel.wipe.mesh - 1], box.left + round(panel.wipe.at * box.width)
             name, figures = panel.wipe.caption or other.name, other.text if with_figures else ""
             yield _Caption(edge, middle, box.width - width, name, figures)
-
-
-def _largest_share(drawing: Drawing, caption: _Caption) -> float:
-    """Return the largest fraction of the font size at which a caption fits, 0 if there is none."""
-    return next((share for share in _SHARES if _fits(drawing, caption, share)), 0.0)
 
 
 def _fits(drawing: Drawing, caption: _Caption, share: float) -> bool:

@@ -88,10 +88,6 @@ class RunSetup(QObject):
             self.rules = rules
             self.changed.emit()
 
-    def keep_rules_of(self, mesh: Mesh) -> None:
-        """Drop the rules of sets that a mesh does not have."""
-        self.set_rules(self.rules.limited_to(set_names(mesh)))
-
     def follow_renamed_sets(self, before: Mapping[str, object], mesh: Mesh) -> None:
         """Give the rules of hex sets that a mesh has under another name that name.
 

@@ -8,7 +8,7 @@ from enum import StrEnum
 from typing import Any
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFormLayout, QLabel, QWidget
+from PySide6.QtWidgets import QFormLayout, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
@@ -17,7 +17,7 @@ from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.codec.value_text import parse_value
 from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.theme.style import WORSE, labelled, note, set_help, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Text, editor_for
 from hexmend_app.widgets.wording import name_in_words
@@ -59,9 +59,7 @@ class KeyForm(QWidget):
             editor.changed.connect(self._on_changed)
             title = tr(name_in_words(option.name)) + (f" ({tr(option.unit)})" if option.unit else "")
             set_help(editor, title, tr(helps(self._kind)[name]))  # type: ignore[arg-type]
-            label = QLabel(title)
-            label.setBuddy(editor)
-            layout.addRow(label, editor)
+            layout.addRow(labelled(title, editor), editor)
         self._problem = note("", WORSE)
         self._problem.hide()
         layout.addRow(self._problem)
@@ -72,7 +70,7 @@ class KeyForm(QWidget):
         for name, editor in self.editors.items():
             value = getattr(table, name)
             editor.set_value(_text(value) if isinstance(editor, Text) else value)
-        self._show_problem("")
+        show_text(self._problem, "")
 
     def table(self, base: ConfigTable) -> ConfigTable:
         """Return a copy of `base` with the values of the form.
@@ -92,14 +90,10 @@ class KeyForm(QWidget):
     def _on_changed(self) -> None:
         try:
             self.table(self._kind())
-            self._show_problem("")
+            show_text(self._problem, "")
         except ParameterError as error:
-            self._show_problem(str(error))
+            show_text(self._problem, str(error))
         self.changed.emit()
-
-    def _show_problem(self, problem: str) -> None:
-        self._problem.setText(problem)
-        self._problem.setVisible(bool(problem))
 
 
 def _editor(option: Option) -> Any:

@@ -94,7 +94,7 @@ def test_charts_are_saved_as_figures_and_values_of_all_runs_as_a_table(window, q
     first = run(window, qtbot, "mend", 5)
     window.session.timeline.go(first, 2)
     second = run(window, qtbot, "laplacian", 3)
-    panel.toggled.emit(second, False)
+    panel.legend.toggled.emit(second, False)
     for kind, start in (("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG")):
         path = tmp_path / f"charts.{kind}"
         assert window.features["convergence"].save(path)

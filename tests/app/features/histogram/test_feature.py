@@ -152,7 +152,7 @@ def test_the_bars_have_the_colours_of_the_view(window, qtbot, histogram):
     window.session.view.change(colours={"map": "cividis"})
     window.refresh()
     assert histogram.series()[0].gradient != gradient
-    histogram.metric_chosen.emit("condition")
+    histogram.head.metric_chosen.emit("condition")
     window.refresh()
     assert [series.key for series in histogram.series()] == ["start", "now"]
     assert histogram.series()[1].gradient == ()

@@ -8,7 +8,7 @@ import pytest
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend_app.features.histogram.histogram_file import write_histogram
+from hexmend_app.features.histogram.histogram_file import HistogramExport
 
 BLUE = "#0072b2"
 
@@ -26,7 +26,7 @@ def rows(path):
 def test_a_tall_bar_of_inverted_hexes_is_broken_and_labelled_in_the_figure(mesh, tmp_path, log):
     for inverted, broken in ((invert(mesh, 990), True), (invert(mesh, 3), False)):
         path = tmp_path / "figure.svg"
-        write_histogram(path, "title", "q", [("now", BLUE, True, inverted)], log=log)
+        HistogramExport("title", "q", [("now", BLUE, True, inverted)], log=log).write(path)
         ET.parse(path)
         count = measure(inverted.points, inverted.hexes).n_inverted
         assert (f">{count:,}<" in path.read_text()) == broken
@@ -41,7 +41,7 @@ def invert(mesh, count):
 
 def counted(mesh, folder, bins=50, cumulative=False):
     path = folder / "counts.csv"
-    write_histogram(path, "title", "q", [("now", BLUE, True, mesh)], bins=bins, cumulative=cumulative)
+    HistogramExport("title", "q", [("now", BLUE, True, mesh)], bins=bins, cumulative=cumulative).write(path)
     return rows(path)
 
 
@@ -56,7 +56,7 @@ def test_the_csv_has_a_line_for_each_cell(mesh, tmp_path):
 def test_the_axis_fits_the_first_mesh(mesh, tmp_path):
     path = tmp_path / "volume.csv"
     flat = mesh.with_points(mesh.points * [1, 1, 0.01])
-    write_histogram(path, "title", "volume", [("at the start", BLUE, True, mesh), ("now", BLUE, True, flat)])
+    HistogramExport("title", "volume", [("at the start", BLUE, True, mesh), ("now", BLUE, True, flat)]).write(path)
     edges = [row[0] for row in rows(path)]
-    write_histogram(path, "title", "volume", [("at the start", BLUE, True, mesh)])
+    HistogramExport("title", "volume", [("at the start", BLUE, True, mesh)]).write(path)
     assert [row[0] for row in rows(path)] == edges

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.slow
 _KEPT = ("session.", "camera ", "look that", "hexes that", "action ")
 _NOT_KEPT = (
     "session.boundary_classifier", "session.run_setup.active_stage", "session.run.record", "session.run.advice", "session.run.work",
-    "session.run.phase", "session.run.outcome", "session.run.view.pace", "session.run.view.eased", "action panel", "action drawer",
+    "session.run.phase", "session.run.outcome", "session.run.pace", "action panel", "action drawer",
     "action pace",
 )  # fmt: skip
 
@@ -63,7 +63,7 @@ def test_a_session_restores_the_whole_window(fresh_window, other_window, qtbot, 
     ticked = table.model().index(1, 0)
     table.model().setData(ticked, Qt.CheckState.Checked, Qt.ItemDataRole.CheckStateRole)
     for record in window.session.history.records[:1]:
-        window.features["convergence"].panel.toggled.emit(record, False)
+        window.features["convergence"].panel.legend.toggled.emit(record, False)
     saved(window, tmp_path)  # the camera fits the view anew beneath the message
     at_rest(window, qtbot)
     path = saved(window, tmp_path)
