@@ -10,7 +10,7 @@ from hexmend.gallery import make
 from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.iteration.figures import objective_changes
 from hexmend.quality import measure, objective
-from hexmend.report import comparison_rows, record_table
+from hexmend.report.comparison import comparison_rows, record_table
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS

@@ -9,7 +9,7 @@ from hexmend.cli.process.terminal import shows_colours
 from hexmend.terminal_text import WorsenedText
 
 if TYPE_CHECKING:
-    from hexmend.report import Table
+    from hexmend.report.tables import Table
 
 
 #: Style of values that are worse than before.

@@ -21,7 +21,8 @@ from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.io import Original, read, write_as_given, writer_for
 from hexmend.io.format_lookup import copy_suffix
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.report import comparison_rows, output_folder, record_table, write_documents
+from hexmend.report.comparison import comparison_rows, record_table
+from hexmend.report.documents import output_folder, write_documents
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare

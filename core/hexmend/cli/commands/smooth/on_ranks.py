@@ -27,7 +27,7 @@ from hexmend.kernels import cores, cores_for, set_threads, threads
 from hexmend.ranks.launching import local_ranks
 from hexmend.ranks.rank_run import RankRun
 from hexmend.ranks.rank_stages import check_method
-from hexmend.report import write_json
+from hexmend.report.records import write_json
 from hexmend.run import StoppingCriteria
 from hexmend.run.memory import peak_mb, release_freed
 from hexmend.smoothers import Smoother

@@ -12,8 +12,8 @@ from hexmend.cli.output.rich_tables import print_table
 from hexmend.cli.output.study_progress import TaskProgress
 from hexmend.cli.process.interrupts import CleanExit, FinishWriting
 from hexmend.errors import HexmendError, ParameterError
-from hexmend.report import output_folder
 from hexmend.report.batch import cases_table, failures, write_batch_study, write_parquet
+from hexmend.report.documents import output_folder
 from hexmend.study.batch.cluster import Cluster
 from hexmend.study.batch.local import Local
 from hexmend.study.batch.mesh_files import find_meshes
