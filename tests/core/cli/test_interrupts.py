@@ -22,7 +22,7 @@ if os.environ["TIMER"] == "no alarm":
     interrupts._ALARM = None
 {moment}
 from hexmend.cli.main import main
-from hexmend.cli.output import progress
+from hexmend.run import progress
 progress.LINE_INTERVAL = progress.BAR_DELAY = 0.0
 sys.exit(main())
 """
@@ -152,7 +152,7 @@ def test_a_signal_while_progress_is_printed_loses_nothing(smooth, tmp_path, numb
 
 
 @pytest.mark.parametrize(("module", "kind", "name"), [
-    ("hexmend.cli.output.progress", "_Lines", "show"),
+    ("hexmend.run.progress", "TimedDisplay", "show"),
     ("hexmend.run.run", "Run", "result"),
     ("hexmend.cli.command", "CoreCommand", "run"),
 ])  # fmt: skip

@@ -9,14 +9,14 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.cli.main import main
-from hexmend.cli.output import progress
+from hexmend.cli.output.progress import follow
 from hexmend.quality import summarise
-from hexmend.run import StoppingCriteria, iterate
+from hexmend.run import StoppingCriteria, iterate, progress
 from tests.patience import PATIENCE
 
 #: The program, which tells of every iteration, so that a test need not wait for the clock.
 TALKATIVE = (
-    "import sys; from hexmend.cli.output import progress; progress.LINE_INTERVAL = 0.0; "
+    "import sys; from hexmend.run import progress; progress.LINE_INTERVAL = 0.0; "
     "from hexmend.cli.main import main; sys.exit(main(sys.argv[1:]))"
 )
 #: Never ends by itself.
@@ -65,13 +65,13 @@ def test_a_long_run_tells_of_itself_in_whole_lines_and_on_standard_error_only(me
 
 
 def test_on_a_terminal_a_line_changes_and_vanishes(monkeypatch, capsys):
-    monkeypatch.setenv("FORCE_COLOR", "1")  # rich takes this for a terminal
+    monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr(progress, "BAR_DELAY", 0.0)
     run = iterate(
         gallery.make("cube", size=64, scramble=0.3), "laplacian", StoppingCriteria(max_iterations=4, tolerance=0)
     )
-    progress.follow(run)
+    follow(run)
     said = capsys.readouterr()
     assert said.out == ""
     assert "laplacian" in said.err

@@ -16,7 +16,7 @@ from hexmend.cli.arguments.run_arguments import (
     with_surface,
 )
 from hexmend.cli.output.progress import Progress
-from hexmend.cli.output.rich_tables import print_table
+from hexmend.cli.output.text_tables import print_table
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.io import Original, read, write_as_given, writer_for
 from hexmend.io.format_lookup import copy_suffix
