@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-import json
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import fields
 from importlib import import_module
 from pathlib import Path
 from time import monotonic
-
-import numpy as np
+from typing import NamedTuple
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import Block, Content
+from hexmend.io.base.content import Content
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.storage.file_progress import (
     FileAction,
     FileProgress,
-    advance,
     file_operation,
     report,
     stage,
@@ -58,7 +55,7 @@ def run_reader(reader: str, path: Path) -> Content:
     """
     size = os.path.getsize(path)
     with tempfile.TemporaryDirectory(prefix="hexmend-") as folder:
-        answer, log = Path(folder) / "answer.npz", Path(folder) / "stderr"
+        answer, log = Path(folder) / "answer", Path(folder) / "stderr"
         program = f"import sys; sys.path[:] = sys.argv[4:]; from {__name__} import main; main(*sys.argv[1:4])"
         limit = SECONDS + SECONDS_PER_MB * size / 1e6
         try:
@@ -73,23 +70,18 @@ def run_reader(reader: str, path: Path) -> Content:
             raise FileError(path, f"its reader fails ({_last_line(log)})", "Write the file again, and report this.")
         if process.returncode or not answer.exists():
             raise FileError(path, "ends the library that reads it", DAMAGED)
-        with np.load(answer, allow_pickle=False) as arrays, stage(_CHILDS_SHARE, 1.0):
-            message = json.loads(arrays["message"].tobytes())
-            if "problem" in message:
-                raise FileError(path, message["problem"], message["remedy"])
-            return decode(message["content"], _ReportedArrays(arrays, os.path.getsize(answer)))
+        with open(answer, "rb") as file, stage(_CHILDS_SHARE, 1.0):
+            result = pickle.load(file)  # of our own process, which has no other rights than this one
+    if isinstance(result, Failure):
+        raise FileError(path, result.problem, result.remedy)
+    return result
 
 
-class _ReportedArrays:
-    """Arrays of an answer, by name, of which each is reported when it has been read."""
+class Failure(NamedTuple):
+    """Answer of a subprocess that could not read the file."""
 
-    def __init__(self, arrays: Mapping[str, np.ndarray], total: int):
-        self._arrays, self._total = arrays, total
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        values = self._arrays[name]
-        advance(values.nbytes, self._total)
-        return values
+    problem: str
+    remedy: str
 
 
 def _wait(process: subprocess.Popen, limit: float, answer: Path) -> None:
@@ -121,18 +113,19 @@ def _share_file(answer: Path) -> Path:
 
 
 def main(reader: str, path: str, answer: str) -> None:
-    """Entry point of the subprocess: read the file and write the answer, a file .npz."""
+    """Entry point of the subprocess: read the file and write the answer, a pickled one."""
     _limit_memory(Path(path))
     module, _, function = reader.partition(":")
-    arrays: dict[str, np.ndarray] = {}
+    result: object
     try:
         with _stored_progress(Path(path), _share_file(Path(answer))):
-            message = {"content": encode(getattr(import_module(module), function)(Path(path)), arrays)}
+            result = getattr(import_module(module), function)(Path(path))
     except MemoryError:
-        message = {"problem": "needs more memory than a file of its size should", "remedy": DAMAGED}
+        result = Failure("needs more memory than a file of its size should", DAMAGED)
     except FileError as error:
-        message = {"problem": error.problem, "remedy": error.remedy}
-    np.savez(answer, message=np.frombuffer(json.dumps(message).encode(), np.uint8), **arrays)
+        result = Failure(error.problem, error.remedy)
+    with open(answer, "wb") as file:
+        pickle.dump(result, file, pickle.HIGHEST_PROTOCOL)
 
 
 @contextmanager
@@ -145,39 +138,6 @@ def _stored_progress(path: Path, target: Path) -> Iterator[None]:
 
     with watch_files(store), file_operation(path, FileAction.READING):
         yield
-
-
-def encode(value: object, arrays: dict[str, np.ndarray]) -> object:
-    """Convert a content to values for JSON; its arrays are added to `arrays` under names."""
-    if isinstance(value, np.ndarray | np.generic):
-        name = f"a{len(arrays)}"
-        arrays[name] = np.asarray(value)
-        return {"array": name}
-    if isinstance(value, Content | Block):
-        kind = type(value).__name__.lower()
-        return {kind: {field.name: encode(getattr(value, field.name), arrays) for field in fields(value)}}
-    if isinstance(value, dict):
-        return {"items": [[name, encode(item, arrays)] for name, item in value.items()]}
-    if isinstance(value, list | tuple):
-        return [encode(item, arrays) for item in value]
-    return value
-
-
-def decode(value: object, arrays: object) -> object:
-    """Reverse `encode`."""
-    if isinstance(value, list):
-        return [decode(item, arrays) for item in value]
-    if not isinstance(value, dict):
-        return value
-    ((kind, inside),) = value.items()
-    if kind == "array":
-        return arrays[inside]
-    if kind == "items":
-        return {name: decode(item, arrays) for name, item in inside}
-    parts = {name: decode(item, arrays) for name, item in inside.items()}
-    if kind == "block":
-        return Block(**parts)
-    return Content(**{**parts, "blocks": tuple(parts["blocks"]), "notes": tuple(parts["notes"])})
 
 
 def _last_line(path: Path) -> str:
