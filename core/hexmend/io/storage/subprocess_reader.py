@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
 from time import monotonic
-from typing import NamedTuple
+from typing import IO, NamedTuple
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import Content
@@ -25,6 +25,7 @@ from hexmend.io.storage.file_progress import (
     stage,
     watch_files,
 )
+from hexmend.terminal_text import printable
 
 #: Time limit of a reader in seconds, and further seconds for each megabyte of the file.
 SECONDS, SECONDS_PER_MB = 60.0, 0.5
@@ -67,7 +68,9 @@ def run_reader(reader: str, path: Path) -> Content:
         except subprocess.TimeoutExpired:
             raise FileError(path, f"is not read within {limit:.0f} seconds", DAMAGED) from None
         if process.returncode == 1:  # an unexpected exception
-            raise FileError(path, f"its reader fails ({_last_line(log)})", "Write the file again, and report this.")
+            with open(log, "rb") as errors:
+                reason = last_line(errors)
+            raise FileError(path, f"its reader fails ({reason})", "Write the file again, and report this.")
         if process.returncode or not answer.exists():
             raise FileError(path, "ends the library that reads it", DAMAGED)
         with open(answer, "rb") as file, stage(_CHILDS_SHARE, 1.0):
@@ -114,7 +117,8 @@ def _share_file(answer: Path) -> Path:
 
 def main(reader: str, path: str, answer: str) -> None:
     """Entry point of the subprocess: read the file and write the answer, a pickled one."""
-    _limit_memory(Path(path))
+    limit_memory("RLIMIT_AS", MEMORY + MEMORY_PER_BYTE * os.path.getsize(path))
+    limit_memory("RLIMIT_CORE", 0)
     module, _, function = reader.partition(":")
     result: object
     try:
@@ -140,22 +144,19 @@ def _stored_progress(path: Path, target: Path) -> Iterator[None]:
         yield
 
 
-def _last_line(path: Path) -> str:
-    """Last line of a process's error output, printable and of 200 characters at most."""
-    with open(path, "rb") as file:
-        file.seek(max(0, os.path.getsize(path) - 2000))
-        lines = file.read().decode(errors="replace").split("\n")
-    last = next((line for line in reversed(lines) if line.strip()), "no reason is given")
-    return "".join(letter if letter.isprintable() else " " for letter in last)[:200]
+def last_line(errors: IO[bytes]) -> str:
+    """Return the last line of a process's error output, short and printable."""
+    errors.seek(max(0, errors.seek(0, os.SEEK_END) - 2000))
+    lines = errors.read().decode(errors="replace").split("\n")
+    return printable(next((line for line in reversed(lines) if line.strip()), "it gave no reason"))[:300]
 
 
-def _limit_memory(path: Path) -> None:
+def limit_memory(kind: str, size: int) -> None:
+    """Limit a kind of this process's memory, such as "RLIMIT_AS", to a number of bytes, where the system can."""
     try:
         import resource
     except ImportError:  # Windows has none
         return
-    limit = MEMORY + MEMORY_PER_BYTE * os.path.getsize(path)
-    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-    limit = limit if hard == resource.RLIM_INFINITY else min(limit, hard)
-    resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
+    number = getattr(resource, kind)
+    hard = resource.getrlimit(number)[1]
+    resource.setrlimit(number, (size if hard == resource.RLIM_INFINITY else min(size, hard), hard))

@@ -67,8 +67,8 @@ def test_rules_of_motion_hold_in_the_process_of_a_task(tmp_path):
     ("rest", "done", ""),
     ("print", "done", ""),
     ("raise", "failed", "ValueError: it does not like this mesh"),
-    ("crash", "lost", "Its process ended by SIGSEGV: it gave no reason."),
-    ("vanish", "lost", "Its process ended with status 7: it gave no reason."),
+    ("crash", "lost", "Its process ended by SIGSEGV: it gave no reason"),
+    ("vanish", "lost", "Its process ended with status 7: it gave no reason"),
 ])  # fmt: skip
 def test_a_crash_of_a_method_affects_its_own_row_only(laboratory, does, status, said):
     row = trial(laboratory, does)
