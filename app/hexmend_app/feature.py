@@ -106,10 +106,10 @@ class Action:
     keys: str = ""
     icon: str = ""
     help: str = ""
-    enabled: Callable[[], bool] = always
-    checked: Callable[[], bool] | None = None
+    enabled: Callable[..., bool] = always
+    checked: Callable[..., bool] | None = None
     title: Callable[[], str] | None = None
-    face: Callable[[], ActionFace] | None = None
+    face: Callable[..., ActionFace] | None = None
     tool: str = ""
     needs_mesh: bool = True
     part: int = 0

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
@@ -16,7 +16,7 @@ from PySide6.QtWidgets import QWidget
 from hexmend_app.canvas.camera_animation import CameraAnimation
 from hexmend_app.canvas.render_widget import RenderWidget
 from hexmend_app.canvas.view_keys import move_of
-from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.camera_pose import CameraPose, Vector
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 from hexmend_app.scene.views.panes import Panes
@@ -81,7 +81,7 @@ class CameraView(QWidget):
         """Fit the shown hexes into the view."""
         self._move_camera(self.panes.camera_controller.fit)
 
-    def look_along(self, direction: str) -> None:
+    def look_along(self, direction: str | Vector) -> None:
         """Show the mesh from a direction: +x, -x, ..., iso."""
         self._move_camera(partial(self.panes.camera_controller.look_along, direction))
 
@@ -94,8 +94,8 @@ class CameraView(QWidget):
     def pose_history(self) -> PoseHistoryData:
         """History of camera poses."""
         before, after, remembered = self.camera_animation.pose_history()
-        poses = (tuple(replace(pose, axis=self.up) for pose in poses) for poses in (before, after))
-        return PoseHistoryData(*poses, None if remembered is None else replace(remembered, axis=self.up))
+        earlier, later = (tuple(replace(pose, axis=self.up) for pose in poses) for poses in (before, after))
+        return PoseHistoryData(earlier, later, None if remembered is None else replace(remembered, axis=self.up))
 
     def set_pose(self, pose: CameraPose, pose_history: PoseHistoryData | None = None) -> None:
         """Set the camera pose and, if given, the history of poses."""
@@ -218,7 +218,7 @@ class _Keys(QObject):
         self._view = view
         view.interactor.installEventFilter(self)
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+    def eventFilter(self, watched: QObject, event: Any) -> bool:
         """Handle all keys except Tab."""
         if event.type() == QEvent.Type.KeyPress and event.key() not in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             self._view.on_key(event)

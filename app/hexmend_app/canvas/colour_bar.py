@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
@@ -98,7 +99,7 @@ class ColourBar(QFrame):
         """Return the tick values for a gradient with a height in pixels."""
         return self._gradient.ticks(length)
 
-    def set_special(self, special_colours: Sequence[tuple[str, int, object]]) -> None:
+    def set_special(self, special_colours: Sequence[tuple[str, int, Any]]) -> None:
         """Set the special colours: name, number of hexes, colour as name or (red, green, blue) bytes."""
         while len(self.swatches) < len(special_colours):
             swatch = SwatchButton()
@@ -194,8 +195,8 @@ class _Gradient(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint gradient, ticks and numbers from a cached pixmap; called with every frame of the view below."""
-        key = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.beyond)
-        key += (self.font().key(), str(LINE), str(MUTED), str(TEXT))
+        scale = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.beyond)
+        key = (*scale, self.font().key(), str(LINE), str(MUTED), str(TEXT))
         if key != self._key:
             self._key, self._drawn = key, self._draw()
         QPainter(self).drawPixmap(0, 0, self._drawn)

@@ -137,7 +137,7 @@ class WipeRow(QWidget):
         super().__init__(parent)
         row = on_grid(QHBoxLayout(self))
         row.setContentsMargins(8, 0, 8, 0)
-        self._sides, self._figures = [], []
+        self._sides, self._figures = list[ComboBox](), list[ElidingLabel]()
         for side in ("left", "right"):
             box, label = ComboBox(), _figures()
             set_help(

@@ -86,7 +86,7 @@ class Codec(Conversion):
             return self.encode(value, kinds[0])
         return {type(value).__name__: self.encode(value, type(value))}
 
-    def _encode_table(self, value: Any, kind: type) -> dict[str, Any]:
+    def _encode_table(self, value: Any, kind: Any) -> dict[str, Any]:
         if issubclass(kind, ConfigTable):
             return config_table.encode(value)
         return {name: self.encode(getattr(value, name), field_kind) for name, field_kind in _fields(kind).items()}
@@ -101,7 +101,7 @@ class Codec(Conversion):
         ((name, inside),) = data.items()
         return self.decode(inside, named[name], where)
 
-    def _decode_table(self, data: Any, kind: type, where: str) -> Any:
+    def _decode_table(self, data: Any, kind: Any, where: str) -> Any:
         _check(data, dict, where)
         if issubclass(kind, ConfigTable):
             return config_table.decode(kind, data, (where.rpartition(".")[2],))

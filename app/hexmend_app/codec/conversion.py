@@ -62,19 +62,19 @@ class Conversion:
     def _encode_union(self, value: Any, kinds: tuple[Any, ...]) -> Any:
         raise NotImplementedError
 
-    def _encode_table(self, value: Any, kind: type) -> dict[str, Any]:
+    def _encode_table(self, value: Any, kind: Any) -> dict[str, Any]:
         raise NotImplementedError
 
     def _decode_union(self, data: Any, kinds: tuple[Any, ...], where: Any) -> Any:
         raise NotImplementedError
 
-    def _decode_table(self, data: Any, kind: type, where: Any) -> Any:
+    def _decode_table(self, data: Any, kind: Any, where: Any) -> Any:
         raise NotImplementedError
 
-    def _decode_enum(self, data: Any, kind: type[Enum], where: Any) -> Any:
+    def _decode_enum(self, data: Any, kind: Any, where: Any) -> Any:
         raise NotImplementedError
 
-    def _decode_entries(self, data: Any, kind: Any, where: Any) -> list[Any]:
+    def _decode_entries(self, data: Any, kind: Any, where: Any) -> Collection[Any]:
         raise NotImplementedError
 
     def _decode_mapping(self, data: Any, kind: Any, where: Any) -> dict[str, Any]:

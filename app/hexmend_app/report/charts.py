@@ -108,7 +108,9 @@ class ChartStyle(Parametrised):
 class Chart(Protocol):
     """A chart that can be drawn in any style."""
 
-    title: str
+    @property
+    def title(self) -> str:
+        """Title, unless the style has another."""
 
     @property
     def names(self) -> list[str]:

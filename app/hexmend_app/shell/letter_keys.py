@@ -38,7 +38,7 @@ class LetterKeys(QObject):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Pass a typed letter on to the window."""
-        if event.type() == QEvent.Type.KeyPress and _types(event) and not _takes_text(watched):
+        if event.type() == QEvent.Type.KeyPress and _types(event) and not _takes_text(watched):  # type: ignore[arg-type]
             event.ignore()
             return True
         return super().eventFilter(watched, event)

@@ -38,14 +38,14 @@ class Menus:
         self._bar.setObjectName("toolbar")
         self._bar.setIconSize(QSize(16, 16))
         self._menus = _menus(window)
-        for menu in ("", *MENUS):
-            self._fill(menu, [action for action in actions if action.menu == menu])
+        for path in ("", *MENUS):
+            self._fill(path, [action for action in actions if action.menu == path])
         for name, menu in self._menus.items():
             menu.menuAction().setVisible(not menu.isEmpty())
             if "/" in name and menu.isEmpty():
                 menu.deleteLater()
-        for menu in (window.menuBar(), *self._menus.values()):
-            _assign_mnemonics([action for action in menu.actions() if not action.isSeparator()])
+        for bar in (window.menuBar(), *self._menus.values()):
+            _assign_mnemonics([action for action in bar.actions() if not action.isSeparator()])
         if self._bar.actions() and self._bar.actions()[-1].isSeparator():
             self._bar.removeAction(self._bar.actions()[-1])
         self._bar.setMinimumWidth(self._bar.sizeHint().width())  # otherwise Qt hides buttons that fit

@@ -33,8 +33,8 @@ class Busy(QFrame):
         self._cancel = QPushButton()
         self._cancel.setFixedHeight(self._text.fontMetrics().height() + 4)
         self._cancel.clicked.connect(lambda: self._end())
-        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end(self._escape_owner))
         self._escape_owner = ""
+        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end(self._escape_owner))
         self._tasks: dict[str, tuple[str, str, str, Callable[[], object], float | None]] = {}  # by owner
         layout = on_grid(QHBoxLayout(self))
         layout.setContentsMargins(8, 4, 8, 4)

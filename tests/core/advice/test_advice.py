@@ -81,7 +81,7 @@ def test_following_a_suggestion_helps(which):
     assert follow_all(make(name, **parameters)), "nothing was suggested at all"
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 8))])
 def test_following_a_suggestion_helps_on_a_mesh_that_differs_in_its_last_bits(seed):
     name, parameters = MESHES["five-side, tangled"]
     mesh = make(name, **parameters)
@@ -129,6 +129,7 @@ def follow_all(mesh, runs=RUNS):
     return seen
 
 
+@pytest.mark.slow
 def test_every_kind_of_suggestion_is_made_somewhere():
     bridge, tangled = make("bridge-sharp", size=864), make("bridge-sharp", size=864, scramble=0.4)
     lifted = smooth(bridge, Recipe.of("mend", "getme-sequential")).mesh

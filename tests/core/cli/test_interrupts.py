@@ -58,20 +58,6 @@ class Raw(io.RawIOBase):
         return os.write(2, data)
 sys.stderr = io.TextIOWrapper(io.BufferedWriter(Raw()), line_buffering=True)
 """
-#: It comes in a callback, out of which no exception gets.
-DELETES = """
-import hexmend.io as module
-class Dies:
-    def __del__(self):
-        send()
-whole = module.read
-def read(*args, **options):
-    Dies()
-    for _ in range(1000):
-        mesh = whole(*args, **options)
-    return mesh
-module.read = read
-"""
 #: It comes after the last line was printed, and when Python ends.
 ENDS = """
 import atexit, builtins
@@ -122,17 +108,6 @@ def test_a_signal_during_an_import_is_one_line(smooth, tmp_path, name, number):
     status, said = ended(smooth(IMPORTS.format(name=name), number))
     assert (status, said) == (128 + number, ["hexmend: interrupted"])
     assert (tmp_path / "out.vtu").read_text() == "old"
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_during_an_import_of_a_command_at_work_waits_for_its_end(smooth, number):
-    rests = "import time\nfrom hexmend.cli.arguments import checks\nchecks.check_targets = lambda *_: [time.sleep(0.01) for _ in range(10_000)]\n"
-    status, said = ended(smooth(rests + IMPORTS.format(name="hexmend.mesh.fixing"), number))
-    assert (status, said) == (128 + number, ["hexmend: interrupted"])
-
-
-def test_a_signal_during_a_callback_is_one_line(smooth):
-    assert ended(smooth(DELETES)) == (130, ["hexmend: interrupted"])
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from html import escape
+from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QSizePolicy, QWidget
@@ -109,8 +110,8 @@ class ColourPanel(QWidget):
         self.setTabOrder(self._map, self._reverse)
         numbers = QHBoxLayout()
         numbers.setSpacing(4)
-        for widget in (self._low, QLabel(tr("to")), self._high):
-            numbers.addWidget(widget, 0 if isinstance(widget, QLabel) else 1)
+        for part in (self._low, QLabel(tr("to")), self._high):
+            numbers.addWidget(part, 0 if isinstance(part, QLabel) else 1)
         grid.addLayout(numbers, 3, 0, 1, 3)
         options = QHBoxLayout()
         options.setSpacing(16)
@@ -178,7 +179,7 @@ class ColourPanel(QWidget):
             self._pinned[self._colours.metric] = range
             self._change(range=range)
 
-    def _change(self, **keys: object) -> None:
+    def _change(self, **keys: Any) -> None:
         colours = dataclasses.replace(self._colours, **keys)
         if colours != self._colours:
             self._apply(colours)
@@ -193,7 +194,7 @@ class ColourPanel(QWidget):
     def _show_problem(self) -> bool:
         """Show the error in the limits, if any; return True if there is one."""
         text = ""
-        if self._is_pinned:
+        if isinstance(self._colours.range, tuple):
             text = self._low.problem or self._high.problem
             if not text and not self._low.value() < self._high.value():
                 low, high = (short_number(end) for end in self._colours.range)
@@ -207,7 +208,7 @@ class ColourPanel(QWidget):
         return bool(text)
 
     def _show_ends(self) -> None:
-        ends = self._colours.range if self._is_pinned else _rounded(*self._ends)
+        ends = self._colours.range if isinstance(self._colours.range, tuple) else _rounded(*self._ends)
         for box, end in zip((self._low, self._high), ends, strict=True):
             if box.value() != end or box.problem:
                 box.set_value(end)
@@ -220,7 +221,7 @@ class ColourPanel(QWidget):
         self._map.show_map(colours.map, change=colours.metric == "q-change")
         self._reverse.setChecked(colours.reverse)
         self._neutral.setChecked(colours.neutral)
-        self._range.set_value(_PINNED if self._is_pinned else colours.range.value)
+        self._range.set_value(_PINNED if isinstance(colours.range, tuple) else colours.range.value)
         for range in (Range.FULL, Range.ACCEPTABLE):
             text, help = _RANGES[range]
             ends, button = declared_range(colours.metric, range), self._range.button(range.value)
@@ -240,16 +241,16 @@ def _description(name: str) -> str:
     """Return the description of a metric as rich text."""
     metric = colour_quantity(name)
     if metric is MATERIAL:
-        lines = (f"<b>{escape(tr(metric.title))}</b>", escape(tr(metric.formula)), escape(tr(metric.meaning)))
+        lines = [f"<b>{escape(tr(metric.title))}</b>", escape(tr(metric.formula)), escape(tr(metric.meaning))]
         return f"<qt>{'<br>'.join(lines)}</qt>"
     direction = {1: tr("Higher is better."), -1: tr("Lower is better."), 0: ""}[better(name)]
     full, acceptable = _range_text(metric.full_range), _range_text(metric.acceptable)
-    lines = (
+    lines = [
         f"<b>{escape(tr(metric.title))}</b>",
         escape(tr(metric.formula)),
         tr("Full range {full}; acceptable {acceptable}.", full=full, acceptable=acceptable) + f" {direction}",
         f"<i>{escape(metric.source)}</i>",
-    )
+    ]
     return f"<qt>{'<br>'.join(lines)}</qt>"
 
 

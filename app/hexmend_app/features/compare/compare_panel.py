@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QModelIndex, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 
 from hexmend.smoothers import METHODS
@@ -207,7 +207,7 @@ class ComparePanel(QWidget):
         rows = self._table.selectionModel().selectedRows()
         return self._model.entries[rows[0].row()].name if rows else ""
 
-    def _toggle(self, index: object) -> None:
+    def _toggle(self, index: QModelIndex) -> None:
         if index.column() != METHOD:
             view = self._model.index(index.row(), VIEW)
             if self._model.flags(view) & Qt.ItemFlag.ItemIsUserCheckable:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt, Signal
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.quality import REGRESSION_KEYS
@@ -171,13 +171,13 @@ class ComparisonModel(QAbstractTableModel):
             self.dataChanged.emit(self.index(0, METHOD), self.index(len(self.entries) - 1, METHOD))
         self.ticked.emit()
 
-    def rowCount(self, parent: QModelIndex | None = None) -> int:
+    def rowCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
         return 0 if parent is not None and parent.isValid() else len(self.entries)
 
-    def columnCount(self, parent: QModelIndex | None = None) -> int:
+    def columnCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
         return 0 if parent is not None and parent.isValid() else _FIRST + len(LINES)
 
-    def flags(self, index: QModelIndex) -> Qt.ItemFlag:
+    def flags(self, index: QModelIndex | QPersistentModelIndex) -> Qt.ItemFlag:
         entry, selectable = self.entries[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
         if index.column() == METHOD and entry.name != INITIAL:
             return selectable | _Flag.ItemIsUserCheckable if not self.busy else selectable
@@ -186,7 +186,7 @@ class ComparisonModel(QAbstractTableModel):
             return selectable | _Flag.ItemIsUserCheckable if can_toggle else _Flag.ItemIsSelectable
         return selectable
 
-    def data(self, index: QModelIndex, role: int = _Role.DisplayRole) -> Any:
+    def data(self, index: QModelIndex | QPersistentModelIndex, role: int = _Role.DisplayRole) -> Any:
         entry, column = self.entries[index.row()], index.column()
         quantity = LINES[column - _FIRST] if column >= _FIRST else None
         if role == _Role.DisplayRole:
@@ -226,7 +226,7 @@ class ComparisonModel(QAbstractTableModel):
             return colour and QBrush(QColor(str(colour)))
         return None
 
-    def setData(self, index: QModelIndex, value: Any, role: int = _Role.EditRole) -> bool:
+    def setData(self, index: QModelIndex | QPersistentModelIndex, value: Any, role: int = _Role.EditRole) -> bool:
         if role != _Role.CheckStateRole:
             return False
         on, name = Qt.CheckState(value) == Qt.CheckState.Checked, self.entries[index.row()].name

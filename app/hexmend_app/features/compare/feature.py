@@ -41,7 +41,7 @@ class FeatureCompare(Feature):
         self._seen = ChangeTracker()
         self._style = ChartStyle()  # of the last saved table
         panel = self.panel = ComparePanel(TICKED)
-        panel.run_requested.connect(self._run)
+        panel.run_requested.connect(lambda names: session.run_setup.use(lambda stage: self._start(names, stage)))
         panel.cancel_requested.connect(self._comparison.cancel)
         panel.view_toggled.connect(self._toggle)
         panel.use_requested.connect(self._use)
@@ -160,9 +160,6 @@ class FeatureCompare(Feature):
             )
 
     # Requests of the user
-
-    def _run(self, names: list[str]) -> None:
-        self.session.run_setup.use(lambda stage: self._start(names, stage))
 
     def _start(self, names: list[str], stage: Stage) -> None:
         if self.session.editable:

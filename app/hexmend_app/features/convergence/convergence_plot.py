@@ -25,7 +25,7 @@ _STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine)
 _DASHES = ("—", "- -", "···")
 
 #: Largest distance of a click from a curve that selects it, in pixels; farther away the current run is selected.
-_PICK_DISTANCE = 12
+_PICK_DISTANCE = 12.0
 
 _MIN_HEIGHT = 46
 

@@ -74,7 +74,7 @@ class BoxPage(QWidget):
     def _ticks(self, axis: int) -> tuple[int, int]:
         low, high = self._bounds[:, axis]
         fractions = (self._corners[:, axis] - low) / ((high - low) or 1.0)
-        return tuple(int(tick) for tick in np.clip(np.rint(_TICKS * fractions), 0, _TICKS))
+        return tuple(np.clip(np.rint(_TICKS * fractions), 0, _TICKS).astype(int).tolist())
 
     def _refresh(self) -> None:
         for axis, slider in enumerate(self._sliders):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import Signal
@@ -256,7 +257,7 @@ class CutPanel(QWidget):
             self._cuts[kind] = dataclasses.replace(self._cuts[kind], style=style)
         self._emit()
 
-    def _change(self, kind: CutKind, **keys: object) -> None:
+    def _change(self, kind: CutKind, **keys: Any) -> None:
         """Change the cut of a kind."""
         self._cuts[kind] = dataclasses.replace(self._cuts[kind], **keys)
         self._emit()

@@ -112,8 +112,8 @@ class InsidePanel(QWidget):
         groups = (self.isolated, self._all), (self.dug, self._undo, self._restore)
         for line, widgets in zip(lines, groups, strict=True):
             line.setSpacing(8)
-            for widget in widgets:
-                line.addWidget(widget, isinstance(widget, QLabel))
+            for part in widgets:
+                line.addWidget(part, isinstance(part, QLabel))
         for row, (text, widget) in enumerate(
             ((tr("Peel"), self._peel), (tr("Shrink"), self._shrink), (tr("Rings"), self._rings))
         ):

@@ -43,8 +43,8 @@ class SpherePage(QWidget):
             label = QLabel(text)
             label.setBuddy(widget)
             grid.addWidget(label, row, 0)
-        for row, widget in enumerate((self._centre, self._radius, self._at_hex)):
-            grid.addWidget(widget, row, 1)
+        for row, part in enumerate((self._centre, self._radius, self._at_hex)):
+            grid.addWidget(part, row, 1)
         self._centre.changed.connect(lambda centre: self._change(Sphere(centre, self._sphere.radius)))
         self._radius.changed.connect(lambda radius: self._change(Sphere(self._sphere.centre, *radius)))
         self._at_hex.clicked.connect(self.centre_requested)

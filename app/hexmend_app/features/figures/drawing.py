@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
@@ -49,7 +50,7 @@ def draw(
     versions: Sequence[NamedVersion],
     recipes: Mapping[str, Recipe],
     file: str = "MESH",
-) -> Iterator[Figure]:
+) -> Generator[Figure]:
     """Write and yield figure by figure, then write captions and commands.
 
     Parameters
@@ -80,7 +81,7 @@ def draw(
     write_captions(folder, title, [(figure, command_line([*arguments, figure.part])) for figure in figures])
 
 
-def version_of(named: NamedVersion) -> Version:
+def version_of(named: tuple[Any, ...]) -> Version:
     """Return the version of a mesh with its measurements, and those of its run."""
     name, source, *iteration = named
     if isinstance(source, Mesh):

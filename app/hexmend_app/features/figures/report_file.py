@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -39,7 +39,7 @@ def prepare_report(path: Path) -> None:
 
 def draw_report(
     path: str | Path, title: str, mesh: str, scene: Scene, versions: Sequence[NamedVersion], file: str = ""
-) -> Iterator[Figure]:
+) -> Generator[Figure]:
     """Yield figure by figure, then write the report, HTML or PDF by the suffix.
 
     Parameters

@@ -104,7 +104,6 @@ class HexPanel(QWidget):
         self._neighbours = LinkLabel()
         self._neighbours.followed.connect(self.chosen)
         set_help(self._neighbours, tr("Neighbours"), tr("The hexes across the six faces; click one to select it."))
-        self._node: NodeDetails | None = None
         self._about_node = QLabel()
         self._about_node.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         set_help(
@@ -118,6 +117,7 @@ class HexPanel(QWidget):
         self._pin = QCheckBox(tr("Pinned"))
         set_help(self._pin, tr("Pinned"), tr("Keep this node in place in every method, also on a sliding boundary."))
         self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
+        self._node: NodeDetails | None = None
         for corner, (node, _, _) in enumerate(self._corners):
             node.setAccessibleName(tr("Node at corner {corner}", corner=corner))
             _align_digits(node)
@@ -160,11 +160,11 @@ class HexPanel(QWidget):
         columns.setVerticalSpacing(8)
         for layout in (texts, corners, *values):
             layout.setContentsMargins(0, 0, 0, 0)
-            column = QWidget()
-            column.setLayout(layout)
-            columns.addWidget(column)
+            part = QWidget()
+            part.setLayout(layout)
+            columns.addWidget(part)
             if layout is texts:
-                column.setFixedWidth(_TEXT_WIDTH)
+                part.setFixedWidth(_TEXT_WIDTH)
 
     def _metric_grid(self, metrics: Sequence[Metric]) -> QGridLayout:
         """Lay out titles and values of metrics, one below the other."""

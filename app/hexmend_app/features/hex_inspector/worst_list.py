@@ -122,8 +122,8 @@ class WorstList(QWidget):
         for widget in (label, self._metric):
             head.addWidget(widget)
         head.addStretch()
-        for widget in (self._isolate, self._previous, self._next, self._save):
-            head.addWidget(widget)
+        for button in (self._isolate, self._previous, self._next, self._save):
+            head.addWidget(button)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 4, 8, 4)
         layout.setSpacing(4)
@@ -191,7 +191,7 @@ class WorstList(QWidget):
             self._refresh()
 
     def _selected_row(self) -> int | None:
-        rows = np.flatnonzero(self._model.hexes == self._selected) if self._selected is not None else ()
+        rows = np.flatnonzero(self._model.hexes == self._selected) if self._selected is not None else np.empty(0)
         return int(rows[0]) if len(rows) else None
 
     def _step(self, by: int) -> None:

@@ -125,7 +125,7 @@ class HistogramPlot(QWidget):
         """Label broken bars, with the count at the start above that of now, and always the bar of inverted hexes."""
         rows = 1
         for index, name in enumerate(("inverted", "below", "above")):
-            span, labelled = self.axis and getattr(self.axis, name), None
+            span, labelled = getattr(self.axis, name, None), None
             for key, numbers in self.numbers.items():
                 number, distribution = numbers[index], distributions.get(key)
                 number.setVisible(distribution is not None and span is not None)

@@ -246,7 +246,7 @@ class QualityHistogram(QWidget):
 
     def _show_range(self, range: Show | None) -> None:
         self._range = range
-        self.plot.show_range(range and self.axis.span(range), range is not None and range.inverted)
+        self.plot.show_range(None if range is None else self.axis.span(range), range is not None and range.inverted)
         self.range_row.show_range(range)
         self._show_summary()
 

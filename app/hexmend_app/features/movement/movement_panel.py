@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
@@ -174,7 +175,7 @@ class MovementPanel(QWidget):
         for label, text in zip(self._figures.values(), texts, strict=True):
             label.setText(text)
 
-    def _change(self, **fields: object) -> None:
+    def _change(self, **fields: Any) -> None:
         traces = dataclasses.replace(self._traces, **fields)
         if traces != self._traces:
             self.set_traces(traces)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtGui import QDropEvent
@@ -107,7 +108,7 @@ class FeatureOpen(Feature):
         """Open the demo mesh included with Hexmend."""
         self.open(demo_mesh())
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+    def eventFilter(self, watched: QObject, event: Any) -> bool:
         """Open a single file that is dropped on the window."""
         kind = event.type()
         if kind == QEvent.Type.DragEnter and _dragged_file(event):
@@ -132,7 +133,7 @@ class FeatureOpen(Feature):
         if restored := self._restored:
             self._restored = None
             show = self.host.messages.show_info if restored.matches else self.host.messages.show_warning
-            show(*restored_message(restored))
+            show(*restored_message(restored))  # type: ignore[arg-type]  # one text for `show_info`
         else:
             self._show_card()
         if path.resolve() != demo_mesh().resolve():

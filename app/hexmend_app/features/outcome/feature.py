@@ -32,7 +32,6 @@ class FeatureOutcome(Feature):
         session = self.session
         #: The last run if it made no iteration and so has no record: the record before it, its name, its explanation.
         self._empty_run: tuple[RunRecord | None, str, Advice] | None = None
-        self._shown: Advice | None = None
         self._notice: tuple[str, str] | None = None  # title and text of the message on the last run
         panel = self.panel = OutcomePanel()
         panel.chosen.connect(session.selection.visit)
@@ -41,6 +40,7 @@ class FeatureOutcome(Feature):
         panel.suggestion_chosen.connect(lambda index: self._apply(self._shown.suggestions[index]))
         session.run.ended.connect(lambda _: self._on_ended())
         session.document.mesh_replaced.connect(self._on_mesh_replaced)
+        self._shown: Advice | None = None
 
     def actions(self) -> Sequence[Action]:
         """Return the action that shows the panel."""

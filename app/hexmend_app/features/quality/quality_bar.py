@@ -40,7 +40,7 @@ class QualityBar(QFrame):
         self._layout = on_grid(QHBoxLayout(self))
         self._layout.setContentsMargins(8, 4, 8, 4)
         self._layout.addWidget(self._label)
-        on_theme_change(self, self._paint)
+        on_theme_change(self, self._show)
 
     def set_summaries(self, start: Any, now: Any) -> None:
         """Show two summaries of `hexmend.quality.summarise`: at the start and now."""
@@ -66,9 +66,6 @@ class QualityBar(QFrame):
     def minimumSizeHint(self) -> QSize:
         """Return a size that fits any view."""
         return QSize(0, 0)
-
-    def _paint(self) -> None:
-        self._show()
 
     def _show(self) -> None:
         """Show the figures, and let the overlay fit its size to them."""

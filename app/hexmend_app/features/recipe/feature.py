@@ -110,7 +110,7 @@ class FeatureRecipe(Feature):
         # The iteration tells apart two pauses without a refresh between them.
         paused_at = (smoothing.record, smoothing.record.newest) if number and smoothing.phase is Phase.PAUSED else None
         if self._seen.changed("paused at", paused_at) and paused_at is not None:
-            self.session.run_setup.show_active(smoothing.work.stages[number - 1])
+            self.session.run_setup.show_active(smoothing.work.stages[number - 1])  # type: ignore[union-attr]
 
     def run(self) -> None:
         """Run the recipe on the displayed mesh."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from hexmend.errors import FileError, ParameterError
 from hexmend_app.features.save.preview import Preview
 from hexmend_app.features.save.size_form import SizeForm
-from hexmend_app.picture import Camera, ConfigTable, PicturePanel, Scene, read_scene, write_scene
+from hexmend_app.picture import Camera, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.named_cameras import merged
 from hexmend_app.theme.spacing import on_grid
@@ -152,7 +152,7 @@ class PictureDialog(SaveDialog):
         ParameterError
             If a value is invalid.
         """
-        tables: dict[str, ConfigTable] = {"page": self.size_form.page(self._base.page)}
+        tables: dict[str, Any] = {"page": self.size_form.page(self._base.page)}
         for name, form in self.forms:
             tables[name] = form.table(tables.get(name, getattr(self._base, name)))
         captions = [line.text() for line in self.captions]

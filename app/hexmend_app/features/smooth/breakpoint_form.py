@@ -101,7 +101,7 @@ class BreakpointForm(QWidget):
         ):
             if value is not None:
                 with QSignalBlocker(box):
-                    box.setValue(value)
+                    box.setValue(value)  # type: ignore[arg-type]  # of the type of its box
         self._on_changed()
 
     def set_selected(self, hex: int | None, node: int | None) -> None:

@@ -7,7 +7,7 @@ from html import escape
 from itertools import pairwise
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QStandardItemModel
+from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
 from hexmend.errors import MeshError
@@ -221,11 +221,11 @@ class _RuleBox(FocusedWheel, ComboBox):
         self.setFont(font)
         with QSignalBlocker(self):
             self.clear()
-            model: QStandardItemModel = self.model()
+
             for at, choice in enumerate(choices):
                 self.addItem(choice.text)
                 self.setItemData(at, choice.problem or choice.help, Qt.ItemDataRole.ToolTipRole)
-                model.item(at).setEnabled(not choice.problem)
+                self.model().item(at).setEnabled(not choice.problem)  # type: ignore[attr-defined]
             self.setCurrentIndex(next(at for at, one in enumerate(choices) if one.rules == current.rules))
 
     def _find_choices(self) -> None:

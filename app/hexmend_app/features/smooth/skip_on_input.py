@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QApplication, QWidget
@@ -40,7 +40,7 @@ class SkipOnInput(QObject):
             self._run.view.skip_easing()
         return False
 
-    def _ends(self, widget: QWidget, event: QEvent) -> bool:
+    def _ends(self, widget: QWidget, event: Any) -> bool:
         canvas = self._canvas()
         in_view = canvas is not None and widget is canvas.interactor
         if event.type() == QEvent.Type.ShortcutOverride:  # Escape also closes a message

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal, SignalInstance
 from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
@@ -163,7 +163,7 @@ class TimelineBar(QWidget):
         longest = max(self._labels, key=len) if self._labels else f"{max(newest, 999)} of {max(newest, 999)}"
         self._at.setMinimumWidth(self._at.fontMetrics().horizontalAdvance(longest))
 
-    def set_settings(self, limit: int, speed: int) -> None:
+    def set_settings(self, limit: int, speed: float) -> None:
         """Show the memory limit in MB and the playback speed in iterations per second."""
         for group, value in ((self._limits, limit), (self._speeds, speed)):
             for action in group.actions():
@@ -195,7 +195,7 @@ class TimelineBar(QWidget):
         return menu
 
     def _options(
-        self, menu: QMenu, values: Iterable[int], text_of: Callable[[int], str], chosen: Signal
+        self, menu: QMenu, values: Iterable[int], text_of: Callable[[int], str], chosen: SignalInstance
     ) -> QActionGroup:
         group = QActionGroup(menu)
         for value in values:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from string import ascii_lowercase
 from typing import NamedTuple
 
 import numpy as np
@@ -53,7 +54,7 @@ def _captions(layout: Layout) -> Iterator[_Caption]:
     with_figures = scene.page.figures and len(shown) > 1
     for number, panel in enumerate(layout.panels):
         box = layout.place(number)
-        letter = f"({_letter(number)})" if scene.page.captions is Captions.LETTERS else ""
+        letter = f"({ascii_lowercase[number]})" if scene.page.captions is Captions.LETTERS else ""
         first = meshes[panel.mesh - 1]
         middle = box.top - layout.caption / 2
         width = box.width if panel.wipe is None else panel.wipe.at * box.width
@@ -86,7 +87,3 @@ def _draw(drawing: Drawing, caption: _Caption, share: float) -> None:
     if figures:
         left = caption.left + 2 * gap + share * drawing.letters.width(name, bold=True)
         drawing.text(left, caption.middle, figures, share=share)
-
-
-def _letter(number: int) -> str:
-    return "abcdefghijklmnopqrstuvwxyz"[number]

@@ -72,7 +72,7 @@ class DockSet(QObject):
         self._drawer_height = _DRAWER
         self._placed = self._restoring = False
         # The arrangement before all panels were hidden.
-        self._saved, self._shown_bars = QByteArray(), []
+        self._saved, self._shown_bars = QByteArray(), list[str]()
         self._offered: list[Dock] = []  # raised once they are visible
         self.centre = QWidget()
         self.centre.setMinimumSize(*_MINIMUM_VIEW)

@@ -98,7 +98,7 @@ class _DockButtons(QWidget):
         Returns the dock in front; None if there is none.
     """
 
-    def __init__(self, bar: QTabBar, in_front: Callable[[], Dock | None]):
+    def __init__(self, bar: QTabBar, in_front: Callable[..., Dock | None]):
         super().__init__(bar)
         self._bar, self._dock = bar, in_front
         row = QHBoxLayout(self)

@@ -38,7 +38,7 @@ class History:
         Oldest first.
     """
 
-    def __init__(self, limit: float = LIMIT):
+    def __init__(self, limit: int = LIMIT):
         self.records: list[RunRecord] = []
         self._limit = limit
         self._bytes = 0

@@ -167,7 +167,7 @@ class Comparison(QObject):
     @property
     def progress(self) -> ComparisonProgress | None:
         """Progress of the comparison; None if none is active."""
-        return self._work and self._work.progress
+        return None if self._work is None else self._work.progress
 
     @property
     def stop(self) -> StoppingCriteria:

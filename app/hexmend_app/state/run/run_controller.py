@@ -92,7 +92,7 @@ class RunController(QObject):
         self.advice: Advice | None = None
         self.outcome: Outcome | None = None
         self._result: State | None = None  # recorded at the end of the last run
-        self.view = RunView(document, history, lambda: self._worker and self._worker.last, self)
+        self.view = RunView(document, history, lambda: None if self._worker is None else self._worker.last, self)
         self.phase = Phase.IDLE
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
@@ -282,7 +282,7 @@ class RunController(QObject):
         self.outcome = self.record.outcome = worker.task.result.outcome if error is None else None
         reached = None if last is None else RecordedIteration(self.record, last.iteration.number)
         message = worker.task.result.message if error is None else f"Failed: {error}."
-        self.history.finish(self.record, reached, last and last.state, message)
+        self.history.finish(self.record, reached, None if last is None else last.state, message)
         if error is not None:
             self.view.fail(self._title, last)
             self._set_phase(Phase.IDLE)

@@ -73,7 +73,7 @@ class RunSetup(QObject):
     @property
     def smoother(self) -> Smoother | None:
         """The method with its values; None while one of them is invalid."""
-        return self.stage and self.stage.smoother
+        return None if self.stage is None else self.stage.smoother
 
     def set(self, method: str, values: Mapping[str, Any], stage: Stage | None) -> None:
         """Set the input of forms: a method, its valid values, and the stage, None if a value is invalid."""

@@ -142,7 +142,7 @@ class Commands(QObject):
         """Pin all nodes except those of some hexes and of rings of hexes around them, if the mesh is editable."""
         self._amend("free a region", fix_outside, np.asarray(hexes, dtype=np.int64), rings)
 
-    def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:
+    def tag(self, name: str, hexes: Sequence[int] | np.ndarray, on: bool = True) -> None:
         """Add hexes to a tag or remove them from it, if the mesh is editable; an empty tag is deleted."""
         before = self.document.now.mesh.hex_sets.get(name, ())
         after = with_tag(self.document.now.mesh, name, hexes, on).hex_sets.get(name, ())

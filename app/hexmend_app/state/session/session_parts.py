@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from hexmend_app.state.session.session_data import SessionData
 
-Part = TypeVar("Part")
+Part = TypeVar("Part", bound=Any)
 
 
 class SessionParts(QObject):

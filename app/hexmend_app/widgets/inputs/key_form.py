@@ -19,7 +19,7 @@ from hexmend_app.codec.value_text import parse_value
 from hexmend_app.theme.spacing import on_grid
 from hexmend_app.theme.style import WORSE, note, set_help
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.editors import Editor, Text, editor_for
+from hexmend_app.widgets.inputs.editors import Text, editor_for
 from hexmend_app.widgets.wording import name_in_words
 
 
@@ -49,8 +49,8 @@ class KeyForm(QWidget):
     def __init__(self, table: ConfigTable, names: Sequence[str], parent: QWidget | None = None):
         super().__init__(parent)
         self._kind = type(table)
-        self._keys = {option.field: option for option in options_of(self._kind) if option.field in names}
-        self.editors: dict[str, Editor] = {}
+        self._keys = {option.field: option for option in options_of(type(table)) if option.field in names}  # type: ignore[arg-type]
+        self.editors: dict[str, Any] = {}
         layout = on_grid(QFormLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         for name in names:
@@ -58,7 +58,7 @@ class KeyForm(QWidget):
             editor = self.editors[name] = _editor(option)
             editor.changed.connect(self._on_changed)
             title = tr(name_in_words(option.name)) + (f" ({tr(option.unit)})" if option.unit else "")
-            set_help(editor, title, tr(helps(self._kind)[name]))
+            set_help(editor, title, tr(helps(self._kind)[name]))  # type: ignore[arg-type]
             label = QLabel(title)
             label.setBuddy(editor)
             layout.addRow(label, editor)
@@ -102,7 +102,7 @@ class KeyForm(QWidget):
         self._problem.setVisible(bool(problem))
 
 
-def _editor(option: Option) -> Editor:
+def _editor(option: Option) -> Any:
     kind, name = option.kind, option.name
     if kind is bool or kind in (int, float):
         return editor_for(Parameter(name, kind, option.default, option.low, option.high, None, "", ""))
@@ -110,7 +110,7 @@ def _editor(option: Option) -> Editor:
         return editor_for(Parameter(name, str, option.default, None, None, None, "", "", suggestions=option.offered))
     if isinstance(kind, type) and issubclass(kind, StrEnum):
         return editor_for(Parameter(name, str, option.default.value, None, None, tuple(kind), "", ""))
-    editor = editor_for(Parameter(name, str, "", None, None, None, "", ""))
+    editor: Any = editor_for(Parameter(name, str, "", None, None, None, "", ""))
     editor.setPlaceholderText(tr("automatic") if option.default in (None, "") else _text(option.default))
     return editor
 

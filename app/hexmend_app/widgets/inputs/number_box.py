@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPalette
@@ -70,7 +71,7 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
         line.setTextMargins(0, 0, width, 0)
         self.setMinimumWidth(width + self.fontMetrics().horizontalAdvance("0.00000") + 34)
 
-    def value(self) -> float | int | str:
+    def value(self) -> Any:
         """Return the last valid value: a number, a declared word or a percentage."""
         return self._value
 

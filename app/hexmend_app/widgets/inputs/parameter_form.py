@@ -99,7 +99,7 @@ class ParameterForm(QWidget):
         self._grid.setColumnStretch(1, 1)
         self.none = note(tr("No parameters."))
         self._defaults = self._button(tr("Defaults"), "restore", tr("Reset all parameters to their defaults."), False)
-        self._defaults.clicked.connect(self._reset_all)
+        self._defaults.clicked.connect(lambda: self._reset(self.rows.values()))
         explain = tr("Show the help of each parameter.")
         self._explain = self._button(tr("Explain"), "help-circle-outline", explain, False)
         self._explain.setCheckable(True)
@@ -223,9 +223,6 @@ class ParameterForm(QWidget):
         for name in self.problems():
             self.rows[name].editor.setFocus(Qt.FocusReason.OtherFocusReason)
             return
-
-    def _reset_all(self) -> None:
-        self._reset(self.rows.values())
 
     def _reset(self, rows: Iterable[_Row]) -> None:
         for row in rows:

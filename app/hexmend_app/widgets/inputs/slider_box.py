@@ -85,7 +85,7 @@ class SliderBox(QWidget):
 
     def eventFilter(self, part: QObject, event: QEvent) -> bool:
         """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
-        if event.type() == QEvent.Type.Wheel and not part.hasFocus():
+        if event.type() == QEvent.Type.Wheel and not part.hasFocus():  # type: ignore[attr-defined]
             event.ignore()
             return True
         return super().eventFilter(part, event)

@@ -1,4 +1,4 @@
-"""Colours by material in the panel and the menu, and in files of earlier versions."""
+"""Colours by material in the panel and the menu."""
 
 import numpy as np
 import pytest

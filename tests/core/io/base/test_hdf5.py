@@ -22,6 +22,23 @@ def test_what_is_no_hdf5_file_is_refused_without_another_process(suffix, tmp_pat
         io.read(path)
 
 
+@pytest.mark.parametrize(
+    ("suffix", "words"),
+    [
+        (".med", "holds no mesh"),
+        (".vtkhdf", "no group VTKHDF"),
+        (".cgns", "no CGNSBase_t"),
+        (".exo", "no dimension num_nodes"),
+    ],
+)
+def test_hdf5_of_another_format_is_not_called_damaged(suffix, words, tmp_path):
+    with h5py.File(tmp_path / f"a{suffix}", "w") as file:
+        file["numbers"] = [1, 2, 3]
+    with pytest.raises(FileError, match=words) as caught:
+        io.read(tmp_path / f"a{suffix}")
+    assert "damaged" not in str(caught.value)
+
+
 @pytest.mark.parametrize(("suffix", "block"), [(".med", 0), (".cgns", 1024)])
 def test_a_library_that_ends_takes_only_its_own_process_along(suffix, block, tmp_path, monkeypatch):
     path = tmp_path / f"a{suffix}"
