@@ -11,7 +11,7 @@ from benchmarks.sections import SECTIONS
 from benchmarks.thesis import pages, study
 from benchmarks.window import soak
 from hexmend.errors import HexmendError
-from hexmend.report import write_json
+from hexmend.report.records import write_json
 from hexmend.study.machine import machine
 
 

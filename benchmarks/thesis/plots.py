@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from hexmend.report.charts import COLOURS, new_figure, save_figure
+from hexmend_app.report.charts import COLOURS, new_figure, save_figure
 
 _MARKERS = "osD^vPX"
 

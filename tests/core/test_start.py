@@ -14,7 +14,6 @@ HEAVY = {
     "matplotlib": "0.3 s",
     "meshlane": "0.1 s",
     "h5py": "0.2 s", "netCDF4": "", "lz4": "",
-    "rich": "0.1 s",
     "importlib.metadata": "0.04 s",
     "tomllib": "", "tomli_w": "",
     "numba": "", "llvmlite": "",

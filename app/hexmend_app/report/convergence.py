@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from hexmend.report.charts import ChartStyle, add_legend
+from hexmend_app.report.charts import ChartStyle, add_legend
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

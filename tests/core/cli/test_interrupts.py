@@ -18,11 +18,9 @@ def send(count=1):
     for _ in range(count):
         os.kill(os.getpid(), int(os.environ["SIGNAL"]))
 from hexmend.cli.process import interrupts
-if os.environ["TIMER"] == "no alarm":
-    interrupts._ALARM = None
 {moment}
 from hexmend.cli.main import main
-from hexmend.cli.output import progress
+from hexmend.run import progress
 progress.LINE_INTERVAL = progress.BAR_DELAY = 0.0
 sys.exit(main())
 """
@@ -73,12 +71,9 @@ builtins.print = print
 """
 
 
-@pytest.fixture(params=["alarm", pytest.param("no alarm", marks=pytest.mark.slow)])
-def smooth(tmp_path, request):
-    """Starts the program on a mesh, with the signal at a moment; its output is `tmp_path / "out.vtu"`.
-
-    Without an alarm it runs as on a system that has no SIGALRM.
-    """
+@pytest.fixture
+def smooth(tmp_path):
+    """Starts the program on a mesh, with the signal at a moment; its output is `tmp_path / "out.vtu"`."""
     io.write(tmp_path / "mesh.vtu", gallery.make("cube", size=125, scramble=0.3))
     (tmp_path / "out.vtu").write_text("old")
 
@@ -88,9 +83,7 @@ def smooth(tmp_path, request):
         words = [tmp_path / "mesh.vtu", "-o", tmp_path / "out.vtu", "--method", "laplacian", "--tolerance", "0"]
         return subprocess.Popen(
             [sys.executable, script, "smooth", *words, "--max-iterations", str(most)],
-            env=os.environ
-            | {"SIGNAL": str(int(number)), "TERM": "xterm", "TIMER": request.param}
-            | options.pop("env", {}),
+            env=os.environ | {"SIGNAL": str(int(number)), "TERM": "xterm"} | options.pop("env", {}),
             **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, **options},
         )
 
@@ -127,7 +120,7 @@ def test_a_signal_while_progress_is_printed_loses_nothing(smooth, tmp_path, numb
 
 
 @pytest.mark.parametrize(("module", "kind", "name"), [
-    ("hexmend.cli.output.progress", "_Lines", "show"),
+    ("hexmend.run.progress", "TimedDisplay", "show"),
     ("hexmend.run.run", "Run", "result"),
     ("hexmend.cli.command", "CoreCommand", "run"),
 ])  # fmt: skip

@@ -2,8 +2,8 @@
 
 from hexmend import gallery
 from hexmend.cli.main import main
-from hexmend.cli.output import progress
-from hexmend.run import StoppingCriteria, iterate
+from hexmend.cli.output.progress import follow
+from hexmend.run import StoppingCriteria, iterate, progress
 
 
 def test_a_short_run_says_nothing_on_standard_error(mesh, tmp_path, capsys):
@@ -24,13 +24,13 @@ def test_a_long_run_tells_of_itself_in_whole_lines_and_on_standard_error_only(me
 
 
 def test_on_a_terminal_a_line_changes_and_vanishes(monkeypatch, capsys):
-    monkeypatch.setenv("FORCE_COLOR", "1")  # rich takes this for a terminal
+    monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr(progress, "BAR_DELAY", 0.0)
     run = iterate(
         gallery.make("cube", size=64, scramble=0.3), "laplacian", StoppingCriteria(max_iterations=4, tolerance=0)
     )
-    progress.follow(run)
+    follow(run)
     said = capsys.readouterr()
     assert said.out == ""
     assert "laplacian" in said.err

@@ -17,7 +17,7 @@ from tests.patience import PATIENCE
 TALKATIVE = """
 import signal, sys
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # who runs the tests may ignore it
-from hexmend.cli.output import progress
+from hexmend.run import progress
 from hexmend.cli.main import main
 progress.LINE_INTERVAL = 0.0
 sys.exit(main(sys.argv[1:]))

@@ -9,7 +9,7 @@ from hexmend.energy import ObjectiveNorm, energies
 from hexmend.gallery import make
 from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.quality import measure, objective
-from hexmend.report import comparison_rows, record_table
+from hexmend.report.comparison import comparison_rows, record_table
 from hexmend.run import iterate, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother

@@ -10,9 +10,10 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersisten
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.quality import REGRESSION_KEYS
-from hexmend.quantity import Quantity, format_column
+from hexmend.quantity import Quantity
 from hexmend.report.comparison import KEPT_START, LINES, label
 from hexmend.smoothers import METHODS
+from hexmend_app.features.compare.column_format import format_column
 from hexmend_app.theme.style import BETTER, MUTED, WORSE, bold, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import with_minus

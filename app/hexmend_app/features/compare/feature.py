@@ -8,15 +8,15 @@ from typing import Any
 
 from hexmend.energy.norm import ObjectiveNorm
 from hexmend.quality import objective
-from hexmend.report import markdown, record_table, write_comparison
-from hexmend.report.charts import ChartStyle
-from hexmend.report.comparison import LINES
+from hexmend.report.comparison import LINES, record_table, write_comparison
+from hexmend.report.markdown import markdown
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import common_norm
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
+from hexmend_app.report.charts import ChartStyle
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.comparison import MethodResult
 from hexmend_app.translation import tr

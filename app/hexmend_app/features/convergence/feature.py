@@ -7,12 +7,12 @@ from pathlib import Path
 
 from superqt.utils import QSignalThrottler
 
-from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.convergence.chart_file import ConvergenceExport
 from hexmend_app.features.convergence.charts import ChartSettings
 from hexmend_app.features.convergence.curves import Columns, Curve, run_start
 from hexmend_app.features.convergence.panel import ConvergencePanel
+from hexmend_app.report.charts import ChartStyle
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.translation import tr

@@ -9,13 +9,13 @@ from typing import Any
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
-from hexmend.report import output_folder
-from hexmend.report.charts import check_matplotlib
+from hexmend.report.documents import output_folder
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
 from hexmend.study.table_row import Row
 from hexmend_app.picture import Scene, write_scene
 from hexmend_app.report.case import Case, Version, command_line
+from hexmend_app.report.charts import check_matplotlib
 from hexmend_app.report.figure_captions import write_captions
 from hexmend_app.report.figure_set import Figure, Style, write_figures
 from hexmend_app.state.mesh.run_record import RunRecord

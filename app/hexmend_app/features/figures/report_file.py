@@ -8,10 +8,10 @@ from pathlib import Path
 
 from hexmend.io.storage.atomic import check_writable
 from hexmend.io.storage.suffixes import suffix_for
-from hexmend.report.charts import check_matplotlib
 from hexmend_app.features.figures.drawing import NamedVersion, version_of
 from hexmend_app.picture import Scene
 from hexmend_app.report.case import Case, Source
+from hexmend_app.report.charts import check_matplotlib
 from hexmend_app.report.figure_set import Figure, Style
 from hexmend_app.report.page import draw_chapter, page, write_page
 from hexmend_app.report.pdf import check_pdf, write_pdf

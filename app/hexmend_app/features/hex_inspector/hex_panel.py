@@ -104,6 +104,7 @@ class HexPanel(QWidget):
         set_help(self._pin, tr("Pinned"), tr("Keep this node in place in every method, also on a sliding boundary."))
         self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
         self._node: NodeDetails | None = None
+        for corner, (node, _, _) in enumerate(self._corners):
             node.setAccessibleName(tr("Node at corner {corner}", corner=corner))
             _align_digits(node)
             node.followed.connect(self.node_chosen)

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.quality import METRICS, measure
-from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.histogram.head import HistogramSettings
 from hexmend_app.features.histogram.histogram_file import HistogramExport
 from hexmend_app.features.histogram.outline import Gradient
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.picture.visibility import Show
+from hexmend_app.report.charts import ChartStyle
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.hex_groups import hexes_of_group

@@ -12,10 +12,10 @@ from pathlib import Path
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.documents import write_text
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, Distribution, distribute
+from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend_app.report.histogram import Histogram, Outline
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.translation import tr

@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import declared
-from hexmend.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, Chart, ChartStyle, chart_png
+from hexmend_app.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, Chart, ChartStyle, chart_png
 from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
