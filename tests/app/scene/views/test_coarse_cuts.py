@@ -7,7 +7,7 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.scene.views.frame import Frame
-from tests.app.scene.views.showing import MESH, figures_of, show
+from tests.app.scene.showing import MESH, figures_of, show
 from tests.core.grids import scrambled
 
 

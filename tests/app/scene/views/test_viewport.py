@@ -10,7 +10,7 @@ from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.colour.colouring import INVERTED
-from tests.app.scene.views.showing import MESH, figures_of, show
+from tests.app.scene.showing import MESH, figures_of, show
 from tests.core.grids import scrambled
 
 INSIDE = Cut.at((0, 0, 1), (0, 0, 2), CutStyle.SMOOTH)
@@ -105,7 +105,7 @@ def test_inverted_elements_that_are_seen_are_outlined(seen, edges, cut):
     np.testing.assert_array_equal(pixels(), before)
 
 
-def test_a_marked_hex_is_visible_through_the_mesh_and_its_values_if_it_is_large(seen, pane):
+def test_a_marked_hex_is_visible_through_the_mesh_and_its_values_if_it_is_large(seen):
     viewport, pixels = seen
     plain = pixels()
     inner = 21
@@ -118,8 +118,8 @@ def test_a_marked_hex_is_visible_through_the_mesh_and_its_values_if_it_is_large(
     controller.flight_to(MESH.points[MESH.hexes[[inner]]]).at(1.0)
     controller.reset_depth()
     centre = MESH.points[MESH.hexes[inner]].mean(axis=0)
-    np.testing.assert_allclose(pane.camera.GetFocalPoint(), centre)
-    pane.camera.Dolly(2.0)
+    np.testing.assert_allclose(viewport.camera.GetFocalPoint(), centre)
+    viewport.camera.Dolly(2.0)
     near = pixels()
     viewport.overlay_layers.selection.select(inner, False, None)
     assert (near != pixels()).any()
