@@ -13,6 +13,7 @@ from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box
 from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
+from hexmend_app.scene.layers.optional.interfaces import InterfaceLayer
 from hexmend_app.scene.layers.optional.structure import (
     BOUNDARY,
     FREE,
@@ -22,8 +23,11 @@ from hexmend_app.scene.layers.optional.structure import (
     PINNED,
     VALENCES,
 )
+from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER, classify_boundary
+from tests.app.features.structure.layers import count
 from tests.app.scene.showing import frame_of
 from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.grids import grid
@@ -56,11 +60,6 @@ def draw(off_screen):
 
     drawn.viewport = viewport
     return drawn
-
-
-def count(image, colour):
-    """Count the pixels of exactly this colour; marks are not shaded."""
-    return int((image == np.frombuffer(bytes.fromhex(colour[1:]), np.uint8)).all(axis=2).sum())
 
 
 def test_irregular_edges_are_visible_through_the_mesh_in_the_colour_of_their_valence(draw):
@@ -169,3 +168,37 @@ def test_a_view_beside_the_first_does_not_mark_nodes_that_have_not_moved_there()
     other = frame_of(mesh).matching(first)
     assert not (other.kinds == LEFT).any()
     assert Frame(moved, figures).matching(first).kinds is classes.kinds
+
+
+# Layer of the interfaces between materials.
+
+
+ONE = grid(4)
+LOW = ONE.points[ONE.hexes].mean(axis=1)[:, 0] < 2
+TWO = ONE.replace(hex_sets={"low": np.flatnonzero(LOW), "high": np.flatnonzero(~LOW)})
+
+
+@pytest.fixture
+def layer():
+    with Stage((120, 90)) as stage:
+        yield InterfaceLayer(Pane(stage.window))
+
+
+def test_interfaces_are_the_faces_between_materials_at_shown_hexes(layer):
+    layer.draw(frame_of(TWO), None)
+    assert layer.shown
+    assert layer.poly.n_cells == 16
+    assert (layer.places[:, 0] == 2).all()
+    layer.draw(frame_of(TWO), TWO.points[TWO.hexes].mean(axis=1)[:, 2] < 1)
+    assert layer.poly.n_cells == 4
+    layer.draw(frame_of(ONE), None)
+    assert not layer.shown
+
+
+def test_an_unchanged_interface_is_not_built_again_and_moves_with_its_nodes(layer):
+    layer.draw(frame_of(TWO), None)
+    poly = layer.poly
+    layer.draw(frame_of(TWO), None)
+    assert layer.poly is poly
+    layer.draw(frame_of(TWO.with_points(TWO.points + 1)), None)
+    assert (layer.places[:, 0] == 3).all()

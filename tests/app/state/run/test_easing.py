@@ -11,7 +11,6 @@ from hexmend_app.state.mesh.history import History
 from hexmend_app.state.run import eased_view
 from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase, RunController
-from tests.patience import PATIENCE
 
 TEN = StoppingCriteria(max_iterations=10, tolerance=0)
 
@@ -32,7 +31,7 @@ def run(document):
 
 
 def run_and_wait(qtbot, run, stop=TEN, smoother=None):
-    with qtbot.waitSignal(run.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(run.ended):
         run.start(smoother or LocalSteepestDescent(), stop)
 
 
@@ -45,7 +44,7 @@ def test_the_result_is_recorded_at_once_and_shown_after_all_between(document, ru
     result = document.recorded
     assert document.undo_title == "Local steepest descent"
     assert document.now is not result
-    qtbot.waitUntil(lambda: not run.view.eased.active, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not run.view.eased.active)
     assert document.now is result
     assert len(shown) > 10
     before, after = document.start.mesh.points, result.mesh.points
@@ -87,9 +86,9 @@ def test_the_result_is_there_for_who_goes_on(document, run, qtbot, act):
 def test_steps_and_large_meshes_are_shown_as_they_are(document, run, qtbot, monkeypatch):
     run.start(LocalSteepestDescent(), TEN, iterations=2)
     assert not run.view.eased.active
-    qtbot.waitUntil(lambda: run.phase is Phase.PAUSED, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: run.phase is Phase.PAUSED)
     run.stop()
-    qtbot.waitUntil(lambda: not run.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not run.busy)
     monkeypatch.setattr(eased_view, "LIMIT", 10)
     run_and_wait(qtbot, run)
     assert not run.view.eased.active
@@ -98,7 +97,7 @@ def test_steps_and_large_meshes_are_shown_as_they_are(document, run, qtbot, monk
 
 def test_a_run_stopped_while_it_prepares_leaves_the_mesh_alone(document, run, qtbot):
     start = document.now
-    with qtbot.waitSignal(run.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(run.ended):
         run.start(LocalSteepestDescent(), TEN)
         run.stop()
     run.view.skip_easing()
