@@ -1,16 +1,17 @@
 """Fixtures of all tests of the app: the application, mesh files, and windows with an open mesh."""
 
-from __future__ import annotations
-
 import gc
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from functools import partialmethod
+from pathlib import Path
 
 import pyqtgraph as pg
 import pytest
 import shiboken6
 from PySide6.QtCore import QEvent, QSettings
 from PySide6.QtWidgets import QApplication, QMessageBox
+from pytestqt.qtbot import QtBot
 
 from hexmend import gallery, io
 from hexmend_app.scene.render.graphics import prepare_off_screen
@@ -21,6 +22,7 @@ from hexmend_app.state.tasks import task
 from hexmend_app.state.tasks.task import running
 from hexmend_app.theme.style import apply_style
 from tests.app.driving import open_and_wait
+from tests.app.hosting import PlainHost
 from tests.app.resetting import SIZE, Resetting, lay_out, settle, unseen
 from tests.guards import windows_close
 from tests.patience import PATIENCE
@@ -40,6 +42,21 @@ def pytest_runtest_teardown():
     """Stop drawing the shared window after a test."""
     for window in SHARED:
         window.setUpdatesEnabled(False)
+
+
+class PatientBot(QtBot):
+    """Robot that waits for an event as long as a busy machine needs."""
+
+    waitActive = partialmethod(QtBot.waitActive, timeout=PATIENCE)
+    waitExposed = partialmethod(QtBot.waitExposed, timeout=PATIENCE)
+    waitSignal = partialmethod(QtBot.waitSignal, timeout=PATIENCE)
+    waitUntil = partialmethod(QtBot.waitUntil, timeout=PATIENCE)
+
+
+@pytest.fixture
+def qtbot(qapp, request):
+    """Return the robot of pytest-qt, which waits longer."""
+    return PatientBot(request)
 
 
 @pytest.fixture(scope="session")
@@ -77,12 +94,25 @@ def shown(qtbot):
     def show(widget, width=360, height=0):
         qtbot.addWidget(widget)
         widget.resize(width, height or widget.sizeHint().height())
-        with qtbot.waitActive(widget, timeout=PATIENCE):
+        with qtbot.waitActive(widget):
             widget.show()
             widget.activateWindow()
         return widget
 
     return show
+
+
+@pytest.fixture
+def hosted(qtbot):
+    """Return a function that makes a host of features, and of a session, without a window."""
+    with ExitStack() as sessions:
+
+        def make(mesh, path=Path("a.vtu")):
+            host = PlainHost(mesh, path)
+            sessions.callback(lambda: host.session.close())
+            return host
+
+        yield make
 
 
 @pytest.fixture(scope="session")
@@ -165,7 +195,7 @@ def empty_window(qtbot):
     application()
     window = Window()
     window.resize(*SIZE)
-    with qtbot.waitExposed(window, timeout=PATIENCE):
+    with qtbot.waitExposed(window):
         window.show()
     return window
 

@@ -1,7 +1,5 @@
 """Dialogs of a window, by name: functions that make them without waiting for an answer."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from PySide6.QtWidgets import QDialog

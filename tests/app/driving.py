@@ -1,19 +1,18 @@
 """Simulated user input: mouse, keys and choices in the window."""
 
-from __future__ import annotations
-
 from typing import TypeVar
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QImage, QMouseEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QApplication, QCheckBox, QComboBox, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QCheckBox, QComboBox, QLabel, QWidget
 
+from hexmend import io
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from tests.patience import PATIENCE
+from hexmend_app.state.run.run_controller import Phase
 
 LEFT = Qt.MouseButton.LeftButton
 
@@ -21,8 +20,39 @@ Part = TypeVar("Part", bound=QWidget)
 
 
 def open_and_wait(qtbot, window, path):
-    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.opener.ended):
         window.features["open"].open(path)
+
+
+def open_mesh(qtbot, window, path, mesh):
+    """Write a mesh to a file, and open it."""
+    io.write(path, mesh)
+    open_and_wait(qtbot, window, path)
+    window.refresh()
+
+
+def smooth(qtbot, session, method="laplacian", iterations=3, **values):
+    """Run a method for a number of iterations."""
+    stage = Stage(METHODS[method](**values), StoppingCriteria(max_iterations=iterations, tolerance=0))
+    with qtbot.waitSignal(session.run.ended):
+        session.commands.run(stage)
+
+
+def run_to_end(window, qtbot, method, **stop):
+    """Choose a method with stopping criteria, run it by its button, and wait for its end."""
+    choose(window, method, StoppingCriteria(**stop))
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
+    window.refresh()
+
+
+def brought(window, qtbot, panel, feature=""):
+    """Bring a panel to the front, and return it."""
+    window.show_panel(panel)
+    widget = window.features[feature or panel].panel
+    qtbot.waitUntil(widget.isVisible)
+    window.refresh()
+    return widget
 
 
 def click(window, text):
@@ -43,6 +73,16 @@ def press(button: QAbstractButton):
     assert button.isEnabled()
     QTest.mouseClick(button, LEFT)
     button.window().refresh()
+
+
+def button(parent: QWidget, text: str) -> QAbstractButton:
+    """Return the visible button with a text."""
+    return next(one for one in parent.findChildren(QAbstractButton) if one.text() == text and one.isVisible())
+
+
+def texts(parent: QWidget) -> list[str]:
+    """Return the texts of the visible labels."""
+    return [label.text() for label in parent.findChildren(QLabel) if label.isVisible()]
 
 
 def tick(box: QCheckBox):

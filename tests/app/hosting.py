@@ -1,7 +1,5 @@
 """Host for tests of features without a window."""
 
-from __future__ import annotations
-
 from PySide6.QtWidgets import QWidget
 
 from hexmend.errors import HexmendError

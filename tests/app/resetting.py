@@ -1,7 +1,5 @@
 """Reset of the window that tests share to its initial state."""
 
-from __future__ import annotations
-
 from contextlib import contextmanager
 
 import shiboken6
@@ -20,7 +18,6 @@ from hexmend_app.state.run.timeline import SPEED
 from hexmend_app.state.session import session_data
 from hexmend_app.theme import theme_choice
 from hexmend_app.widgets.section import Section
-from tests.patience import PATIENCE
 
 SIZE = 1400, 900
 
@@ -136,7 +133,7 @@ def settle(qtbot, window):
     QTest.mouseMove(window, QPoint(1, 1))
     window.activateWindow()
     window.windowHandle().requestActivate()
-    qtbot.waitUntil(window.isActiveWindow, timeout=PATIENCE)  # otherwise shortcuts have no effect
+    qtbot.waitUntil(window.isActiveWindow)  # otherwise shortcuts have no effect
     if QApplication.focusWidget() is not None:
         QApplication.focusWidget().clearFocus()
     QApplication.processEvents()

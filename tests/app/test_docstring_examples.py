@@ -1,7 +1,5 @@
 """Examples in docstrings of the app."""
 
-from __future__ import annotations
-
 import doctest
 from importlib import import_module
 from pathlib import Path

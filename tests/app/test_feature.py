@@ -16,24 +16,16 @@ def test_a_new_value_is_changed_once():
     assert seen.changed("size", 4)
 
 
-def test_none_and_no_values_count_as_values():
+def test_none_no_values_and_numpy_scalars_count_as_values():
     seen = ChangeTracker()
-    assert seen.changed("chosen", None)
-    assert not seen.changed("chosen", None)
-    assert seen.changed("nothing")
-    assert not seen.changed("nothing")
+    for name, values in (("chosen", (None,)), ("nothing", ())):
+        assert seen.changed(name, *values)
+        assert not seen.changed(name, *values)
+    assert seen.changed("hex", np.int64(4))
+    assert not seen.changed("hex", 4)
 
 
 def test_arrays_are_compared_by_identity():
     seen, pinned = ChangeTracker(), np.zeros(3, bool)
-    assert seen.changed("pinned", None, 1)
-    assert seen.changed("pinned", pinned, 1)
-    assert not seen.changed("pinned", pinned, 1)
-    assert seen.changed("pinned", pinned.copy(), 1)
-    assert seen.changed("pinned", None, 1)
-
-
-def test_numpy_scalars_are_compared_as_numbers():
-    seen = ChangeTracker()
-    assert seen.changed("hex", np.int64(4))
-    assert not seen.changed("hex", 4)
+    for value, changed in ((None, True), (pinned, True), (pinned, False), (pinned.copy(), True), (None, True)):
+        assert seen.changed("pinned", value, 1) == changed

@@ -1,7 +1,5 @@
 """Classes of the app do not hide methods of their Qt base classes."""
 
-from __future__ import annotations
-
 import ast
 import importlib
 import inspect
@@ -53,18 +51,3 @@ def test_no_class_hides_a_method_of_its_qt_class(qapp):
     assert {
         f"{kind.__module__}.{kind.__qualname__}": names for kind in classes if (names := hidden_methods(kind))
     } == {}
-
-
-def test_hidden_methods_are_found():
-    class Hiding(QObject):
-        event = Signal()
-
-        def __init__(self):
-            super().__init__()
-            self.children = []
-
-        @property
-        def parent(self):
-            return None
-
-    assert hidden_methods(Hiding) == {"children", "event", "parent"}

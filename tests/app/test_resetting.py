@@ -1,18 +1,17 @@
-"""Reset of the shared window: it equals a new window, whatever the test before has done."""
-
-from __future__ import annotations
+"""Reset of the shared window, whatever the test before has done."""
 
 import numpy as np
 import pytest
 import shiboken6
 from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QAbstractSpinBox, QComboBox, QLineEdit
 
+from hexmend_app.formats.session.archive import read_archive
+from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera
 from hexmend_app.picture.cut import Cut
 from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.session import session_data
 from tests.app.driving import click, phase
-from tests.app.picturing import everything
-from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -50,9 +49,9 @@ def live(window, qtbot):
     middle = tuple(session.document.now.mesh.points.mean(axis=0))
     for _ in range(2):
         click(window, "Step")
-        qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+        qtbot.waitUntil(phase(window, Phase.PAUSED))
     click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     session.commands.tag("bad", [7])
     session.commands.pin(int(np.flatnonzero(session.document.now.mesh.free)[50]), True)
     session.selection.choose(7)
@@ -74,21 +73,18 @@ def live(window, qtbot):
     window.refresh()
 
 
-def known(window, qtbot):
-    """Return the description of a window, without its script, the doctor's progress and recent files: not reset."""
-    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
-    window.refresh()
-    lines = (line for line in everything(window) if not line.startswith("settings"))
-    return {line for line in lines if "/ScriptPanel/" not in line and "/DoctorPanel/" not in line}
+def session_of(window, path):
+    """Return the data of the session of a window, as in a file."""
+    session_data.write(path, window.session.to_data())
+    return read_archive(path, "Hexmend session", VERSION)
 
 
-def test_after_a_reset_the_shared_window_equals_a_new_one(fresh_window, shared, qtbot):
-    new = known(fresh_window, qtbot)
-    resetting = shared(qtbot)
+def test_after_a_reset_the_shared_window_has_the_session_and_layout_of_before(shared, qtbot, tmp_path):
+    resetting, path = shared(qtbot), tmp_path / "a.hexmend"
     resetting.reset(qtbot)
+    session, layout = session_of(resetting.window, path), resetting.window.docks.state()
     live(resetting.window, qtbot)
     resetting.end()
     resetting.reset(qtbot)
-    now = known(resetting.window, qtbot)
-    assert sorted(now - new) == []
-    assert sorted(new - now) == []
+    np.testing.assert_equal(session_of(resetting.window, path), session)
+    assert resetting.window.docks.state() == layout

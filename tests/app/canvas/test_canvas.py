@@ -12,9 +12,8 @@ from hexmend.quality import measure
 from hexmend_app.canvas.canvas import Canvas
 from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.views.frame import Frame
-from tests.app.driving import LEFT, drag, turn
+from tests.app.driving import LEFT, turn
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 MESH = grid(4)
 FIGURES = measure(MESH.points, MESH.hexes)
@@ -28,7 +27,7 @@ CLOSED = []
 def canvas(qtbot):
     canvas = Canvas()
     canvas.resize(600, 500)
-    with qtbot.waitExposed(canvas, timeout=PATIENCE):
+    with qtbot.waitExposed(canvas):
         canvas.show()
     canvas.draw(Frame(MESH, FIGURES))
     rested(qtbot, canvas)
@@ -47,7 +46,7 @@ def pose(canvas):
 
 def rested(qtbot, canvas):
     """Wait until the camera is at rest, and draw a frame."""
-    qtbot.waitUntil(lambda: canvas.camera_animation.at_rest, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: canvas.camera_animation.at_rest)
     canvas.interactor.grabFramebuffer()
 
 
@@ -61,37 +60,6 @@ def double_click(canvas, place):
     QTest.mouseClick(view, LEFT, pos=place)
     QTest.mouseDClick(view, LEFT, pos=place)
     QTest.mouseRelease(view, LEFT, pos=place)
-
-
-@pytest.mark.slow
-def test_views_can_be_stepped_back_and_forward(canvas, qtbot):
-    home = pose(canvas)
-    assert (canvas.camera_animation.can_go_back, canvas.camera_animation.can_go_forward) == (False, False)
-    changes = []
-    canvas.views_changed.connect(
-        lambda: changes.append((canvas.camera_animation.can_go_back, canvas.camera_animation.can_go_forward))
-    )
-    canvas.look_along("+x")
-    rested(qtbot, canvas)
-    side = pose(canvas)
-    assert changes[-1] == (True, False)
-    drag(canvas.interactor, QPoint(60, 60), QPoint(140, 90))
-    rested(qtbot, canvas)
-    turned = pose(canvas)
-    assert not turned.looks_like(side)
-    for expected in (side, home):
-        canvas.camera_animation.go_back()
-        rested(qtbot, canvas)
-        assert pose(canvas).looks_like(expected)
-    assert changes[-1] == (False, True)
-    for expected in (side, turned):
-        canvas.camera_animation.go_forward()
-        rested(qtbot, canvas)
-        assert pose(canvas).looks_like(expected)
-    canvas.camera_animation.go_forward()  # there is none
-    assert not canvas.camera_animation.active
-    canvas.draw(Frame(grid(2), measure(grid(2).points, grid(2).hexes)))
-    assert (canvas.camera_animation.can_go_back, canvas.camera_animation.can_go_forward) == (False, False)
 
 
 def test_an_unbound_key_does_not_end_a_flight(canvas, qtbot):
@@ -125,7 +93,7 @@ def test_a_double_click_sets_the_centre_of_rotation(canvas, qtbot):
     before = pose(canvas)
     place = middle(canvas) + QPoint(60, 20)
     double_click(canvas, place)
-    qtbot.waitUntil(lambda: canvas.camera_animation.active, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: canvas.camera_animation.active)
     rested(qtbot, canvas)
     after = pose(canvas)
     assert len(clicks) == 1  # the first click selects
@@ -160,12 +128,12 @@ def test_a_right_click_requests_a_menu_and_a_right_drag_zooms(canvas, qtbot):
     view, at = canvas.interactor, middle(canvas)
     before = pose(canvas)
     QTest.mouseClick(view, RIGHT, pos=at)
-    qtbot.waitUntil(lambda: len(asked) == 1, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(asked) == 1)
     (h, node), place = asked[0]
     assert node in MESH.hexes[h]
     assert place == view.mapToGlobal(at)
     QTest.mouseClick(view, RIGHT, pos=QPoint(3, 3))
-    qtbot.waitUntil(lambda: len(asked) == 2, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(asked) == 2)
     assert asked[1][0] is None
     assert pose(canvas).looks_like(before)
     QTest.mousePress(view, RIGHT, pos=at)
@@ -191,7 +159,7 @@ def test_a_menu_may_block(canvas, qtbot):
 
     canvas.menu_requested.connect(wait)
     QTest.mouseClick(canvas.interactor, RIGHT, pos=middle(canvas))
-    qtbot.waitUntil(lambda: len(moved) == 1, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(moved) == 1)
     assert moved[0].looks_like(before)
 
 

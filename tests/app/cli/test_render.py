@@ -1,7 +1,5 @@
 """`hexmend render` of scenes: the file, the options that override it, and the scene that is written."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PIL import Image

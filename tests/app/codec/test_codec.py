@@ -1,7 +1,5 @@
 """Conversion of values to codec data and back by declared types; errors name the place of invalid data."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Charts and tables, saved through the dialogs that name what is in them."""
 
-from __future__ import annotations
-
 import csv
 
 import pytest
@@ -14,7 +12,6 @@ from hexmend.smoothers import METHODS
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.widgets.dialogs.export_dialog import ExportDialog
 from tests.app.driving import phase
-from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -25,9 +22,9 @@ SHORT = StoppingCriteria(max_iterations=3)
 def worked(window, qtbot):
     """A window in which a method has run, and methods have been compared."""
     window.session.run.start(METHODS["laplacian"](), SHORT)
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     window.session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], SHORT)
-    qtbot.waitUntil(lambda: not window.session.comparison.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not window.session.comparison.busy)
     for panel in ("histogram", "convergence", "compare"):
         window.show_panel(panel)
         window.refresh()

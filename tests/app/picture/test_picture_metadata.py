@@ -1,7 +1,5 @@
 """Metadata of pictures: written, read, and rejected if damaged or malicious."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 

@@ -1,7 +1,5 @@
 """Scenes as TOML: written scenes are read, and errors are reported with their position."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Report on a small inverted mesh, and the browser of Debian to open it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import cache

@@ -10,6 +10,7 @@ from hexmend.errors import ParameterError
 from hexmend_app.report.charts import ChartStyle, chart_png, write_chart
 from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend_app.report.histogram import Histogram, Outline
+from hexmend_app.report.run_figures import write_convergence, write_distributions
 
 HISTOGRAM = Histogram(
     [Outline("before", "#5b6573", [1, 2, 3], filled=True, note="2 inverted"), Outline("after", "#0072B2", [0, 4, 9])],
@@ -101,3 +102,48 @@ def test_an_axis_goes_by_powers_of_ten_where_there_are_some(y, scale):
 def test_sizes_that_cannot_be_are_refused(wrong):
     with pytest.raises(ParameterError, match=next(iter(wrong)) if len(wrong) == 1 else "pixels"):
         ChartStyle(**wrong)
+
+
+# Figures of runs, at the width of a page.
+
+
+ROWS = [
+    {"iteration": k, "q_min": 0.1 * k, "objective": None if k == 0 else 9.0 / k, "inverted": 3 - k, "invalid": 4 - k}
+    for k in range(4)
+]
+INVALID = [row | {"inverted": 0} for row in ROWS]
+VALID = [row | {"inverted": 0, "invalid": 0} for row in ROWS]
+
+
+def draw(path, name, width=120.0, rows=ROWS):
+    if "distribution" in path.stem:
+        write_distributions(path, {name: [1, 2, 3], "mend": [0, 2, 4]}, title=name, width_mm=width)
+    else:
+        write_convergence(path, {name: rows}, title=name, width_mm=width)
+    return path
+
+
+@pytest.mark.parametrize("stem", ["distributions", "convergence"])
+def test_a_figure_is_as_wide_as_it_is_asked_to_be(tmp_path, stem):
+    for width in (60.0, 170.0):
+        root = ET.parse(draw(tmp_path / f"{stem}.svg", "mend", width)).getroot()
+        assert float(root.get("width").removesuffix("pt")) == pytest.approx(width / 25.4 * 72, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("stem", "name"),
+    [
+        ("distributions", "$x_{ and $ of\ntwo lines"),
+        ("convergence", "bell\a, bad\udcff and ]]> & <svg>"),
+    ],
+)
+def test_names_from_files_are_plain_text(tmp_path, stem, name):
+    assert len(list(ET.parse(draw(tmp_path / f"{stem}.svg", name)).iter())) > 50
+
+
+def test_a_count_that_is_always_0_is_left_out(tmp_path):
+    heights = []
+    for rows in (ROWS, INVALID, VALID):
+        root = ET.parse(draw(tmp_path / "convergence.svg", "mend", rows=rows)).getroot()
+        heights.append(float(root.get("height").removesuffix("pt")))
+    assert heights[0] > heights[1] > heights[2]

@@ -1,7 +1,5 @@
 """Opening another mesh: it is shown without remains of the previous mesh, whatever was done with that."""
 
-from __future__ import annotations
-
 import sys
 
 import numpy as np
@@ -11,13 +9,11 @@ from PySide6.QtWidgets import QApplication
 
 from hexmend import gallery, io
 from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.picture.appearance import Arrows, Structure, Traces
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import key, open_and_wait, phase, pixels
-from tests.patience import PATIENCE
+from tests.app.driving import choose, key, open_and_wait, phase, pixels, smooth
 
 
 @pytest.fixture(scope="module")
@@ -27,114 +23,45 @@ def small_file(tmp_path_factory):
     return path
 
 
-def select(window, qtbot):
+def everything(window, qtbot):
+    """Do everything that is possible without a run, then begin a run and a comparison."""
+    session, mesh = window.session, window.session.document.now.mesh
+    last_hex, last_node = mesh.n_hexes - 1, mesh.n_nodes - 1
     key(window, Qt.Key.Key_N)
-    assert window.session.selection.hex is not None
-
-
-def select_the_last(window, qtbot):
-    mesh = window.session.document.now.mesh
-    window.session.selection.visit(mesh.n_hexes - 1)
-    window.session.selection.choose(mesh.n_hexes - 1, mesh.n_nodes - 1)
+    session.selection.visit(last_hex)
+    session.selection.choose(last_hex, last_node)
     window.features["hex_inspector"].panel.set_corners_in_view(True)
     window.show_panel("hex")
-
-
-def isolate_and_dig(window, qtbot):
-    last = window.session.document.now.mesh.n_hexes - 1
-    window.session.view.isolate([last, last - 1], 2)
-    window.session.view.dig(last)
-
-
-def cut(window, qtbot):
+    session.view.isolate([last_hex, last_hex - 1], 2)
+    session.view.dig(last_hex)
     window.action("cut").trigger()
-    window.refresh()
-    assert window.session.view.look.cut.active
-
-
-def filter_and_peel(window, qtbot):
-    window.session.view.change(show={"peel": 1, "quality": (0.0, 0.5), "inverted": True})
-
-
-def explain_a_node(window, qtbot):
-    window.session.run_setup.choose(Stage(METHODS["local-sd"](), StoppingCriteria()))
+    session.view.change(show={"peel": 1, "quality": (0.0, 0.5), "inverted": True})
+    choose(window, "local-sd")
     key(window, Qt.Key.Key_D)
-    qtbot.waitUntil(lambda: window.canvas.viewport.overlay_layers.selection.node_step is not None, timeout=PATIENCE)
-
-
-def begin_a_sweep(window, qtbot):
-    window.session.run_setup.choose(Stage(METHODS["local-sd"](), StoppingCriteria()))
+    qtbot.waitUntil(lambda: window.canvas.viewport.overlay_layers.selection.node_step is not None)
     key(window, Qt.Key.Key_F11)
-    assert window.session.node_sweep.sweep is not None
-
-
-def run_and_pause(window, qtbot):
-    window.session.run_setup.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=50, tolerance=0)))
-    key(window, Qt.Key.Key_F10)
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-
-
-def run_and_go_back(window, qtbot):
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3, tolerance=0)))
-    window.session.timeline.go(window.session.history.records[-1], 1)
-    window.session.view.change(
-        movement=Traces(arrows=Arrows.ALL), structure=Structure.of("original"), colours={"metric": "q-change"}
-    )
-
-
-def break_at_the_last(window, qtbot):
-    mesh = window.session.document.now.mesh
-    window.session.run.break_at(Breakpoints(hex=mesh.n_hexes - 1, node=mesh.n_nodes - 1))
-
-
-def compare(window, qtbot):
-    with qtbot.waitSignal(window.session.comparison.changed, timeout=PATIENCE):
-        window.session.comparison.start(
-            [METHODS["laplacian"](), METHODS["getme"]()], StoppingCriteria(max_iterations=40)
-        )
-    window.show_panel("compare")
-
-
-def keep_beside_and_wipe(window, qtbot):
-    key(window, Qt.Key.Key_V)
-    key(window, Qt.Key.Key_W)
+    assert session.node_sweep.sweep is not None
+    smooth(qtbot, session)
+    session.timeline.go(session.history.records[-1], 1)
+    structure = Structure.of("irregular", "sharp", "boundary", "kinds", "locked", "original")
+    session.view.change(movement=Traces(arrows=Arrows.ALL), structure=structure, colours={"metric": "q-change"})
+    session.run.break_at(Breakpoints(hex=last_hex, node=last_node))
+    for letter in (Qt.Key.Key_V, Qt.Key.Key_W):  # beside, and the wipe
+        key(window, letter)
     assert len(window.canvas.panes.all) == 2
-
-
-def tag_and_pin(window, qtbot):
-    mesh = window.session.document.now.mesh
-    window.session.commands.tag("last", [mesh.n_hexes - 1])
-    window.session.commands.pin(mesh.n_nodes - 1, True)
+    session.commands.tag("last", [last_hex])
+    session.commands.pin(last_node, True)
     window.show_panel("tags")
-
-
-def show_the_structure(window, qtbot):
-    window.session.view.change(structure=Structure.of("irregular", "sharp", "boundary", "kinds", "locked", "original"))
-    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
-
-
-def examine(window, qtbot):
+    qtbot.waitUntil(lambda: session.structure_finder.structure is not None)
     window.show_panel("doctor")
-    qtbot.waitUntil(
-        lambda: window.session.mesh_checker.of(window.session.document.now.mesh) is not None, timeout=PATIENCE
-    )
-
-
-WORKS = (
-    select, select_the_last, isolate_and_dig, cut, filter_and_peel, explain_a_node, begin_a_sweep, run_and_go_back,
-    run_and_pause, break_at_the_last, compare, keep_beside_and_wipe, tag_and_pin, show_the_structure, examine,
-)  # fmt: skip
-
-
-def everything(window, qtbot):
-    """Do everything that is possible without a run, then begin a run."""
-    for work in (*(one for one in WORKS if one is not run_and_pause), run_and_pause):
-        if work is not compare:
-            work(window, qtbot)
-            window.refresh()
-    compare(window, qtbot)
-    window.session.selection.choose(window.session.document.now.mesh.n_hexes - 1, 0)
+    qtbot.waitUntil(lambda: session.mesh_checker.of(session.document.now.mesh) is not None)
+    choose(window, "laplacian", StoppingCriteria(max_iterations=50, tolerance=0))
+    key(window, Qt.Key.Key_F10)
+    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    with qtbot.waitSignal(session.comparison.changed):
+        session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], StoppingCriteria(max_iterations=40))
+    window.show_panel("compare")
+    session.selection.choose(last_hex, 0)
     window.refresh()
 
 
@@ -204,22 +131,6 @@ def test_no_mesh_is_shown_if_its_hexes_cannot_be_drawn(window, small_file, mesh_
     assert set(failures) == {"there is no skin"}
     open_and_wait(qtbot, window, mesh_file)
     is_shown(window)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["cut", "histogram"])
-def test_a_failing_panel_does_not_keep_the_previous_mesh_in_the_view(window, small_file, qtbot, name, monkeypatch):
-    failures = []
-
-    def fail(*_):
-        raise RuntimeError("this panel has failed")
-
-    with monkeypatch.context() as failing:
-        failing.setattr(window.features[name], "refresh", fail)
-        failing.setattr(sys, "excepthook", lambda kind, error, trace: failures.append(str(error)))
-        open_and_wait(qtbot, window, small_file)
-        is_shown(window)
-    assert set(failures) == {"this panel has failed"}
 
 
 def test_numbers_of_the_previous_mesh_select_and_hide_nothing(window, qtbot, small_file):

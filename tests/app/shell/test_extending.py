@@ -1,9 +1,6 @@
 """Examples of docs/development/extending-window.md: a feature and a metric in menus, palette, page of keys, window and pictures."""
 
-from __future__ import annotations
-
 import sys
-from importlib import import_module
 
 import numpy as np
 import pytest
@@ -17,15 +14,12 @@ from hexmend import gallery
 from hexmend.cli.main import main
 from hexmend.io import write
 from hexmend.quality import METRICS
-from hexmend_app.formats.session.archive import read_archive, write_archive
-from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.palette.palette_entries import command_entries
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
 from tests.app.driving import open_and_wait
 from tests.examples import example
-from tests.patience import PATIENCE
 
 EXAMPLE = example("A feature of the viewer")
 
@@ -132,6 +126,7 @@ def _choose_and_write(window, hex, text):
     QTest.keyClicks(panel, text)
 
 
+@pytest.mark.slow
 def test_the_state_of_a_feature_is_in_sessions_and_is_exported(
     with_notes, fresh_window, qtbot, tmp_path, mesh_file, monkeypatch
 ):
@@ -153,31 +148,6 @@ def test_the_state_of_a_feature_is_in_sessions_and_is_exported(
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(csv), ""))
     window.action("export_notes").trigger()
     assert csv.read_text(encoding="utf-8").splitlines() == ["hex,note", "3,thin", "5,at the weld"]
-
-
-@pytest.mark.slow
-def test_a_window_without_the_feature_keeps_its_data_and_one_with_it_refuses_other_types(
-    fresh_window, with_notes, qtbot, tmp_path
-):
-    window = fresh_window
-    assert "notes" not in window.features
-    path = tmp_path / "work.hexmend"
-    assert window.features["session"].save_and_wait(path)
-    data = read_archive(path, "Hexmend session", VERSION)
-    data["window"]["features"]["notes"] = {"3": "thin"}
-    write_archive(path, "Hexmend session", VERSION, data)
-    open_and_wait(qtbot, window, path)
-    assert window.features["session"].save_and_wait(path)
-    data = read_archive(path, "Hexmend session", VERSION)
-    assert data["window"]["features"]["notes"] == {"3": "thin"}
-    window.features["notes"] = import_module("hexmend_app.features.notes.feature").FeatureNotes(window)
-    window.session.feature_states.add(window.features["notes"].states()[0])
-    assert window.features["notes"].notes == {"3": "thin"}
-    data["window"]["features"]["notes"] = {"3": 4}
-    write_archive(path, "Hexmend session", VERSION, data)
-    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
-        window.features["open"].open(path)
-    assert "the window.features.notes.3 is of another type: expected str" in window.messages.messages()[-1][2]
 
 
 def test_features_that_raise_are_reported_and_the_others_are_built(qtbot, tmp_path, monkeypatch):

@@ -1,7 +1,5 @@
 """Examples of docs/development/extending-window.md: a colour map and a layer in window, sessions and pictures."""
 
-from __future__ import annotations
-
 import sys
 from importlib import import_module
 
@@ -55,12 +53,7 @@ def window(files, fresh_window):
     return fresh_window
 
 
-def show_both(window):
-    """Switch the layer and the map on."""
-    window.session.view.change(structure=Structure.of("bounding-box"), colours={"map": "slate"})
-    window.refresh()
-
-
+@pytest.mark.slow
 def test_panel_menu_palette_and_map_box_have_them(window):
     row = window.features["structure"].panel.layers["bounding-box"]
     assert row.box.text() == "Bounding box"
@@ -75,14 +68,6 @@ def test_panel_menu_palette_and_map_box_have_them(window):
     assert window.session.view.look.structure == Structure.of("bounding-box")
     maps = named(window, QComboBox, "Colour map")
     assert maps.itemData(maps.findData("slate"), Qt.ItemDataRole.ToolTipRole) == "From dark blue over grey to cream."
-
-
-@pytest.mark.slow
-def test_saved_pictures_show_them(window, tmp_path):
-    show_both(window)
-    assert window.features["save"].picture(tmp_path / "window.png", (640, 480))
-    image = np.asarray(Image.open(tmp_path / "window.png").convert("RGB"))
-    assert count(image, BOX) > 100
 
 
 @pytest.mark.slow

@@ -1,14 +1,11 @@
 """Features: their actions have a place and a help, and they are refreshed when what they show changes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
 
 from hexmend_app.feature import MENUS
 from hexmend_app.shell.keys import as_markdown
-from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -32,7 +29,7 @@ def test_all_changes_in_a_turn_of_the_event_loop_cause_one_refresh(window, qtbot
     for _ in range(20):
         window.session.selection.changed.emit()
     assert calls == []
-    qtbot.waitUntil(lambda: calls != [], timeout=PATIENCE)
+    qtbot.waitUntil(lambda: calls != [])
     assert calls == [1]
 
 

@@ -1,7 +1,5 @@
 """Keyboard navigation: every control is reached in reading order and has a name."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import pytest
@@ -130,17 +128,6 @@ def test_tab_reaches_every_control_once_and_returns(everything_on, panels):
     assert [one.accessibleName() for one in reached if one not in meant] == []
     back = walk(window, Qt.Key.Key_Backtab)
     assert back == [*reached[-2::-1], reached[-1]]
-
-
-def test_tab_in_the_view_hides_and_shows_all_panels(window):
-    view, wide = window.canvas.interactor, window.canvas.width()
-    view.setFocus()
-    assert tab(window) is view
-    assert window.docks.hidden
-    QApplication.processEvents()
-    assert window.canvas.width() > wide
-    assert tab(window) is view
-    assert not window.docks.hidden
 
 
 def test_tab_goes_in_reading_order(everything_on):

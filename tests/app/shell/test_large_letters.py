@@ -1,7 +1,5 @@
 """Letters of twice the size: no text of a panel or a dialog is clipped."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
 
@@ -9,7 +7,6 @@ from hexmend_app.theme.style import apply_style
 from tests.app.conftest import close, separate_settings, window_with_mesh
 from tests.app.dialogs import DIALOGS
 from tests.app.driving import turn
-from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -84,7 +81,7 @@ def test_no_text_of_a_panel_is_clipped(large_window):
 @pytest.mark.parametrize("name", DIALOGS)
 def test_no_text_of_a_dialog_is_clipped(large_window, qtbot, name):
     dialog = DIALOGS[name](large_window)
-    with qtbot.waitExposed(dialog, timeout=PATIENCE):
+    with qtbot.waitExposed(dialog):
         dialog.show()
     assert "\n".join(clipped(dialog)) == ""
     dialog.close()

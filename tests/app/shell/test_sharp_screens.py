@@ -1,7 +1,5 @@
 """The window on screens with a device pixel ratio above 1."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,16 +1,15 @@
-"""Closing waits for all threads together, and removes the recovery folder of the window."""
+"""Threads that still write the session of a window keep nothing else waiting."""
 
-from __future__ import annotations
-
+import os
+import subprocess
+import sys
 import threading
-from types import SimpleNamespace
 
 import pytest
 
 from hexmend_app.state.session import session_data
 from hexmend_app.state.settings.paths import VARIABLE
-from hexmend_app.state.tasks import task
-from hexmend_app.state.tasks.task import GRACE, Task, running
+from hexmend_app.state.tasks.task import Task, running
 from tests.app.driving import open_and_wait
 from tests.patience import PATIENCE
 
@@ -47,46 +46,11 @@ def kept(fresh_window, qtbot, gate, windows, monkeypatch):
     own.begin()
     fresh_window.session.commands.pin(0, True)
     own.write()
-    qtbot.waitUntil(reached.is_set, timeout=PATIENCE)
+    qtbot.waitUntil(reached.is_set)
     yield fresh_window
     gate.set()
     for one in running():
         one.join()
-
-
-@pytest.fixture
-def waits(kept):
-    """Seconds for which the GUI's thread waits for threads; a clock of the test's own counts them, and nobody waits."""
-    waits, ended = [], task.Task.join
-
-    def join(self, seconds=None):
-        if seconds is None:
-            ended(self)  # its thread has told its end
-        else:
-            waits.append(seconds)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(task.Task, "join", join)
-        patch.setattr(task, "time", SimpleNamespace(monotonic=lambda: sum(waits)))
-        yield waits
-
-
-def test_closing_waits_for_all_threads_together(kept, gate, waits, windows):
-    session, tasks = kept.session, []
-    parts = (session.saver, session.repairer, session.padder, session.structure_finder, session.boundary_classifier, session.node_step_task, session.mesh_checker,
-             session.opener, kept.canvas.shading_task)  # fmt: skip
-    for part in parts:
-        tasks.append(Task(type(part).__name__, lambda _: gate.wait(PATIENCE / 1000)))
-        part._task = tasks[-1]  # noqa: SLF001
-        tasks[-1].start()
-    kept.may_leave = lambda: True
-    kept.close()
-    assert not kept.isVisible()
-    assert {one.name for one in tasks} < {one.name for one in running()}
-    assert all(one.dropped for one in running())
-    assert len(waits) > len(parts)
-    assert sum(waits) <= GRACE
-    assert list(windows.iterdir()) == []  # although the session is still being written
 
 
 def test_another_mesh_is_opened_while_the_session_of_the_first_is_being_written(
@@ -101,11 +65,49 @@ def test_another_mesh_is_opened_while_the_session_of_the_first_is_being_written(
     assert session.document.now.mesh is not before.mesh
     (folder,) = windows.iterdir()
     gate.set()
-    qtbot.waitUntil(lambda: [one.name for one in folder.iterdir()] == ["lock"], timeout=PATIENCE)
+    qtbot.waitUntil(lambda: [one.name for one in folder.iterdir()] == ["lock"])
     session.commands.pin(1, True)
-    with qtbot.waitSignal(own.written, timeout=PATIENCE):
+    with qtbot.waitSignal(own.written):
         own.write()
     kept_now = session_data.read(folder / "session.hexmend")
     assert kept_now.document.now.mesh.pinned.tolist() == session.document.now.mesh.pinned.tolist()
     own.end()
     assert list(windows.iterdir()) == []
+
+
+# Closing the window ends the program, even while threads are running.
+
+
+PROGRAM = """
+import sys
+from PySide6.QtCore import QSettings, QTimer
+for form in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
+    QSettings.setPath(form, QSettings.Scope.UserScope, sys.argv[2])
+from hexmend_app.shell.start.program import application, open_window
+from hexmend_app.shell.window import Window
+
+def close():
+    for window in application().topLevelWidgets():
+        if isinstance(window, Window) and window.session is not None and window.session.opener.busy:
+            timer.stop()
+            {before}
+            window.close()
+
+application()
+timer = QTimer(interval=100)
+timer.timeout.connect(close)
+timer.start()
+sys.exit(open_window(sys.argv[1]))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes")
+@pytest.mark.parametrize("before", ["pass", "window.session.opener.cancel()"], ids=["while it reads", "after Cancel"])
+def test_the_process_ends_with_its_window_although_a_file_does_not_respond(qapp, tmp_path, before):
+    os.mkfifo(tmp_path / "dead.vtk")
+    program = PROGRAM.replace("{before}", before)
+    words = [sys.executable, "-c", program, str(tmp_path / "dead.vtk"), str(tmp_path / "settings")]
+    ended = subprocess.run(words, capture_output=True, text=True, timeout=100)
+    assert ended.returncode == 0, ended.stderr
+    assert "closed while threads were running: reading dead.vtk" in ended.stderr

@@ -1,19 +1,21 @@
 """The window as a whole: content, layout and errors."""
 
-from __future__ import annotations
-
 import sys
+from collections import Counter
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QLineEdit, QTabBar, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.picture.colours import Range
+from hexmend_app.shell.keys import name_of
+from hexmend_app.shell.keys_page import KeysPage
 from hexmend_app.shell.start.program import report_unexpected_errors
-from tests.app.driving import key, named, pixels
-from tests.patience import PATIENCE
+from tests.app.driving import named, pixels
 
 
 def test_an_opened_mesh_is_shown_with_its_figures(window):
@@ -32,12 +34,13 @@ def test_an_opened_mesh_is_shown_with_its_figures(window):
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
 def test_nothing_is_cut_off(window, qtbot, size):
     window.resize(*size)
-    qtbot.waitUntil(lambda: window.width() == size[0], timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.width() == size[0])
     for panel in ("run", "look", "cut", "show", "histogram", "quality"):
         window.show_panel(panel)
         window.refresh()
         QApplication.processEvents()
         assert cut_off(window) == [], panel
+        assert not any(bar.usesScrollButtons() for bar in window.findChildren(QTabBar) if bar.parent() is window)
     window.show_panel("look")
     window.show_panel("histogram")
     width = window.docks.centre.width()
@@ -72,23 +75,6 @@ def test_unexpected_errors_are_shown(window, monkeypatch):
 
 
 @pytest.mark.slow
-def test_messages_and_the_colour_bar_do_not_change_the_layout(window, qtbot):
-    canvas, bar = window.canvas, window.canvas.colour_bar
-    before = canvas.interactor.geometry(), bar.geometry()
-    assert canvas.interactor.rect().contains(bar.geometry())
-    window.messages.show_error("The mesh was not saved", "There is no room. " * 20)
-    qtbot.waitUntil(window.messages.isVisible, timeout=PATIENCE)
-    assert (canvas.interactor.geometry(), bar.geometry()) == before
-    assert window.messages.width() <= 560
-    width = canvas.interactor.width()
-    window.resize(1000, 640)
-    qtbot.waitUntil(lambda: canvas.interactor.width() < width, timeout=PATIENCE)
-    qtbot.waitUntil(lambda: canvas.interactor.rect().contains(bar.geometry()), timeout=PATIENCE)
-    key(window, Qt.Key.Key_Escape)
-    assert not window.messages.isVisible()
-
-
-@pytest.mark.slow
 def test_the_view_has_the_focus_when_a_mesh_is_shown(fresh_window):
     view = fresh_window.canvas.interactor
     fresh_window.canvas.hide()
@@ -113,9 +99,76 @@ def test_a_failing_refresh_is_reported_once_and_other_features_are_refreshed(fre
     monkeypatch.setattr(window.features["appearance"], "refresh", fail)
     monkeypatch.setattr(window.features["compare"], "refresh", lambda: later.append(1))
     window.session.selection.changed.emit()
-    qtbot.waitUntil(lambda: len(later) > 0, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(later) > 0)
     for _ in range(50):
         QApplication.processEvents()
     ((_, _, text),) = [message for message in window.messages.messages() if message[0] == "error"]
     assert "one over nothing" in text
     assert len(later) < 5
+
+
+# Mnemonics of menus, and shortcuts of actions, which are unique.
+
+
+def letter(action):
+    """Return the mnemonic of an action, "" if it has none."""
+    return QKeySequence.mnemonic(action.text()).toString()
+
+
+def menus(window):
+    """Return the menu bar and all menus and submenus."""
+    found = [window.menuBar()]
+    for menu in found:
+        found += [action.menu() for action in menu.actions() if action.menu() is not None]
+    return found
+
+
+def test_no_two_actions_have_the_same_keys(window):
+    keys = [action.shortcut().toString() for action in window.findChildren(QAction) if not action.shortcut().isEmpty()]
+    assert [key for key, times in Counter(keys).items() if times > 1] == []
+
+
+def test_every_entry_of_a_menu_has_a_mnemonic(window):
+    shown = menus(window)
+    assert len(shown) > 10
+    for menu in shown:
+        letters = [letter(action) for action in menu.actions() if not action.isSeparator()]
+        assert "" not in letters, menu.title()
+
+
+def test_a_mnemonic_stays_when_the_text_of_an_action_changes(window):
+    before = letter(window.action("undo"))
+    window.session.commands.tag("bad", [7])
+    window.refresh()
+    assert window.action("undo").text() == "&Undo tag"
+    assert letter(window.action("undo")) == before
+
+
+# Keys of VTK do nothing in the view.
+
+
+@pytest.mark.slow
+def test_keys_of_vtk_do_nothing(window):
+    view = window.canvas.interactor
+    view.setFocus()
+    before = pixels(window)
+    for typed in "wsrquj":
+        QTest.keyClicks(view, typed)
+    assert (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() < 0.01
+    assert window.isVisible()
+
+
+# The page of mouse and keys.
+
+
+def test_the_page_lists_every_key_and_can_be_filtered(window, qtbot):
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_F1)
+    page = next(page for page in window.findChildren(KeysPage) if page.isVisible())
+    text = page.text()
+    for declared in window.menus.declared():
+        assert name_of(declared) in text
+        assert declared.keys in text.replace("\xa0", " ")
+    QTest.keyClicks(page.findChild(QLineEdit), "sharp")
+    assert "Sharp edges" in page.text()
+    assert "Open" not in page.text()
+    page.close()

@@ -1,7 +1,5 @@
 """Contrast of colours and of painted texts (WCAG 2.2)."""
 
-from __future__ import annotations
-
 import numpy as np
 from PySide6.QtGui import QImage
 

@@ -1,7 +1,5 @@
 """Icons: those that Hexmend draws can be told apart, and are sharp and legible in both themes."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The style sheet: legible by its colours, complete, and with images that are up to date."""
 
-from __future__ import annotations
-
 import re
 import runpy
 
@@ -71,11 +69,3 @@ def test_images_are_up_to_date():
     folder = draw_controls["FOLDER"]
     stored = {path.relative_to(folder).as_posix(): path.read_text() for path in folder.glob("*/*.svg")}
     assert stored == draw_controls["images"](), "run: python scripts/draw_controls.py"
-
-
-def test_lengths_are_on_a_grid_of_four_pixels():
-    """Padding and border of a framed control add up to a multiple of four at the left and at the right."""
-    body = next(body for selector, body in rules(False) if selector == "QPushButton, QToolButton")
-    border = int(body["border"].partition("px")[0])
-    height, width = (int(length) for length in re.findall(r"(\d+)px", body["padding"]))
-    assert (height + border) % 4 == (width + border) % 4 == int(body["min-height"][:-2]) % 4 == 0

@@ -1,49 +1,35 @@
 """Light and dark theme: legible, complete, switched immediately and stored."""
 
-from __future__ import annotations
+from functools import partial
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QSettings, Qt
-from PySide6.QtGui import QGuiApplication, QImage
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication
 
 from hexmend.quality import measure, summarise
 from hexmend_app.canvas.colour_bar import ColourBar
-from hexmend_app.features.appearance.colour_panel import ColourPanel
-from hexmend_app.features.convergence.curves import Columns, Curve
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.features.cut.cut_panel import CutPanel
-from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_list import WorstList
 from hexmend_app.features.histogram.panel import QualityHistogram
-from hexmend_app.features.open.welcome import Welcome
 from hexmend_app.features.quality.statistics import StatisticsTable
-from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
-from hexmend_app.features.tags.tag_panel import TagPanel
 from hexmend_app.picture import Page, Scene
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
-from hexmend_app.shell.palette.command_palette import CommandPalette
-from hexmend_app.shell.palette.ranking import PaletteEntry
-from hexmend_app.state.mesh.document import State
-from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
-from hexmend_app.state.run.run_setup import RunSetup
-from hexmend_app.state.settings.recent_files import RecentFiles
 from hexmend_app.theme import palette as theme
 from hexmend_app.theme import theme_choice
 from hexmend_app.theme.palette import THEME, Role
 from hexmend_app.theme.style import apply_style
 from hexmend_app.theme.theme_choice import ThemeChoice
-from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.message_bar import MessageBar
-from tests.app.driving import named, pixels, turn
-from tests.app.theme.contrasts import TEXT, contrast
+from tests.app.driving import pixels, turn
+from tests.app.features.convergence.test_panel import curve, record
+from tests.app.theme.contrasts import TEXT, contrast, painted
 from tests.core.grids import grid, scrambled
-from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -70,12 +56,6 @@ def test_the_contrast_agrees_with_wcag():
 @pytest.mark.parametrize(("name", "ground"), PAIRS, ids=[f"{name} {ground.light}" for name, ground in PAIRS])
 def test_every_text_is_legible_on_its_backgrounds(name, ground, dark):
     assert contrast(ROLES[name].of(dark), ground.of(dark)) >= TEXT
-
-
-def smoothing():
-    panel = SmoothingPanel(RunSetup())
-    panel.stage.parameters.set_values({})
-    return panel
 
 
 def histogram():
@@ -108,67 +88,32 @@ def one_element():
     return panel
 
 
-def messages(kind):
+def message(kind):
     bar = MessageBar()
-    {"error": bar.show_error, "warning": bar.show_warning}[kind]("Title", "What happened.")
-    return bar
-
-
-def told():
-    bar = MessageBar()
-    bar.show_info("Done.", 0)
+    getattr(bar, f"show_{kind}")("Title")
     return bar
 
 
 def convergence():
     panel = ConvergencePanel()
-    record = RunRecord("getme", "GETMe", State.of(MESH), None)
-    record.rows = [
-        {"iteration": k, "seconds": 0.1 * k, "objective": 9.0 - k, "q_min": 0.1 * k, "q_mean": 0.5, "inverted": 5 - k}
-        for k in range(4)
-    ]
-    columns = Columns(record)
-    columns.grow()
-    panel.set_curves([Curve(columns, 0, (0.0, 0.0), True, True, False, record.numbers)])
+    panel.set_curves([curve(record("getme", 4))])
     return panel
-
-
-def colours():
-    panel = ColourPanel()
-    line = named(panel, NumberBox, "Minimum value").lineEdit()
-    line.setText("much")
-    line.textEdited.emit("much")
-    return panel
-
-
-def palette():
-    return CommandPalette([PaletteEntry(name="Fit", run=print), PaletteEntry(name="Run", run=print)])
 
 
 BUILT = {
-    "smoothing": smoothing,
-    "colours": colours,
-    "clip": CutPanel,
-    "inside": InsidePanel,
     "histogram": histogram,
     "statistics": statistics,
     "worst": worst,
     "hex": one_element,
-    "error": lambda: messages("error"),
-    "warning": lambda: messages("warning"),
-    "info": told,
+    **{kind: partial(message, kind) for kind in ("error", "warning", "info")},
     "convergence": convergence,
     "colour bar": ColourBar,
-    "welcome": lambda: Welcome(RecentFiles()),
-    "tags": TagPanel,
-    "palette": palette,
 }
 
 
 def seen(widget):
     QApplication.sendPostedEvents()
-    image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
-    return np.array(image.constBits()).reshape(image.height(), -1)[:, : 3 * image.width()].astype(int)
+    return painted(widget).astype(int)
 
 
 @pytest.fixture
@@ -203,7 +148,7 @@ def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     assert THEME.dark
     assert theme_choice.chosen() is ThemeChoice.DARK
     assert QSettings().value("theme") == "dark"
-    qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.dark, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.dark)
     assert (pixels(window)[5, 5] < ground - 100).all()
     now = window.session.document.now
     scene = Scene(page=Page(pixels=(400, 300)))
@@ -213,7 +158,7 @@ def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     assert on == [ThemeChoice.DARK]
     window.window_actions["theme_light"].trigger()
     assert not THEME.dark
-    qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.light, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.light)
     assert (np.abs(pixels(window) - light).sum(axis=2) > 60).mean() < 0.02
 
 

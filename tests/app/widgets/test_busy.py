@@ -1,7 +1,5 @@
 """Progress indicator: the newest of several tasks, each with its own button."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest

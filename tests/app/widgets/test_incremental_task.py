@@ -7,7 +7,6 @@ from PySide6.QtWidgets import QPushButton
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.incremental_task import IncrementalTask
 from tests.app.driving import LEFT
-from tests.patience import PATIENCE
 
 
 class Source:
@@ -55,7 +54,7 @@ def test_all_items_are_computed_and_progress_is_shown(task, busy, signals, qtbot
     task.begin(Source(3).numbers(), lambda count: counts.append(count) or describe(count))
     assert task.going_on
     assert busy.text() == "0 done"
-    qtbot.waitUntil(lambda: not task.going_on, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not task.going_on)
     assert signals == [("finished", [0, 1, 2])]
     assert counts == [0, 1, 2, 3]
     assert busy.isHidden()
@@ -64,7 +63,7 @@ def test_all_items_are_computed_and_progress_is_shown(task, busy, signals, qtbot
 def test_a_task_can_be_cancelled(task, busy, signals, qtbot):
     source = Source(10**9)
     task.begin(source.numbers(), describe)
-    qtbot.waitUntil(lambda: source.taken > 0, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: source.taken > 0)
     cancel = next(one for one in busy.findChildren(QPushButton) if one.text() == "Cancel")
     QTest.mouseClick(cancel, LEFT)
     assert not task.going_on
@@ -76,7 +75,7 @@ def test_a_task_can_be_cancelled(task, busy, signals, qtbot):
 def test_a_failing_item_ends_the_task(task, busy, signals, qtbot):
     source = Source(5, fails_at=2)
     task.begin(source.numbers(), describe)
-    qtbot.waitUntil(lambda: not task.going_on, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not task.going_on)
     assert signals == [("failed", "no 2")]
     assert (source.taken, source.closed) == (2, True)
     assert busy.isHidden()
@@ -85,8 +84,8 @@ def test_a_failing_item_ends_the_task(task, busy, signals, qtbot):
 def test_a_new_task_replaces_the_current_one(task, signals, qtbot):
     first = Source(10**9)
     task.begin(first.numbers(), describe)
-    qtbot.waitUntil(lambda: first.taken > 0, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: first.taken > 0)
     task.begin(Source(2).numbers(), describe)
     assert first.closed
-    qtbot.waitUntil(lambda: not task.going_on, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not task.going_on)
     assert signals == [("finished", [0, 1])]

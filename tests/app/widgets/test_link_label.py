@@ -5,7 +5,6 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.widgets.link_label import LinkLabel
-from tests.patience import PATIENCE
 
 
 def test_a_link_is_followed_by_keys(shown, qtbot):
@@ -13,10 +12,10 @@ def test_a_link_is_followed_by_keys(shown, qtbot):
     QVBoxLayout(panel).addWidget(label)
     label.setText('Hexes: <a href="7">7</a>, <a href="1200">1,200</a>')
     shown(panel, 200, 60)
-    with qtbot.waitActive(panel, timeout=PATIENCE):
+    with qtbot.waitActive(panel):
         panel.activateWindow()
     label.setFocus()
     QTest.keyClick(label, Qt.Key.Key_Tab)  # to the first link
-    with qtbot.waitSignal(label.followed, timeout=PATIENCE) as followed:
+    with qtbot.waitSignal(label.followed) as followed:
         QTest.keyClick(label, Qt.Key.Key_Return)
     assert followed.args == [7]

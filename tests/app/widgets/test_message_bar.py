@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from hexmend_app.widgets.message_bar import MessageBar
 from tests.app.driving import named
-from tests.patience import PATIENCE
 
 _LEFT = Qt.MouseButton.LeftButton
 
@@ -75,7 +74,7 @@ def test_a_repeated_message_is_counted(bar):
 
 def test_results_disappear_after_a_while_and_errors_stay(bar, qtbot):
     bar.show_info("Saved.", timeout_ms=30)
-    qtbot.waitUntil(lambda: not bar.isVisible(), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not bar.isVisible())
     bar.show_error("stays")
     assert bar.isVisible()
     assert not any(timer.isActive() for timer in bar.findChildren(QTimer))

@@ -1,11 +1,12 @@
 """Overlays."""
 
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QSettings, QSize, Qt
+from PySide6.QtCore import QPoint, QPointF, QSize, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from hexmend_app.widgets.overlay import Overlay
+from tests.app.conftest import separate_settings
 from tests.app.driving import turn
 
 _LEFT = Qt.MouseButton.LeftButton
@@ -13,9 +14,8 @@ _LEFT = Qt.MouseButton.LeftButton
 
 @pytest.fixture(autouse=True)
 def own_settings(tmp_path):
-    for kind in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
-        QSettings.setPath(kind, QSettings.Scope.UserScope, str(tmp_path))
-    QSettings().clear()
+    with separate_settings(tmp_path):
+        yield
 
 
 class Below(QWidget):

@@ -117,7 +117,7 @@ class Trace:
         data, points = self._session.comparison.to_data(), state.mesh.points
         results = (one.row for one in data.results if one.state is not None and one.state.mesh.points is points)
         row = next(results, None)
-        if row is None or row.method not in METHODS:
+        if row is None or row.method not in METHODS or data.initial.mesh.points is points:  # which a method may keep
             return None
         method = from_values(METHODS[row.method], row.parameters, owner=row.method)
         until = row.iterations if row.outcome in [outcome.key for outcome in ENDED_BY_TIME] else None

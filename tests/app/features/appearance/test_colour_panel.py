@@ -2,17 +2,20 @@
 
 from html import escape
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel
+from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
+from hexmend.gallery import make
 from hexmend.quality import METRICS, Metric
 from hexmend_app.features.appearance.colour_panel import ColourPanel
+from hexmend_app.features.appearance.feature import FeatureAppearance
 from hexmend_app.picture.colours import Colours, Range
-from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
+from tests.app.hosting import action
 
 _LEFT = Qt.MouseButton.LeftButton
 
@@ -38,28 +41,8 @@ def emitted(panel):
     return scales
 
 
-def metrics(panel):
-    return named(panel, QComboBox, "Metric")
-
-
-def maps(panel):
-    return named(panel, QComboBox, "Colour map")
-
-
-def ranges(panel):
-    return named(panel, Segmented, "Range")
-
-
-def low(panel):
-    return named(panel, NumberBox, "Minimum value")
-
-
-def high(panel):
-    return named(panel, NumberBox, "Maximum value")
-
-
-def reverse(panel):
-    return named(panel, QCheckBox, "Reverse")
+def part(panel, name):
+    return named(panel, QWidget, name)
 
 
 def problem(panel):
@@ -69,7 +52,7 @@ def problem(panel):
 
 
 def press(panel, mode):
-    QTest.mouseClick(ranges(panel).button(mode), _LEFT)
+    QTest.mouseClick(part(panel, "Range").button(mode), _LEFT)
 
 
 def choose(combo, name):
@@ -89,22 +72,22 @@ def type_in(box, text, *, enter=True):
 
 
 def test_every_metric_is_listed_with_its_description(panel):
-    assert metrics(panel).itemData(0) == "q"
+    assert part(panel, "Metric").itemData(0) == "q"
     for name, metric in METRICS.items():
-        at = metrics(panel).findData(name)
-        tip = metrics(panel).itemData(at, Qt.ItemDataRole.ToolTipRole)
+        at = part(panel, "Metric").findData(name)
+        tip = part(panel, "Metric").itemData(at, Qt.ItemDataRole.ToolTipRole)
         assert escape(metric.source) in tip
         assert f"acceptable {metric.acceptable[0]:g} to" in tip
-    tip = metrics(panel).itemData(metrics(panel).findData("long"), Qt.ItemDataRole.ToolTipRole)
+    tip = part(panel, "Metric").itemData(part(panel, "Metric").findData("long"), Qt.ItemDataRole.ToolTipRole)
     assert "1 to ∞" in tip
     assert "Lower is better" in tip
 
 
 def test_each_choice_emits_one_signal(panel, emitted):
-    choose(metrics(panel), "scaled-jacobian")
-    choose(maps(panel), "cividis")
+    choose(part(panel, "Metric"), "scaled-jacobian")
+    choose(part(panel, "Colour map"), "cividis")
     press(panel, "acceptable")
-    QTest.mouseClick(reverse(panel), _LEFT, pos=QPoint(8, reverse(panel).height() // 2))
+    QTest.mouseClick(part(panel, "Reverse"), _LEFT, pos=QPoint(8, part(panel, "Reverse").height() // 2))
     assert emitted == [
         Colours(metric="scaled-jacobian"),
         Colours(metric="scaled-jacobian", map="cividis"),
@@ -116,21 +99,21 @@ def test_each_choice_emits_one_signal(panel, emitted):
 def test_pinning_fixes_the_current_range(panel, emitted):
     press(panel, "fitted")
     panel.set_ends(0.123456, 0.987654)
-    assert not low(panel).isEnabled()
+    assert not part(panel, "Minimum value").isEnabled()
     press(panel, "pinned")
     assert emitted[-1].range == (0.123, 0.988)
     panel.set_ends(0, 1)  # of a later iteration
-    assert (low(panel).value(), high(panel).value()) == (0.123, 0.988)
+    assert (part(panel, "Minimum value").value(), part(panel, "Maximum value").value()) == (0.123, 0.988)
 
 
 def test_a_number_being_typed_emits_no_signal(panel, emitted):
     press(panel, "pinned")
     emitted.clear()
-    type_in(high(panel), "0.35", enter=False)
+    type_in(part(panel, "Maximum value"), "0.35", enter=False)
     panel.set_ends(0.1, 0.2)  # an iteration is drawn meanwhile
-    assert high(panel).lineEdit().text() == "0.35"
+    assert part(panel, "Maximum value").lineEdit().text() == "0.35"
     assert emitted == []
-    QTest.keyClick(high(panel).lineEdit(), Qt.Key.Key_Tab)
+    QTest.keyClick(part(panel, "Maximum value").lineEdit(), Qt.Key.Key_Tab)
     assert [colours.range for colours in emitted] == [(0, 0.35)]
 
 
@@ -138,23 +121,79 @@ def test_invalid_limits_show_an_error_and_stay_as_typed(panel, emitted):
     press(panel, "pinned")
     emitted.clear()
     for text, words in (("2", "the lower value first"), ("1e", "Expected a number"), ("1", "the lower value first")):
-        type_in(low(panel), text)
+        type_in(part(panel, "Minimum value"), text)
         assert words in problem(panel)
-        choose(maps(panel), "plasma")
-        choose(maps(panel), "viridis")
-        assert low(panel).lineEdit().text() == text
+        choose(part(panel, "Colour map"), "plasma")
+        choose(part(panel, "Colour map"), "viridis")
+        assert part(panel, "Minimum value").lineEdit().text() == text
     assert all(colours.range == (0, 1) for colours in emitted)
-    type_in(low(panel), "-1e-1")
+    type_in(part(panel, "Minimum value"), "-1e-1")
     assert emitted[-1].range == (-0.1, 1)
     assert problem(panel) == ""
 
 
 def test_typed_limits_are_remembered_for_their_metric(panel, emitted):
     press(panel, "pinned")
-    type_in(low(panel), "0.25")
-    choose(metrics(panel), "scaled-jacobian")
+    type_in(part(panel, "Minimum value"), "0.25")
+    choose(part(panel, "Metric"), "scaled-jacobian")
     assert emitted[-1].range is Range.FULL
-    choose(metrics(panel), "q")
+    choose(part(panel, "Metric"), "q")
     press(panel, "full")
     press(panel, "pinned")
     assert emitted[-1].range == (0.25, 1)
+
+
+# Colours by material in the panel and the menu, and in files of earlier versions.
+
+
+@pytest.fixture
+def host(hosted):
+    hexes = {"low": np.arange(32), "high": np.arange(32, 64)}
+    host = hosted(make("cube", size=64).replace(hex_sets=hexes))
+    host.feature = FeatureAppearance(host)
+    return host
+
+
+def test_the_menu_switches_between_the_material_and_the_metric_before(host):
+    view, switch = host.session.view, action(host.feature, "colour_by_material")
+    view.colour_by("scaled-jacobian")
+    host.feature.refresh()
+    assert switch.enabled()
+    switch.handle(True)
+    assert (view.look.colours.metric, view.look.colours.range) == ("material", Range.FITTED)
+    assert switch.checked()
+    switch.handle(False)
+    assert view.look.colours.metric == "scaled-jacobian"
+
+
+@pytest.mark.parametrize("range", [Range.FULL, Range.ACCEPTABLE, Range.FITTED, (0.1, 0.5)])
+def test_the_range_is_as_before_after_colours_by_material(host, range):
+    view, switch = host.session.view, action(host.feature, "colour_by_material")
+    view.change(colours={"metric": "q", "range": range})
+    host.feature.refresh()
+    for _ in (1, 2):
+        switch.handle(True)
+        switch.handle(False)
+        assert (view.look.colours.metric, view.look.colours.range) == ("q", range)
+
+
+def test_another_metric_after_the_material_has_a_range_of_its_own(host):
+    view, panel = host.session.view, host.feature.panel
+    view.change(colours={"metric": "q", "range": (0.1, 0.5)})
+    host.feature.refresh()
+    panel.choose_metric("material")
+    panel.choose_metric("scaled-jacobian")
+    assert view.look.colours.range is Range.FULL
+
+
+def test_controls_of_values_are_disabled_for_materials(host):
+    panel = host.feature.panel
+    controls = [named(panel, QComboBox, "Colour map"), named(panel, Segmented, "Range")]
+    panel.choose_metric("material")
+    assert not any(control.isEnabled() for control in controls)
+    panel.choose_metric("q")
+    assert all(control.isEnabled() for control in controls)
+
+
+def test_a_mesh_of_one_material_does_not_offer_the_switch(hosted):
+    assert not action(FeatureAppearance(hosted(make("cube", size=8))), "colour_by_material").enabled()

@@ -1,23 +1,18 @@
 """Appearance in the window: colours and their ranges."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox
 
-from tests.app.driving import key, named, pixels, press, walk_to
-from tests.patience import PATIENCE
+from tests.app.driving import brought, key, named, pixels, press, walk_to
 
 
 @pytest.fixture
-def panel(window):
+def panel(window, qtbot):
     """Return the colour panel, in front."""
-    window.show_panel("look")
-    window.refresh()
-    return window.features["appearance"].panel
+    return brought(window, qtbot, "look", "appearance")
 
 
 def differ(before, after):
@@ -42,7 +37,7 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     assert not low.isEnabled()
     start = window.session.document.now
     key(window, Qt.Key.Key_F10)
-    qtbot.waitUntil(lambda: window.session.document.now is not start, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.document.now is not start)
     window.refresh()
     now = window.session.document.now.figures
     values = now.scaled_jacobian[~now.inverted]

@@ -1,16 +1,14 @@
 """Saved cameras: naming, applying, renaming, deleting, and their use in pictures."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMessageBox, QPushButton
 
-from hexmend_app.picture import Camera, Scene, write_scene
+from hexmend_app.picture import Camera, Scene, camera_from, write_scene
 from hexmend_app.picture.picture_metadata import read_metadata
 from tests.app.driving import open_and_wait
-from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -71,9 +69,9 @@ def test_the_dialog_applies_and_deletes_cameras(window, saved, dialog, qtbot):
     button(dialog, "&Go to").click()
     assert window.canvas.pose == saved["top"]
     button(dialog, "&Delete").click()
-    qtbot.waitUntil(lambda: names(dialog) == ["front & side"], timeout=PATIENCE)
+    qtbot.waitUntil(lambda: names(dialog) == ["front & side"])
     button(dialog, "&Delete").click()
-    qtbot.waitUntil(lambda: not names(dialog), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not names(dialog))
     assert not button(dialog, "&Go to").isEnabled()
     assert window.session.saved_cameras.all == {}
 
@@ -93,11 +91,11 @@ def test_the_dialog_renames(window, saved, dialog, qtbot):
     type_name(dialog, 1, "from above")
     # The list is refilled in the event loop, which closes an editor: wait for it before the next name.
     item_name = Qt.ItemDataRole.UserRole
-    qtbot.waitUntil(lambda: dialog.list.item(1).data(item_name) == "from above", timeout=PATIENCE)
+    qtbot.waitUntil(lambda: dialog.list.item(1).data(item_name) == "from above")
     assert window.session.saved_cameras.all["from above"] == camera
     type_name(dialog, 0, "from above")
     problem = next(one for one in dialog.findChildren(QLabel) if one.accessibleName() == "Error")
-    qtbot.waitUntil(lambda: "already" in problem.text(), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: "already" in problem.text())
     assert names(dialog) == list(window.session.saved_cameras.all) == ["front & side", "from above"]
 
 
@@ -120,3 +118,20 @@ def test_scenes_and_pictures_contain_the_cameras(window, saved, tmp_path, qtbot,
     assert cameras.all == before
     open_and_wait(qtbot, window, mesh_file)
     assert cameras.all == before
+
+
+# Copying and pasting the camera.
+
+
+def test_a_copied_camera_is_pasted_unchanged(window):
+    canvas = window.canvas
+    canvas.roll(20)
+    window.action("parallel").trigger()
+    pose = canvas.pose
+    window.action("copy_camera").trigger()
+    assert camera_from(QGuiApplication.clipboard().text()).pose == pose
+    canvas.look_along("+x")
+    window.action("parallel").trigger()
+    assert canvas.pose != pose
+    window.action("paste_camera").trigger()
+    assert canvas.pose == pose

@@ -1,7 +1,5 @@
 """The table of the comparison, driven by the mouse."""
 
-from __future__ import annotations
-
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton, QTableView, QWidget
@@ -10,8 +8,7 @@ from hexmend.report.comparison import LINES
 from hexmend.run import StoppingCriteria
 from hexmend_app.canvas.view_captions import CaptionRow
 from hexmend_app.features.compare.comparison_table import METHOD
-from tests.app.driving import LEFT, choose, named
-from tests.patience import PATIENCE
+from tests.app.driving import LEFT, named
 
 COLUMN = {quantity.key: at for at, quantity in enumerate(LINES, 2)}
 
@@ -50,14 +47,6 @@ def choose_methods(window, *names):
     for name in sorted(model(window).ticks ^ set(names)):
         tick(window, name, METHOD)
     assert model(window).ticks == set(names)
-
-
-def prepared(window, qtbot):
-    """Return the window with the panel in front and short runs."""
-    window.show_panel("compare")
-    choose(window, "mend", SHORT)
-    qtbot.waitUntil(window.features["compare"].panel.isVisible, timeout=PATIENCE)
-    return window
 
 
 def captions(window):

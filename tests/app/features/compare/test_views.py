@@ -1,16 +1,16 @@
 """Results of a comparison in views side by side, by mouse and keys."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton
 
+from hexmend_app.canvas.wipe_handle import WipeHandle
 from hexmend_app.features.compare.comparison_table import VIEW, title_of
+from hexmend_app.features.side_views.feature import STEP
 from hexmend_app.picture.cut import Cut
-from tests.app.driving import LEFT, drag, key, pixels, press, seen_at
+from tests.app.driving import drag, key, pixels, press, seen_at
 from tests.app.features.compare.table import captions, model, row, tick
 
 
@@ -54,35 +54,6 @@ def test_one_view_is_closed_by_its_button_and_all_by_a_key(compared):
 
 
 @pytest.mark.slow
-def test_a_drag_rotates_all_views_and_a_click_selects_a_hex_in_all(compared, qtbot):
-    tick(compared, "getme", VIEW)
-    canvas, view = compared.canvas, compared.canvas.interactor
-    canvas.draw_still()
-    before = pixels(compared)
-    half = before.shape[1] // 2
-    right = QPoint(view.width() * 3 // 4, view.height() // 2)
-    drag(view, right, right + QPoint(60, 20))
-    canvas.draw_still()
-    after = pixels(compared)
-    for part in (after[:, :half] - before[:, :half], after[:, half:] - before[:, half:]):
-        assert (np.abs(part).max(axis=2) > 40).mean() > 0.02
-    assert compared.session.selection.hex is None
-    QTest.mouseClick(view, LEFT, pos=right)
-    compared.refresh()
-    chosen = compared.session.selection.hex
-    assert chosen is not None
-    for one in canvas.panes.all:
-        assert one.overlay_layers.selection.hex == chosen
-        np.testing.assert_allclose(
-            one.overlay_layers.selection.highlight.edges.lines.points,
-            one.frame.mesh.points[one.frame.mesh.hexes[chosen]],
-            rtol=1e-6,
-        )
-    tick(compared, "laplacian", VIEW)
-    assert canvas.panes.all[2].overlay_layers.selection.hex == chosen
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("arranged", ["side by side", "wipe", "wipe, the mesh at the right"])
 def test_a_plane_dragged_in_the_first_view_cuts_all_views(compared, qtbot, arranged):
     tick(compared, "getme", VIEW)
@@ -104,3 +75,32 @@ def test_a_plane_dragged_in_the_first_view_cuts_all_views(compared, qtbot, arran
     compared.refresh()
     first, second = compared.canvas.panes.all
     assert second.shown == first.shown != before
+
+
+# The wipe: two results in one view with an edge to drag.
+
+
+@pytest.mark.slow
+def test_the_wipe_is_switched_and_moved_by_mouse_and_keys(compared, qtbot):
+    tick(compared, "getme", VIEW)
+    tick(compared, "laplacian", VIEW)
+    key(compared, Qt.Key.Key_W)
+    wipe, handle = compared.session.side_views.wipe, compared.findChild(WipeHandle)
+    assert (wipe.left, wipe.right, wipe.at) == (0, 2, 0.5)
+    assert handle.isVisible()
+    assert captions(compared) == []
+    width = compared.canvas.interactor.width()
+    knob = handle.rect().center()
+    drag(handle, knob, knob + QPoint(-width // 5, 0), steps=1)
+    assert compared.session.side_views.wipe.at == pytest.approx(0.3, abs=0.01)
+    assert handle.geometry().center().x() == pytest.approx(0.3 * width, abs=3)
+    at = compared.session.side_views.wipe.at
+    key(compared, Qt.Key.Key_BracketRight)
+    assert compared.session.side_views.wipe.at == pytest.approx(at + STEP)
+    handle.setFocus()
+    QTest.keyClick(handle, Qt.Key.Key_Left)
+    compared.refresh()
+    assert compared.session.side_views.wipe.at == pytest.approx(at)
+    key(compared, Qt.Key.Key_W)
+    assert captions(compared) == ["now", title_of("getme"), title_of("laplacian")]
+    assert not handle.isVisible()

@@ -1,14 +1,11 @@
 """The console: commands run in a thread, change the mesh as an edit, and can be interrupted."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
 from hexmend_app.features.console.interpreter import is_complete
 from hexmend_app.features.console.panel import ConsolePanel
-from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -21,7 +18,7 @@ def console(window, qtbot):
     def enter(source):
         qtbot.keyClicks(feature.panel.input, source)
         qtbot.keyClick(feature.panel.input, Qt.Key.Key_Return)
-        qtbot.waitUntil(lambda: not feature.running, timeout=PATIENCE)
+        qtbot.waitUntil(lambda: not feature.running)
         return feature.panel.output.toPlainText()
 
     feature.enter_and_wait = enter
@@ -71,10 +68,10 @@ def test_another_topology_is_drawn_and_undone(window, console):
 def test_an_endless_loop_can_be_interrupted(window, console, qtbot):
     qtbot.keyClicks(console.panel.input, r"exec('print(\'begun\')\nwhile True: pass')")
     qtbot.keyClick(console.panel.input, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: "\nbegun\n" in console.panel.output.toPlainText(), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: "\nbegun\n" in console.panel.output.toPlainText())
     assert console.running
     qtbot.keyClick(console.panel.input, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
-    qtbot.waitUntil(lambda: not console.running, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not console.running)
     assert "KeyboardInterrupt" in console.panel.output.toPlainText()
     assert "\n2\n" in console.enter_and_wait("1 + 1")
 
@@ -82,9 +79,9 @@ def test_an_endless_loop_can_be_interrupted(window, console, qtbot):
 @pytest.mark.slow
 def test_an_endless_print_is_shown_and_interrupted(console, qtbot):
     console.run("while True: print('again')")
-    qtbot.waitUntil(lambda: console.panel.output.blockCount() > 1000, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: console.panel.output.blockCount() > 1000)
     console.interrupt()
-    qtbot.waitUntil(lambda: not console.running, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not console.running)
     assert "KeyboardInterrupt" in console.panel.output.toPlainText()
 
 

@@ -2,13 +2,18 @@
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtTest import QTest
 
+from benchmarks.window.windows import end_run
 from hexmend.run import StoppingCriteria, iterate
 from hexmend.smoothers import METHODS
 from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.curves import Columns, Curve, run_start
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
+from hexmend_app.state.run.run_controller import Phase
+from tests.app.driving import LEFT, brought, choose, click, phase, press, smooth
 from tests.core.grids import grid, scrambled
 
 START = State.of(scrambled(grid(4), 0.4))
@@ -72,3 +77,76 @@ def test_a_branch_begins_where_it_left_its_parent():
     assert curve.nearest(5.6, by_time=False) == 1
     assert curve.nearest(-3, by_time=False) == 0
     assert curve.nearest(curve.x(by_time=True)[2] + 1, by_time=True) == 2
+
+
+# Convergence charts in the window.
+
+
+@pytest.fixture
+def panel(window, qtbot):
+    return brought(window, qtbot, "convergence")
+
+
+def run(window, qtbot, method="local-sd", iterations=8):
+    smooth(qtbot, window.session, method, iterations)
+    window.refresh()
+    return window.session.run.record
+
+
+def click_at(panel, key, x):
+    plot = panel.plots[key]
+    at = plot.plot.mapFromScene(plot.view.mapViewToScene(QPointF(x, sum(plot.view.viewRange()[1]) / 2)))
+    QTest.mouseClick(plot.plot.viewport(), LEFT, Qt.KeyboardModifier.NoModifier, at)
+
+
+def test_a_click_in_a_chart_selects_the_iteration_and_moves_the_marker(window, qtbot, panel):
+    record = run(window, qtbot)
+    assert len(panel.curves[0].columns) == 9
+    click_at(panel, "inverted", 3)
+    qtbot.waitUntil(lambda: window.session.timeline.shown_iteration.number == 3)
+    window.refresh()
+    assert window.session.document.previews
+    assert panel.plots["inverted"].marker.value() == 3
+    window.session.timeline.go(record, 6)
+    window.refresh()
+    assert panel.plots["objective"].marker.value() == 6
+
+
+@pytest.mark.slow
+def test_branches_start_where_they_left_or_at_zero_and_are_deleted(window, qtbot, panel):
+    first = run(window, qtbot)
+    window.session.timeline.go(first, 4)
+    second = run(window, qtbot, "laplacian", 3)
+    starts = {one.record: one.start[0] for one in panel.curves}
+    assert starts == {first: 0, second: 4}
+    assert {one.record: one.current for one in panel.curves} == {first: False, second: True}
+    panel.head.from_zero.trigger()
+    assert [one.start[0] for one in panel.curves] == [0, 0]
+    slots = {one.record: one.slot for one in panel.curves}
+    press(panel.legend.rows[first].cross)
+    assert [one.record for one in panel.curves] == [second]
+    third = run(window, qtbot, "getme", 2)
+    assert {one.record: one.slot for one in panel.curves} == {second: slots[second], third: slots[first]}
+    box = panel.legend.rows[third].box
+    QTest.keyClick(box, Qt.Key.Key_Space)
+    assert [one.shown for one in panel.curves] == [True, False]
+
+
+@pytest.mark.slow
+def test_charts_are_redrawn_during_a_run_by_a_timer(window, qtbot, panel):
+    drawn = []
+    original = panel.set_curves
+    panel.set_curves = lambda curves: (drawn.append(len(curves[0].columns) if curves else 0), original(curves))
+    choose(window, "local-sd", StoppingCriteria(max_iterations=100_000, tolerance=0))
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.RUNNING))
+    qtbot.waitUntil(lambda: len(drawn) > 0)
+    drawn.clear()
+    for _ in range(20):
+        window.refresh()
+    assert len(drawn) <= 1
+    qtbot.waitUntil(lambda: len(drawn) >= 6)
+    assert drawn == sorted(drawn)
+    assert drawn[-1] > drawn[0]
+    end_run(window.session)
+    qtbot.waitUntil(lambda: drawn[-1] == window.session.run.record.newest + 1)

@@ -4,17 +4,18 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel
 
 from hexmend_app.features.convergence.charts import CHARTS
+from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
 from hexmend_app.features.convergence.curves import Columns, Curve
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.features.convergence.point_texts import describe
+from hexmend_app.features.convergence.point_texts import describe, reason_if_blank, titled
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import RecordedIteration, RunRecord
-from tests.app.driving import move, turn
+from tests.app.driving import LEFT, drag, turn
 from tests.core.grids import grid
 
-LEFT = Qt.MouseButton.LeftButton
 START = State.of(grid(2))
 
 
@@ -83,16 +84,6 @@ def test_invalid_hexes_have_a_curve_in_the_chart_of_inverted_ones(panel):
     assert describe(plot.chart, [mended], 3, by_time=False).startswith("mend 3: inverted 10, invalid 7")
 
 
-def test_the_default_charts_are_drawn_below_one_another_with_one_axis(panel):
-    assert [plot.chart.key for plot in panel.drawn] == ["objective", "quality", "inverted"]
-    tops = [plot.mapTo(panel, QPoint(0, 0)).y() for plot in panel.drawn]
-    assert tops == sorted(tops)
-    assert len({tuple(plot.view.viewRange()[0]) for plot in panel.drawn}) == 1
-    low, high = panel.drawn[0].view.viewRange()[0]
-    assert low < 0
-    assert high > 20
-
-
 def test_a_logarithmic_axis_has_a_position_for_zero_and_infinity_is_a_gap(panel):
     inverted, objective = panel.plots["inverted"], panel.plots["objective"]
     heights = inverted.heights(np.array([100.0, 10.0, 0.0]))
@@ -127,26 +118,18 @@ def test_every_chart_can_be_drawn_alone(panel):
 def test_a_click_goes_to_the_iteration_of_the_current_run_or_of_the_curve_it_hits(panel):
     emitted = []
     panel.picked.connect(lambda record, number: emitted.append((record.name, number)))
-    QTest.mouseClick(*args(place(panel, "objective", 4.2)))
     y = panel.plots["quality"].heights(BOTH[1].columns.of("q_min"))[5]
-    QTest.mouseClick(*args(place(panel, "quality", 13.0, y)))
+    for where in (("objective", 4.2), ("quality", 13.0, y)):
+        widget, at = place(panel, *where)
+        QTest.mouseClick(widget, LEFT, pos=at)
     assert emitted == [("getme", 4), ("local-sd", 5)]
-
-
-def args(where):
-    widget, at = where
-    return widget, LEFT, Qt.KeyboardModifier.NoModifier, at
 
 
 def test_a_drag_selects_iterations_of_one_run(panel):
     emitted = []
     panel.picked.connect(lambda record, number: emitted.append((record.name, number)))
-    widget, start = place(panel, "inverted", 2)
-    _, end = place(panel, "inverted", 18)
-    QTest.mousePress(widget, LEFT, pos=start)
-    for k in range(1, 9):
-        move(widget, start + (end - start) * (k / 8), LEFT)
-    QTest.mouseRelease(widget, LEFT, pos=end)
+    (widget, start), (_, end) = (place(panel, "inverted", x) for x in (2, 18))
+    drag(widget, start, end)
     numbers = [number for _, number in emitted]
     assert {name for name, _ in emitted} == {"getme"}
     assert numbers == sorted(numbers)
@@ -227,17 +210,6 @@ def test_runs_are_hidden_and_deleted_in_the_legend(panel):
     assert not panel.head.save.isEnabled()
 
 
-def test_runs_are_listed_above_the_charts_in_a_narrow_panel(panel):
-    def at_side():
-        return panel.side.mapTo(panel, QPoint(0, 0)).x() > panel.plotting.mapTo(panel, QPoint(0, 0)).x()
-
-    assert at_side()
-    panel.resize(330, 300)
-    turn()
-    assert not at_side()
-    assert panel.plotting.width() > 250
-
-
 def test_axes_change_seldom_during_a_run(panel):
     growing = record("getme", 200)
     rows, growing.rows = growing.rows, growing.rows[:100]
@@ -249,3 +221,39 @@ def test_axes_change_seldom_during_a_run(panel):
         assert high >= count - 1
         spans.add((low, high))
     assert len(spans) < 25
+
+
+# Texts of empty charts.
+
+
+OBJECTIVE, DELTA = CHARTS["objective"], CHARTS["delta"]
+
+
+def of(inverted, name="laplacian", rows=4, **options):
+    """Return a curve with a constant number of inverted hexes, and an objective if it is 0."""
+    return curve(record(name, rows, objective=None if inverted else 5.0, inverted=inverted), **options)
+
+
+@pytest.mark.parametrize(("inverted", "text"), [(1, "1 inverted hex"), (40, "40 inverted hexes")])
+def test_charts_report_an_infinite_objective(inverted, text):
+    assert reason_if_blank(OBJECTIVE, [of(inverted)]) == f"The objective is infinite: {text}."
+    assert "infinite" in reason_if_blank(OBJECTIVE, [of(inverted, rows=1)])  # before the first iteration too
+    assert titled(OBJECTIVE, [of(inverted)], "") == "objective: infinite for laplacian while hexes are inverted"
+
+
+def test_reasons_are_unreported_quantities_and_deselected_runs():
+    assert reason_if_blank(DELTA, [of(0)]) == "The method does not report its delta."
+    assert reason_if_blank(DELTA, [of(0), of(0)]) == "No run reports its delta."
+    assert reason_if_blank(DELTA, [of(0, rows=1)]) == ""  # it may report it later
+    assert reason_if_blank(OBJECTIVE, [of(0, shown=False)]) == "No run selected."
+
+
+def test_the_reason_is_shown_in_the_chart_until_there_is_a_curve(shown):
+    plot = shown(ConvergencePlot(OBJECTIVE), 400, 120)
+    label = next(one for one in plot.findChildren(QLabel) if one.accessibleName().startswith("Why the chart"))
+    plot.draw([of(40)], False, True)
+    assert "40 inverted hexes" in label.text()
+    assert label.isVisible()
+    assert plot.plot.rect().contains(label.geometry())
+    plot.draw([of(0)], False, True)
+    assert label.text() == ""

@@ -6,23 +6,17 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
-from hexmend import io
 from hexmend.boundary import NodeClass
 from hexmend.boundary.marking import marked_segments
-from hexmend.iteration import StoppingCriteria
-from hexmend.smoothers import METHODS
-from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import key, open_and_wait, phase
+from tests.app.driving import key, open_mesh
 from tests.core.boundary.solids import ball
-from tests.patience import PATIENCE
 
 
 @pytest.fixture
 def ends(window, qtbot, tmp_path):
     """Open a ball, and return two distant nodes of its smooth boundary."""
     mesh = ball(4)
-    io.write(tmp_path / "ball.mesh", mesh)
-    open_and_wait(qtbot, window, tmp_path / "ball.mesh")
+    open_mesh(qtbot, window, tmp_path / "ball.mesh", mesh)
     on = np.flatnonzero(mesh.topology.boundary)
     return [int(on[end(mesh.points[on][:, 0])]) for end in (np.argmin, np.argmax)]
 
@@ -50,6 +44,7 @@ def test_edges_between_two_selected_nodes_are_marked_and_shown_among_the_kinds_o
     assert len(marked(window)) > 4
     assert set(ends) <= set(marked(window).ravel().tolist())
     assert window.session.view.look.structure.is_on("kinds")
+    assert re.search(rf"with_curve\(\w+, \({ends[0]}, ", window.features["script"].text)
     nodes, counts = np.unique(marked(window), return_counts=True)
     classifier = window.session.boundary_classifier
 
@@ -58,7 +53,7 @@ def test_edges_between_two_selected_nodes_are_marked_and_shown_among_the_kinds_o
         classes = classifier.of(before)
         return classes is not None and (classes.kinds[nodes[counts == 2]] == NodeClass.CURVE).all()
 
-    qtbot.waitUntil(on_the_curve, timeout=PATIENCE)
+    qtbot.waitUntil(on_the_curve)
 
 
 @pytest.mark.slow
@@ -77,23 +72,3 @@ def test_marks_are_undone_redone_and_removed(window, ends):
     window.refresh()
     window.action("unmark_all_curves").trigger()
     assert not len(marked(window))
-
-
-@pytest.mark.slow
-def test_iterations_and_results_of_runs_have_the_marks(window, qtbot, ends):
-    window.session.run.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=2, keep_last=True))
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    mark(window, ends)
-    expected = marked(window)
-    timeline = window.session.timeline
-    for number in (0, 2, 1):
-        timeline.go(timeline.record, number)
-        np.testing.assert_array_equal(marked(window), expected)
-
-
-@pytest.mark.slow
-def test_the_script_marks_the_same_edges(window, ends):
-    mark(window, ends)
-    text = window.features["script"].text
-    assert "from hexmend.boundary.marking import with_curve" in text
-    assert re.search(rf"with_curve\(\w+, \({ends[0]}, ", text)

@@ -1,18 +1,28 @@
 """Cuts in the window, by mouse and keys."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
-from hexmend import io
 from hexmend_app.picture import Cut
 from hexmend_app.picture.cut import CutStyle
-from tests.app.driving import LEFT, drag, key, move, named, open_and_wait, pixels, press, seen_at, tick
-from tests.core.grids import grid
+from tests.app.driving import (
+    LEFT,
+    drag,
+    key,
+    move,
+    named,
+    open_and_wait,
+    open_mesh,
+    pixels,
+    press,
+    seen_at,
+    smooth,
+    tick,
+)
+from tests.core.grids import grid, scrambled
 
 
 def moving(window):
@@ -47,20 +57,6 @@ def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot):
     key(window, Qt.Key.Key_C)
     assert window.session.view.look.cut == Cut()
     assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
-
-
-@pytest.mark.slow
-def test_the_plane_is_dragged_in_the_view(window, qtbot):
-    key(window, Qt.Key.Key_C)
-    choose(window, "Z")
-    window.canvas.draw_still()
-    before = window.session.view.look.cut
-    x, y, z = before.planes[0].point
-    place = seen_at(window, (x + 3, y - 3, z))  # on the plane, next to its arrow
-    drag(window.canvas.interactor, place, place + QPoint(0, -60))
-    after = window.session.view.look.cut
-    assert after.planes[0].point[2] > z
-    assert window.features["cut"].panel.cut() == after
 
 
 @pytest.mark.slow
@@ -123,8 +119,7 @@ def test_the_sphere_is_moved_and_resized_in_the_view(window, qtbot):
 
 @pytest.mark.slow
 def test_handles_are_hidden_while_a_small_part_of_the_mesh_is_isolated(window, qtbot, tmp_path):
-    io.write(tmp_path / "bar.vtu", grid(9, 1, 1))
-    open_and_wait(qtbot, window, tmp_path / "bar.vtu")
+    open_mesh(qtbot, window, tmp_path / "bar.vtu", grid(9, 1, 1))
     key(window, Qt.Key.Key_C)
     for hexes, shown in (((3,), False), ((1, 2, 3, 4), True), ((6,), False), ((0, 8), True)):
         window.session.view.isolate(hexes)
@@ -136,8 +131,8 @@ def test_handles_are_hidden_while_a_small_part_of_the_mesh_is_isolated(window, q
     assert window.canvas.plane.widget.GetEnabled()
 
 
-@pytest.mark.slow
-def test_a_dragged_plane_is_released_where_the_pointer_leaves_the_view(window, qtbot):
+def press_plane(window):
+    """Press the mouse on a horizontal plane and begin a drag; return the view, the place and the height before."""
     key(window, Qt.Key.Key_C)
     choose(window, "Z")
     window.canvas.draw_still()
@@ -146,9 +141,16 @@ def test_a_dragged_plane_is_released_where_the_pointer_leaves_the_view(window, q
     move(view, place)
     QTest.mousePress(view, LEFT, pos=place)
     move(view, place + QPoint(0, -20), LEFT)
+    return view, place, z
+
+
+@pytest.mark.slow
+def test_a_dragged_plane_is_released_where_the_pointer_leaves_the_view(window, qtbot):
+    view, place, z = press_plane(window)
     move(view, QPoint(place.x(), -5), LEFT)
     left = window.session.view.look.cut
     assert left.planes[0].point[2] > z
+    assert window.features["cut"].panel.cut() == left
     camera = window.canvas.viewport.camera.GetPosition()
     for _ in range(3):
         move(view, place + QPoint(0, 40), LEFT)
@@ -158,18 +160,38 @@ def test_a_dragged_plane_is_released_where_the_pointer_leaves_the_view(window, q
     QTest.mouseRelease(view, LEFT, pos=place)
 
 
+# Cuts by whole hexes made before the mesh moved: scenes, pictures and sessions restore the same hexes.
+
+
+CUT = Cut.at((1, 0.3, 0), (2.1, 2.0, 2.0))
+
+
+@pytest.fixture
+def moved(window, qtbot, tmp_path):
+    """Cut and then smooth a mesh; return a mask of the visible hexes, which differ from those of a new cut."""
+    open_mesh(qtbot, window, tmp_path / "mesh.vtu", scrambled(grid(4), 0.9))
+    window.session.view.set_cut(CUT)
+    window.refresh()
+    kept = window.canvas.viewport.kept()
+    smooth(qtbot, window.session)
+    window.refresh()
+    np.testing.assert_array_equal(window.canvas.viewport.kept(), kept)
+    window.features["save"].save_and_wait(tmp_path / "mesh.vtu")
+    return kept
+
+
 @pytest.mark.slow
-def test_a_dragged_plane_is_released_when_another_window_receives_the_release(window, qtbot):
-    key(window, Qt.Key.Key_C)
-    choose(window, "Z")
-    window.canvas.draw_still()
-    view, (x, y, z) = window.canvas.interactor, window.session.view.look.cut.planes[0].point
-    place = seen_at(window, (x + 3, y - 3, z))
-    move(view, place)
-    QTest.mousePress(view, LEFT, pos=place)
-    move(view, place + QPoint(0, -20), LEFT)
-    before = window.session.view.look.cut
-    assert before.planes[0].point[2] > z
-    move(view, place + QPoint(0, 40))  # no button is pressed
-    move(view, place)
-    assert window.session.view.look.cut == before
+def test_pictures_and_sessions_restore_the_cut_hexes(window, moved, qtbot, tmp_path):
+    assert window.features["save"].picture(tmp_path / "p.png", (200, 150))
+    assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")
+    for name in ("p.png", "work.hexmend"):
+        open_and_wait(qtbot, window, tmp_path / "mesh.vtu")
+        window.session.view.set_cut(CUT)
+        window.refresh()
+        assert (window.canvas.viewport.kept() != moved).any()
+        open_and_wait(qtbot, window, tmp_path / name)
+        window.refresh()
+        np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)
+    window.session.view.set_cut(CUT)  # a new cut
+    window.refresh()
+    assert (window.canvas.viewport.kept() != moved).any()

@@ -1,46 +1,34 @@
 """The panel Inside by mouse and keys, and its effect in the window."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton, QSlider, QSpinBox
 
-from hexmend import gallery, io
+from hexmend import gallery
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Isolate, Show
-from hexmend_app.shell.start.program import application
 from hexmend_app.widgets.inputs.slider_box import SliderBox
-from tests.app.driving import LEFT, named, open_and_wait
-from tests.patience import PATIENCE
+from tests.app.driving import LEFT, named, open_mesh
 
-PEEL, SHRINK, RINGS = "Peel layers", "Shrink hexes", "Rings around isolated hexes"
+PEEL, RINGS = "Peel layers", "Rings around isolated hexes"
 BUTTONS = ("Show all", "Show last", "Show hidden")
 
 
 @pytest.fixture
-def panel(qtbot):
-    application()
+def panel(shown):
     panel = InsidePanel()
-    qtbot.addWidget(panel)
     panel.set_layers(4)
-    panel.resize(330, panel.sizeHint().height())
-    with qtbot.waitActive(panel, timeout=PATIENCE):
-        panel.show()
-        panel.activateWindow()
-    return panel
+    return shown(panel, 330)
 
 
 @pytest.fixture
 def window(window, qtbot, tmp_path):
     """Return the window with an inverted mesh of several layers."""
-    io.write(tmp_path / "cube.vtu", gallery.make("cube", size=1000, scramble=0.3, seed=1))
-    open_and_wait(qtbot, window, tmp_path / "cube.vtu")
-    window.refresh()
+    open_mesh(qtbot, window, tmp_path / "cube.vtu", gallery.make("cube", size=1000, scramble=0.3, seed=1))
     return window
 
 
@@ -48,12 +36,6 @@ def faces(window):
     """Return the hexes of the drawn faces."""
     window.refresh()
     return window.canvas.viewport.mesh_layer.faces.hexes
-
-
-def shown(window):
-    """Return the text of the panel about the number of hexes shown."""
-    window.refresh()
-    return window.features["cut"].inside.shown.text()
 
 
 def type_into(box, text):
@@ -139,6 +121,6 @@ def test_in_large_meshes_only_visible_hexes_are_shrunk(window, qtbot, monkeypatc
     assert set(faces(window)) == set(np.flatnonzero(layers == 0))
     boundary = np.count_nonzero(window.session.document.now.mesh.topology.face_neighbours < 0)
     assert len(faces(window)) == boundary  # without their sides, until the view rests
-    qtbot.waitUntil(lambda: len(faces(window)) == 6 * np.count_nonzero(layers == 0), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(faces(window)) == 6 * np.count_nonzero(layers == 0))
     window.session.view.change(show={"peel": 2})
     assert set(faces(window)) <= set(np.flatnonzero(layers >= 2))

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QLabel, QPushButton
+from PySide6.QtWidgets import QPushButton
 
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.state.mesh.document import State
-from tests.app.driving import press
-from tests.patience import PATIENCE
+from tests.app.driving import press, texts
 
 
 def unmerged():
@@ -24,29 +23,25 @@ def panel(window, qtbot):
     window.session.document.replace(State.of(unmerged()), None)
     window.show_panel("doctor")
     panel = window.features["doctor"].panel
-    qtbot.waitUntil(panel.isVisible, timeout=PATIENCE)
+    qtbot.waitUntil(panel.isVisible)
     window.refresh()
-    qtbot.waitUntil(lambda: len(buttons(panel, "Repair")) == 2, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(repairs(panel)) == 2)
     return panel
 
 
-def buttons(panel, text):
-    return [one for one in panel.findChildren(QPushButton) if one.text() == text and one.isVisible()]
-
-
-def texts(panel):
-    return " ".join(label.text() for label in panel.findChildren(QLabel) if label.isVisible())
+def repairs(panel):
+    """Return the buttons that repair."""
+    return [one for one in panel.findChildren(QPushButton) if one.text() == "Repair" and one.isVisible()]
 
 
 def test_findings_are_listed_with_their_locations(window, panel):
-    assert "Left-handed hexes" in texts(panel)
-    assert "blocks that are not merged" in texts(panel)
-    assert "Hexes 27, 28, 29" in texts(panel)
+    shown = " ".join(texts(panel))
+    assert all(text in shown for text in ("Left-handed hexes", "blocks that are not merged", "Hexes 27, 28, 29"))
 
 
 def repair(qtbot, session, button):
     """Press a button that repairs, and wait until the mesh is repaired."""
-    with qtbot.waitSignal(session.repairer.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.repairer.ended):
         press(button)
 
 
@@ -54,11 +49,11 @@ def repair(qtbot, session, button):
 def test_each_finding_is_repaired_by_a_click_and_undone(window, panel, qtbot):
     session = window.session
     before = session.document.now.mesh
-    repair(qtbot, session, buttons(panel, "Repair")[0])
+    repair(qtbot, session, repairs(panel)[0])
     assert session.document.now.summary.inverted == 0
     assert session.document.undo_title == "repair left-handed hexes"
-    qtbot.waitUntil(lambda: len(buttons(panel, "Repair")) == 1, timeout=PATIENCE)
-    repair(qtbot, session, buttons(panel, "Repair")[0])
+    qtbot.waitUntil(lambda: len(repairs(panel)) == 1)
+    repair(qtbot, session, repairs(panel)[0])
     assert session.document.now.mesh.n_nodes == 2 * 64 - 16
     session.commands.undo()
     session.commands.undo()
@@ -72,7 +67,7 @@ def test_changes_on_reading_are_remembered(window, panel):
     mesh = unmerged().replace(notes=("8 hexes were renumbered.",))
     window.session.document.replace(State.of(mesh), None)
     window.refresh()
-    assert "Changed on reading: 8 hexes were renumbered." in texts(panel)
+    assert "Changed on reading: 8 hexes were renumbered." in " ".join(texts(panel))
     window.session.document.replace(State.of(unmerged()), None)
     window.refresh()
-    assert "Changed on reading" not in texts(panel)
+    assert "Changed on reading" not in " ".join(texts(panel))

@@ -1,13 +1,10 @@
 """Undo and redo in the window, by keys."""
 
-from __future__ import annotations
-
 import numpy as np
 from PySide6.QtCore import Qt
 
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import click, key, phase
-from tests.patience import PATIENCE
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
 
@@ -15,9 +12,9 @@ CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftM
 def test_keys_undo_and_redo_a_run(window, qtbot):
     start = window.session.document.now
     click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.PAUSED))
     click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     after = window.session.document.now
     assert after is not start
     key(window, Qt.Key.Key_Z, CONTROL)

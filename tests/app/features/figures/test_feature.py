@@ -17,7 +17,6 @@ from hexmend_app.features.figures.versions import versions_of
 from hexmend_app.picture import read_scene
 from tests.app.driving import LEFT
 from tests.app.features.timeline.test_feature import stepped
-from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -33,13 +32,13 @@ def test_the_set_contains_the_opened_the_current_and_the_compared_meshes(window,
     end_run(window.session)
     comparison = window.session.comparison
     comparison.start([METHODS["laplacian"](), METHODS["getme"]()], StoppingCriteria(max_iterations=3))
-    qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not comparison.busy)
     names = [name for name, *_ in versions_of(window.session)]
     assert names == ["initial", "Local steepest descent", "Laplacian", "GETMe, simultaneous"]
     window.session.view.colour_by("q-change")
     window.refresh()
     window.window_actions["figure_set"].trigger()
-    qtbot.waitUntil(lambda: not window.features["figures"].going_on, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not window.features["figures"].going_on)
     assert "Figure set saved" in " ".join(window.messages.messages()[-1])
     parts = {path.stem for path in folder.glob("*.png")}
     assert parts == {"surface", "cut", "distributions", "convergence"}
@@ -94,7 +93,7 @@ def test_each_step_of_a_report_is_named_and_the_report_can_be_cancelled(window, 
     assert not page.exists()
     texts.clear()
     window.window_actions["report"].trigger()
-    qtbot.waitUntil(lambda: not window.features["figures"].going_on, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not window.features["figures"].going_on)
     parts = ("opposite side", "surface", "cut", "distributions")  # there is no run that converges
     drawing = [f"Drawing figure {number} of 4: {part}…" for number, part in enumerate(parts, 1)]
     assert texts == [*drawing, f"Writing {page.name}…"]

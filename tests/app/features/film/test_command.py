@@ -56,6 +56,7 @@ def test_a_film_that_needs_too_much_memory_is_refused(mesh_file, tmp_path, monke
     assert not (tmp_path / "run.gif").exists()
 
 
+@pytest.mark.slow
 def test_an_mp4_film_plays(mesh_file, tmp_path):
     av = pytest.importorskip("av")
     path = tmp_path / "run.mp4"
@@ -102,6 +103,7 @@ def _frames(path):
     return np.array(frames), durations
 
 
+@pytest.mark.slow
 def test_the_mesh_before_the_run_stays_next_to_it(mesh_file, tmp_path):
     path = tmp_path / "run.webp"
     run = ["--method", "laplacian", "--max-iterations", "3", "--size", "640x300", "--keep-last"]
@@ -113,6 +115,7 @@ def test_the_mesh_before_the_run_stays_next_to_it(mesh_file, tmp_path):
     assert abs(left[-1] - right[-1]).max() > 100
 
 
+@pytest.mark.slow
 def test_a_film_can_begin_with_its_result(mesh_file, tmp_path, capsys):
     path = tmp_path / "run.gif"
     run = ["--method", "laplacian", "--max-iterations", "3", "--size", "640x300", "--rate", "10"]
@@ -124,6 +127,7 @@ def test_a_film_can_begin_with_its_result(mesh_file, tmp_path, capsys):
     assert (frames[0] != frames[1]).any()
 
 
+@pytest.mark.slow
 def test_the_boundary_slides_on_the_surface_of_an_option(tmp_path, capsys):
     write_stl(tmp_path / "fine.stl", skin_of(ball(8)))
     io.write(tmp_path / "ball.vtu", slid(ball(3), 0.3))

@@ -13,7 +13,6 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.film.film_page import FilmPage
 from tests.app.driving import LEFT, named, turn
 from tests.app.features.timeline.test_feature import stepped
-from tests.patience import PATIENCE
 
 
 @pytest.fixture(autouse=True)
@@ -53,7 +52,7 @@ def test_a_film_shows_the_run_as_in_the_view(window, qtbot, tmp_path, monkeypatc
     monkeypatch.setattr(
         window.busy, "show_work", lambda owner, text, *others: (texts.append(text), show(owner, text, *others))
     )
-    qtbot.waitUntil(lambda: not window.features["film"].going_on, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not window.features["film"].going_on)
     assert texts == [*(f"Drawing frame {k} of 6…" for k in range(1, 7)), f"Writing {path.name}…"]
     assert "6 frames" in " ".join(window.messages.messages()[-1])
     with Image.open(path) as film:

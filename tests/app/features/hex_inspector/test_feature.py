@@ -1,19 +1,14 @@
 """Selection of hexes and nodes in the window, by mouse and keys."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QLabel
+from PySide6.QtWidgets import QCheckBox
 
-from benchmarks.window.windows import save_and_wait
-from hexmend import io
-from tests.app.driving import LEFT, choose, click, drag, key, open_and_wait
+from tests.app.driving import LEFT, drag, key, open_mesh, smooth, texts
 from tests.core.boundary.solids import slid
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 
 def centre(window):
@@ -48,7 +43,7 @@ def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot)
     worst = window.session.selection.hex
     assert worst == window.features["hex_inspector"].worst_list.hexes[0]
     middle = window.session.document.now.mesh.points[window.session.document.now.mesh.hexes[worst]].mean(axis=0)
-    qtbot.waitUntil(lambda: np.allclose(camera.GetFocalPoint(), middle), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: np.allclose(camera.GetFocalPoint(), middle))
     assert not np.allclose(before, middle)
     key(window, Qt.Key.Key_N)
     key(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
@@ -63,8 +58,7 @@ def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot)
 
 @pytest.mark.slow
 def test_a_boundary_node_pinned_by_key_does_not_slide(window, qtbot, tmp_path):
-    io.write(tmp_path / "slid.vtu", slid(grid(4), 0.3, seed=3))
-    open_and_wait(qtbot, window, tmp_path / "slid.vtu")
+    open_mesh(qtbot, window, tmp_path / "slid.vtu", slid(grid(4), 0.3, seed=3))
     mesh = window.session.document.now.mesh
     middle = (grid(4).points == (2, 2, 4)).all(axis=1)  # of the top
     node = int(np.flatnonzero(middle)[0])
@@ -79,16 +73,11 @@ def test_a_boundary_node_pinned_by_key_does_not_slide(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ShiftModifier)
     assert pin.isChecked()
     assert window.window_actions["pin"].isChecked()
-    labels = window.features["hex_inspector"].panel.findChildren(QLabel)
-    assert any(f"Node {node}: boundary, pinned" in label.text() for label in labels)
-    choose(window, "mend", boundary="slide")
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
+    assert any(f"Node {node}: boundary, pinned" in text for text in texts(window.features["hex_inspector"].panel))
+    smooth(qtbot, window.session, "mend", boundary="slide")
     moved = (window.session.document.now.mesh.points != mesh.points).any(axis=1)
     assert moved[mesh.topology.boundary].sum() > 20
     assert not moved[node]
-    save_and_wait(window.session, tmp_path / "pinned.vtu")
-    assert io.read(tmp_path / "pinned.vtu").pinned[node]
     window.session.commands.undo()
     window.session.commands.undo()
     window.refresh()
@@ -111,3 +100,22 @@ def test_ctrl_click_hides_a_hex_and_backspace_shows_it(window, qtbot):
     assert window.session.view.look.show.hidden == {first}
     key(window, Qt.Key.Key_Backspace)
     assert not window.session.view.look.show.hidden
+
+
+# Pinning all nodes outside the isolated hexes and the rings around them.
+
+
+@pytest.mark.slow
+def test_only_the_isolated_region_is_free_until_undo(window):
+    session = window.session
+    mesh = session.document.now.mesh
+    session.view.isolate([40], 1)
+    window.refresh()
+    assert window.window_actions["free_isolated"].isEnabled()
+    window.window_actions["free_isolated"].trigger()
+    expected = np.zeros(mesh.n_nodes, dtype=bool)
+    expected[mesh.hexes[mesh.topology.hexes_around([40], 1)]] = True
+    np.testing.assert_array_equal(session.document.now.mesh.free, expected & mesh.free)
+    assert session.document.undo_title == "free a region"
+    session.commands.undo()
+    np.testing.assert_array_equal(session.document.now.mesh.free, mesh.free)

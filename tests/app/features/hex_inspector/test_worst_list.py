@@ -13,7 +13,6 @@ from hexmend_app.features.hex_inspector.worst_list import WorstList
 from hexmend_app.features.hex_inspector.worst_model import ID
 from hexmend_app.state.mesh.worst_hexes import MAX_LISTED
 from tests.core.grids import grid, scrambled
-from tests.patience import PATIENCE
 
 MESH = scrambled(grid(11), 0.7, 4)
 FIGURES = measure(MESH.points, MESH.hexes)
@@ -84,7 +83,7 @@ def test_invalid_hexes_are_listed_before_valid_ones_of_lower_quality(worst_list)
 
 def test_a_click_on_a_row_selects_its_hex(worst_list, qtbot):
     viewport, place = row_at(worst_list, 2)
-    with qtbot.waitSignal(worst_list.chosen, timeout=PATIENCE) as chosen:
+    with qtbot.waitSignal(worst_list.chosen) as chosen:
         QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
     assert chosen.args == [worst_list.hexes[2]]
 
@@ -121,7 +120,7 @@ def test_the_saved_list_reads_back(worst_list, tmp_path):
 
 
 def test_keyboard_focus_alone_selects_nothing(worst_list, qtbot):
-    with qtbot.waitActive(worst_list, timeout=PATIENCE):
+    with qtbot.waitActive(worst_list):
         worst_list.activateWindow()
     selected = []
     worst_list.chosen.connect(selected.append)

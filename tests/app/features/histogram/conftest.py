@@ -10,7 +10,6 @@ from PySide6.QtTest import QTest
 from hexmend_app.features.histogram.panel import QualityHistogram
 from tests.app.driving import LEFT, move, turn
 from tests.app.features.histogram.mouse import point_at
-from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -49,7 +48,7 @@ def drag(histogram, announced, qtbot):
             for share in np.linspace(0, 1, 12)[1:]:
                 move(viewport, QPointF(start) + QPointF(end - start) * float(share), LEFT)
         QTest.mouseRelease(viewport, LEFT, pos=points[-1])
-        qtbot.waitUntil(lambda: announced[-1:] == [histogram.range()], timeout=PATIENCE)
+        qtbot.waitUntil(lambda: announced[-1:] == [histogram.range()])
 
     return drag_through
 

@@ -1,6 +1,8 @@
 """Axis of the histogram, for every metric."""
 
+import csv
 import math
+import xml.etree.ElementTree as ET
 from itertools import cycle
 
 import numpy as np
@@ -9,9 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.errors import ParameterError
+from hexmend.gallery import make
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import distribute
+from hexmend_app.features.histogram.histogram_file import write_histogram
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
 from tests.core.grids import grid, scrambled
@@ -93,3 +98,58 @@ def test_a_range_to_the_end_of_the_metric_tolerates_rounding():
     assert within(np.array([1.0, np.inf]), none[:2], Show((2, np.inf), "condition")).tolist() == [False, True]
     with pytest.raises(ParameterError, match="lower number first"):
         Show((0.5, 0.4), "q")
+
+
+# Export of the histogram as a picture and as CSV.
+
+
+BLUE = "#0072b2"
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return make("cube", size=1000, scramble=0.2, seed=1)
+
+
+def rows(path):
+    return list(csv.reader(path.read_text().splitlines()))
+
+
+@pytest.mark.parametrize("log", [False, True])
+def test_a_tall_bar_of_inverted_hexes_is_broken_and_labelled_in_the_figure(mesh, tmp_path, log):
+    for inverted, broken in ((invert(mesh, 990), True), (invert(mesh, 3), False)):
+        path = tmp_path / "figure.svg"
+        write_histogram(path, "title", "q", [("now", BLUE, True, inverted)], log=log)
+        ET.parse(path)
+        count = measure(inverted.points, inverted.hexes).n_inverted
+        assert (f">{count:,}<" in path.read_text()) == broken
+
+
+def invert(mesh, count):
+    """Return a mesh with the first `count` hexes inverted."""
+    hexes = mesh.hexes.copy()
+    hexes[:count] = hexes[:count][:, [4, 5, 6, 7, 0, 1, 2, 3]]
+    return Mesh(mesh.points, hexes)
+
+
+def counted(mesh, folder, bins=50, cumulative=False):
+    path = folder / "counts.csv"
+    write_histogram(path, "title", "q", [("now", BLUE, True, mesh)], bins=bins, cumulative=cumulative)
+    return rows(path)
+
+
+def test_the_csv_has_a_line_for_each_cell(mesh, tmp_path):
+    lines = counted(mesh, tmp_path)
+    assert lines[0] == ["q from", "q to", "now"]
+    assert lines[1] == ["inverted", "inverted", str(measure(mesh.points, mesh.hexes).n_inverted)]
+    assert len(lines) == 2 + 50
+    assert sum(int(row[2]) for row in lines[1:]) == mesh.n_hexes
+
+
+def test_the_axis_fits_the_first_mesh(mesh, tmp_path):
+    path = tmp_path / "volume.csv"
+    flat = mesh.with_points(mesh.points * [1, 1, 0.01])
+    write_histogram(path, "title", "volume", [("at the start", BLUE, True, mesh), ("now", BLUE, True, flat)])
+    edges = [row[0] for row in rows(path)]
+    write_histogram(path, "title", "volume", [("at the start", BLUE, True, mesh)])
+    assert [row[0] for row in rows(path)] == edges

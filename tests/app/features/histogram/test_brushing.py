@@ -9,7 +9,6 @@ from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
 from tests.app.driving import LEFT, move
 from tests.app.features.histogram.mouse import ends, point_at
-from tests.patience import PATIENCE
 
 
 def test_dragging_over_the_plot_brushes_the_range_under_it(histogram, announced, drag, data):
@@ -82,11 +81,11 @@ def test_numbers_are_typed_in_any_notation(histogram, announced, condition, qtbo
         box.selectAll()
         QTest.keyClicks(box, text)
         QTest.keyClick(box, Qt.Key.Key_Return)
-        qtbot.waitUntil(lambda number=number: len(announced) == number, timeout=PATIENCE)
+        qtbot.waitUntil(lambda number=number: len(announced) == number)
     expected = [(2.5, np.inf), (2.5, 4.0), (2.5, np.inf)]
     assert announced == [Show(ends, "condition") for ends in expected]
     QTest.keyClick(histogram.range_row.high, Qt.Key.Key_Down)  # from infinity back to the axis
-    qtbot.waitUntil(lambda: announced[-1].high == histogram.axis.high, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: announced[-1].high == histogram.axis.high)
     box = histogram.range_row.low
     box.selectAll()
     QTest.keyClicks(box, "1e-")
@@ -105,7 +104,7 @@ def test_a_click_on_a_bar_shows_only_its_hexes(histogram, announced, data, qtbot
     assert announced == []
     inside = view.mapViewToScene(QPointF(sum(bar) / 2, 1.0)).toPoint()
     QTest.mouseClick(viewport, LEFT, pos=inside)
-    qtbot.waitUntil(lambda: len(announced) == 1, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(announced) == 1)
     shown = within(values, inverted, announced[0])
     low, high = (histogram.axis.low + end * (histogram.axis.high - histogram.axis.low) for end in bar)
     assert shown.sum() > 0

@@ -1,10 +1,10 @@
 """Panel of the histogram: tooltips, legend, controls and layout."""
 
 import numpy as np
+import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from tests.app.driving import LEFT, turn
 
@@ -21,16 +21,6 @@ def test_the_tooltip_has_the_counts_at_the_start_and_now(histogram, data):
     bar = histogram.describe_at(sum(Axis("q").inverted) / 2)
     assert bar == f"inverted\nat the start: {inverted.sum()} hexes\nnow: 0 hexes"
     assert histogram.describe_at(-0.05) == histogram.describe_at(1.01) == ""
-
-
-def test_inverted_hexes_have_a_separate_bar_for_every_metric(histogram):
-    values, inverted = np.linspace(1.0, 1.4, 2000), np.arange(2000) % 4 == 0
-    for name in METRICS:
-        histogram.set_metric(name)
-        histogram.set_initial(values, inverted)
-        histogram.set_current(values, inverted)
-        assert histogram.describe_at(sum(histogram.axis.inverted) / 2).endswith("now: 500 hexes")
-        assert "inverted" in dict(histogram.axis.ticks()).values()
 
 
 def test_the_number_of_bins_is_set_in_the_menu(histogram, data):
@@ -77,3 +67,41 @@ def test_the_line_below_counts_hexes_that_are_invalid_inside(histogram, data):
     assert histogram.summary.text() == "2,000 hexes, 0 inverted"
     histogram.set_current(data[0], np.zeros(2000, bool), 2)
     assert histogram.summary.text() == "2,000 hexes, 0 inverted · 2 invalid inside"
+
+
+# Heights of the bars of the histogram, on both scales.
+
+
+@pytest.mark.parametrize("scale", ["linear", "log"])
+def test_the_largest_count_is_visible_on_both_scales(histogram, scale):
+    QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
+    for count in (10, 900, 50):
+        q = np.concatenate([np.full(count, 0.5), [0.1]])
+        histogram.set_initial(q, np.zeros(len(q), bool))
+        histogram.set_current(q, np.zeros(len(q), bool))
+        low, high = histogram.plot.plot.viewRange()[1]
+        height = float(histogram.plot.heights.of(histogram.series()[0].distribution, count))
+        assert low < height < high
+        assert (height - low) / (high - low) > 0.35
+
+
+def test_there_is_an_axis_if_all_hexes_are_inverted(histogram):
+    histogram.set_initial(np.zeros(50), np.ones(50, bool))
+    histogram.set_current(np.zeros(50), np.ones(50, bool))
+    assert histogram.plot.heights.top > 0
+    assert histogram.plot.numbers["now"][0].toPlainText() == "50"
+
+
+@pytest.mark.parametrize("scale", ["linear", "log"])
+def test_cumulative_shares_begin_with_inverted_hexes_and_end_at_100_percent(histogram, data, scale):
+    q, inverted = data
+    QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
+    histogram.head.cumulative.trigger()
+    histogram.set_current(*data)
+    share = 100 * (inverted.sum() + np.count_nonzero(~inverted & (q < 0.52))) / 2000
+    text = histogram.describe_at(0.511)
+    assert text.startswith("inverted, or q(H) up to 0.52\n")
+    assert f"now: {share:.4g} %, " in text
+    assert "now: 100 %, 2,000 hexes" in histogram.describe_at(0.99)
+    histogram.head.cumulative.trigger()
+    assert not histogram.describe_at(0.511).startswith("inverted, or")

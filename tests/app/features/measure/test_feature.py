@@ -1,7 +1,5 @@
 """Measuring in the window, by mouse and keys."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt

@@ -1,35 +1,25 @@
 """Display of the displacement in the window."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
-from hexmend import gallery, io
-from hexmend.run import StoppingCriteria
-from hexmend.smoothers import METHODS
-from hexmend_app.picture.appearance import Since
 from hexmend_app.picture.colours import Range
 from hexmend_app.picture.cut import Cut
-from tests.app.driving import open_and_wait, pixels
+from tests.app.driving import brought, named, pixels, smooth
 from tests.app.driving import press as press_button
-from tests.patience import PATIENCE
 
 
 @pytest.fixture
 def panel(window, qtbot):
-    window.show_panel("movement")
-    qtbot.waitUntil(window.features["movement"].panel.isVisible, timeout=PATIENCE)
-    return window.features["movement"].panel
+    return brought(window, qtbot, "movement")
 
 
 @pytest.fixture
 def record(window, qtbot):
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        window.session.run.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=6, tolerance=0))
+    smooth(qtbot, window.session, "laplacian", 6)
     return window.session.run.record
 
 
@@ -37,10 +27,9 @@ def press(segmented, key):
     press_button(segmented.button(key))
 
 
-def text_of(panel, name):
-    """Return the text of the label with this name."""
+def arrows_text(panel):
     panel.window().refresh()
-    return next(label.text() for label in panel.findChildren(QLabel) if label.accessibleName() == name)
+    return named(panel, QLabel, "Number of arrows").text()
 
 
 def go(window, record, number):
@@ -77,9 +66,9 @@ def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     press(panel.arrows, "all")
     layer = window.canvas.viewport.overlay_layers.arrows
     assert (layer.drawn, layer.moved) == (free, free)
-    assert text_of(panel, "Number of arrows") == f"{free:,} arrows, true length."
+    assert arrows_text(panel) == f"{free:,} arrows, true length."
     press(panel.arrows, "sight")
-    assert text_of(panel, "Number of arrows") == "No visible node has moved."
+    assert arrows_text(panel) == "No visible node has moved."
     window.session.view.set_cut(Cut.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
     window.session.view.set_handles(False)
     window.refresh()
@@ -90,32 +79,7 @@ def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     QTest.keyClick(panel.factor, Qt.Key.Key_Return)
     assert window.session.view.look.movement.factor == 4
     window.refresh()
-    assert text_of(panel, "Number of arrows").endswith("4 × true length.")
+    assert arrows_text(panel).endswith("4 × true length.")
     assert (pixels(window) != before).any()
     go(window, record, 0)
-    assert text_of(panel, "Number of arrows") == "No visible node has moved."
-
-
-@pytest.fixture
-def mesh_to_invert(window, qtbot, tmp_path):
-    """Open a mesh in which Laplacian smoothing inverts valid hexes."""
-    io.write(tmp_path / "inverts.vtu", gallery.make("bridge-sharp", size=4000, scramble=0.4, seed=2))
-    open_and_wait(qtbot, window, tmp_path / "inverts.vtu")
-
-
-@pytest.mark.slow
-def test_newly_invalid_hexes_are_isolated(window, mesh_to_invert, record, panel, qtbot):
-    inverted = [record.rows[k]["inverted"] for k in range(len(record.rows))]
-    for number in range(1, len(inverted)):
-        go(window, record, number)
-        press(panel.since, "iteration")
-        movement = window.session.comparison_bases.displacement(Since.ITERATION)
-        assert panel.show_newly.isEnabled() == (movement.counts.newly_invalid > 0)
-        if panel.show_newly.isEnabled():
-            break
-    else:
-        pytest.fail("Laplacian smoothing of this mesh inverts no hex in any iteration")
-    press_button(panel.show_newly)
-    isolated = window.session.view.look.show.isolate.hexes
-    assert window.session.document.now.figures.invalid[list(isolated)].all()
-    assert len(isolated) == movement.counts.newly_invalid
+    assert arrows_text(panel) == "No visible node has moved."

@@ -1,7 +1,5 @@
 """Window that shows the step of a node."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import Qt
 

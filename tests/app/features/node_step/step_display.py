@@ -1,7 +1,5 @@
 """Access to the display of a node's step in a window."""
 
-from __future__ import annotations
-
 from html import unescape
 
 import numpy as np
@@ -9,7 +7,6 @@ import pyqtgraph as pg
 from PySide6.QtWidgets import QAbstractButton, QCheckBox, QLabel
 
 from tests.app.driving import named
-from tests.patience import PATIENCE
 
 
 def shown_step(window):
@@ -30,8 +27,7 @@ def wait_for_step(window, qtbot, method, node=None):
             shown_step(window) is not None
             and shown_step(window).method == method
             and shown_step(window).node == (window.session.selection.node if node is None else node)
-        ),
-        timeout=PATIENCE,
+        )
     )
     window.refresh()
     return shown_step(window)
@@ -59,4 +55,4 @@ def texts(window):
 
 
 def wait_for_text(window, qtbot, text):
-    qtbot.waitUntil(lambda: text in texts(window), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: text in texts(window))

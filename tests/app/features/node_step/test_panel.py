@@ -7,6 +7,7 @@ import pytest
 from PySide6.QtWidgets import QLabel
 
 from hexmend.smoothers import METHODS
+from hexmend_app.features.node_step.feature import FeatureNodeStep
 from hexmend_app.features.node_step.panel import NodePanel
 from hexmend_app.features.node_step.step_plot import NodePlot, extent
 from hexmend_app.features.node_step.step_texts import rows
@@ -14,6 +15,7 @@ from hexmend_app.state.node_step import StepStatus, Trial, explain
 from hexmend_app.theme.style import TEXT, WORSE
 from tests.app.driving import named
 from tests.app.features.node_step.step_display import drawn_trials
+from tests.app.hosting import action
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(3), 0.2, 5)
@@ -126,3 +128,33 @@ def test_every_method_is_explained(name):
     assert "Energy" in texts
     assert ("Armijo" in texts) == (name.split("-")[-1] in ("sd", "nr", "mnr"))
     assert ("Target" in texts) == (name in ("laplacian", "smart-laplacian", "getme", "general"))
+
+
+# Choice of the node that is explained; the camera moves to it.
+
+
+@pytest.fixture
+def host(hosted):
+    host = hosted(scrambled(grid(4), 0.3))
+    host.session.selection.rank_by("q")
+    host.visited = []
+    host.session.selection.visited.connect(host.visited.append)
+    return host
+
+
+@pytest.mark.parametrize("chosen", ["nothing", "a hex", "a free node"])
+def test_the_camera_moves_to_the_explained_node(host, chosen):
+    selection, mesh = host.session.selection, host.session.document.now.mesh
+    free = int(np.flatnonzero(mesh.free)[0])
+    around = int((mesh.hexes == free).any(axis=1).argmax())
+    if chosen != "nothing":
+        selection.choose(around, free if chosen == "a free node" else None)
+    action(FeatureNodeStep(host), "explain_node").handle()
+    assert host.fronted == ["node"]
+    assert host.visited == [(selection.hex,)]
+    assert mesh.free[selection.node]
+    assert selection.node in mesh.hexes[selection.hex]
+    if chosen == "a free node":
+        assert (selection.hex, selection.node) == (around, free)
+    elif chosen == "a hex":
+        assert selection.hex == around

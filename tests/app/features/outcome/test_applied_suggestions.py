@@ -15,9 +15,7 @@ from hexmend_app.features.outcome.feature import FeatureOutcome
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import named
-from tests.app.hosting import PlainHost
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 
 def tangled():
@@ -30,17 +28,16 @@ def tangled():
 
 
 @pytest.fixture
-def host(qtbot):
-    host = PlainHost(tangled()[0])
+def host(hosted):
+    host = hosted(tangled()[0])
     host.feature = FeatureOutcome(host)
-    yield host
-    host.session.close()
+    return host
 
 
 def run(host, qtbot):
     session = host.session
     session.commands.run(session.run_setup.stage)
-    qtbot.waitUntil(lambda: session.run.phase is Phase.FINISHED, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: session.run.phase is Phase.FINISHED)
     host.feature.refresh()
 
 

@@ -1,64 +1,60 @@
 """Outcome of a run in the window, by mouse clicks and keys."""
 
+import re
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QPushButton
+from PySide6.QtWidgets import QApplication, QPushButton
 
-from hexmend import gallery, io
+from hexmend import gallery
 from hexmend.iteration import StoppingCriteria
+from hexmend_app.features.outcome.notice import notice
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import choose, click, key, open_and_wait, phase
-from tests.app.driving import press as press_button
+from tests.app.driving import button, click, key, open_mesh, phase, press, run_to_end
+from tests.app.driving import texts as visible_texts
 from tests.core.smoothers.mend.test_mend import with_locked_corner
-from tests.patience import PATIENCE
 
 
 def run(window, qtbot, method, **stop):
     """Run a method by its button, wait for its end and show the panel of the outcome."""
-    choose(window, method, StoppingCriteria(**stop))
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    run_to_end(window, qtbot, method, **stop)
     window.show_panel("outcome")
 
 
 def texts(window):
     window.refresh()
-    return " ".join(
-        label.text() for label in window.features["outcome"].panel.findChildren(QLabel) if label.isVisible()
-    )
+    return " ".join(visible_texts(window.features["outcome"].panel))
 
 
-def button(window, name):
+def choice(window, name):
     """Return a button by its name; deleted buttons are hidden before they disappear."""
     panel = window.features["outcome"].panel
     return next(b for b in panel.findChildren(QPushButton) if b.accessibleName() == name and not b.isHidden())
 
 
-def press(window, name):
+def press_choice(window, name):
     window.refresh()
     QApplication.sendPostedEvents()  # lays out the new buttons
-    assert button(window, name).isVisible()
-    press_button(button(window, name))
+    assert choice(window, name).isVisible()
+    press(choice(window, name))
 
 
 @pytest.fixture
 def locked(window, qtbot, tmp_path):
     """Open a mesh with a hex that its fixed nodes lock, and return the number of the hex."""
     mesh = with_locked_corner(gallery.make("five-side", size=300))
-    io.write(tmp_path / "locked.vtu", mesh)
-    open_and_wait(qtbot, window, tmp_path / "locked.vtu")
+    open_mesh(qtbot, window, tmp_path / "locked.vtu", mesh)
     return int(mesh.topology.node_corners.items[0] // 8)
 
 
 def test_the_key_shows_why_the_run_stopped(window, qtbot):
     assert not window.features["outcome"].panel.isVisible()
-    choose(window, "laplacian", StoppingCriteria(keep_last=True))
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    run_to_end(window, qtbot, "laplacian", keep_last=True)
     key(window, Qt.Key.Key_Y)
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible, timeout=PATIENCE)
+    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
     assert "Why Laplacian stopped" in texts(window)
     assert "no node moved further than 0.0001 mean edge lengths" in texts(window)
     inverted = window.session.document.now.summary.inverted
@@ -69,33 +65,32 @@ def test_the_key_shows_why_the_run_stopped(window, qtbot):
 def test_a_suggestion_is_selected_without_a_run_and_improves_the_mesh(window, qtbot):
     run(window, qtbot, "laplacian", max_iterations=1)
     assert window.session.document.now.summary.inverted > 0
-    press(window, "Select: Mend")
+    press_choice(window, "Select: Mend")
     assert window.session.run_setup.method == "mend"
     assert window.session.run_setup.stage.stop == StoppingCriteria()  # the limit of one iteration is reset
     assert window.features["smooth"].panel.stage.stop.values() == StoppingCriteria().values()
     assert window.session.run.phase is Phase.FINISHED
     click(window, "Run")
-    qtbot.waitUntil(lambda: window.session.run.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.run.busy)
     window.refresh()
-    assert not button(window, "Select: Mend").isEnabled()
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    assert not choice(window, "Select: Mend").isEnabled()
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     assert window.session.document.now.summary.inverted == 0
     assert "Why Mend stopped" in texts(window)
 
 
 @pytest.mark.slow
 def test_a_suggestion_that_undoes_the_run_restores_the_mesh_before_it(window, qtbot, tmp_path):
-    io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=864))
-    open_and_wait(qtbot, window, tmp_path / "sound.vtu")
+    open_mesh(qtbot, window, tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=864))
     start = window.session.document.now.mesh.points
     run(window, qtbot, "laplacian", keep_last=True)
     assert window.session.document.now.summary.inverted > 0
     assert "Worse than at the start: inverted 0 → 12" in texts(window)
-    press(window, "Select: Undo, then Smart Laplacian")
+    press_choice(window, "Select: Undo, then Smart Laplacian")
     np.testing.assert_array_equal(window.session.document.now.mesh.points, start)
     assert window.session.run_setup.method == "smart-laplacian"
     click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     assert window.session.document.now.summary.inverted == 0
 
 
@@ -103,11 +98,57 @@ def test_a_suggestion_that_undoes_the_run_restores_the_mesh_before_it(window, qt
 def test_locked_hexes_are_listed_and_isolated(window, qtbot, locked):
     run(window, qtbot, "mend")
     assert f'<a href="{locked}">{locked}</a>' in texts(window)
-    press(window, "Show the locked hexes")
+    press_choice(window, "Show the locked hexes")
     assert window.session.view.look.show.isolate.hexes == (locked,)
     assert window.session.selection.hex == locked
     key(window, Qt.Key.Key_Escape)
     assert window.session.view.look.show.isolate is None
-    button(window, "Show the locked hexes").setFocus()
-    QTest.keyClick(button(window, "Show the locked hexes"), Qt.Key.Key_Space)
+    choice(window, "Show the locked hexes").setFocus()
+    QTest.keyClick(choice(window, "Show the locked hexes"), Qt.Key.Key_Space)
     assert window.session.view.look.show.isolate is not None
+
+
+# Notice at the end of a run, whatever panel is open.
+
+
+def test_it_says_what_a_run_has_changed_and_undoes_it(window, qtbot):
+    start = window.session.document.now
+    run_to_end(window, qtbot, "mend")
+    title, text = window.messages.title.text(), window.messages.text.text()
+    counts = rf"{start.summary.inverted} → 0 inverted · {start.summary.invalid} → 0 invalid"
+    pattern = rf"{counts} · q min 0\.\d{{3}} · scaled Jacobian min 0\.\d{{3}}"
+    assert re.fullmatch(pattern, title)
+    assert re.fullmatch(r"\d+ iterations · \d+\.\d\d s · Converged.*", text)
+    press(button(window.messages, "Undo"))
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, start.mesh.points)
+    assert not window.messages.isVisible()
+
+
+@pytest.mark.slow
+def test_it_is_removed_when_its_result_is_undone_by_other_means(window, qtbot):
+    run_to_end(window, qtbot, "local-sd", max_iterations=2)
+    window.messages.show_error("Other")
+    assert sorted(kind for kind, *_ in window.messages.messages()) == ["error", "info"]
+    window.action("undo").trigger()
+    window.refresh()
+    assert [title for _, title, _ in window.messages.messages()] == ["Other"]
+    window.action("redo").trigger()
+    window.refresh()
+    assert [title for _, title, _ in window.messages.messages()] == ["Other"]
+
+
+@pytest.mark.slow
+def test_its_undo_leaves_later_changes_alone(window, qtbot):
+    run_to_end(window, qtbot, "local-sd", max_iterations=2)
+    undo = button(window.messages, "Undo")
+    window.session.commands.reset()
+    reset = window.session.document.now
+    press(undo)
+    assert window.session.document.now is reset
+
+
+def test_a_run_that_helps_nothing_keeps_the_mesh_and_says_so():
+    record = SimpleNamespace(result=0, message="Iteration 0 was kept: later ones were worse.")
+    title, text = notice(record, None, None)
+    assert title == "Initial mesh kept: no iteration was better"
+    assert text == record.message

@@ -7,9 +7,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.features.pad.pad_dialog import PadDialog
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.mesh_padder import PaddingChoice
-from tests.app.driving import open_and_wait
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 
 def dented():
@@ -28,7 +26,7 @@ def session(window):
 
 
 def pad(qtbot, session, choice):
-    with qtbot.waitSignal(session.padder.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.padder.ended):
         assert session.commands.pad(choice)
     return session.document.now
 
@@ -51,25 +49,11 @@ def test_the_mesh_is_padded_and_undone(window, session, qtbot, choice):
 
 
 @pytest.mark.slow
-def test_a_padded_mesh_is_kept_by_a_session(window, session, qtbot, tmp_path):
-    before, now = session.document.now, pad(qtbot, session, PaddingChoice())
-    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
-    session.document.replace(before, None)
-    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
-    mesh = session.document.now.mesh
-    np.testing.assert_array_equal(mesh.hexes, now.mesh.hexes)
-    np.testing.assert_array_equal(mesh.points, now.mesh.points)
-    np.testing.assert_array_equal(mesh.side_sets["bottom"], now.mesh.side_sets["bottom"])
-    session.commands.undo()
-    assert session.document.now.mesh.n_hexes == before.mesh.n_hexes
-
-
-@pytest.mark.slow
 def test_a_layer_that_cannot_be_closed_is_reported(window, session, qtbot):
     mesh = session.document.now.mesh.replace(side_sets={"one": np.array([[4, 4]])})
     session.document.replace(State.of(mesh), None)
     before = session.document.now
-    with qtbot.waitSignal(session.padder.failed, timeout=PATIENCE):
+    with qtbot.waitSignal(session.padder.failed):
         session.commands.pad(PaddingChoice("one"))
     assert session.document.now is before
     assert "cannot be closed" in window.messages.text.text()
@@ -103,6 +87,6 @@ def test_the_dialog_offers_what_the_mesh_has(window, session, qtbot, monkeypatch
     window.action("pad").trigger()
     assert not session.padder.busy
     monkeypatch.setattr(PadDialog, "exec", lambda dialog: dialog.where.setCurrentIndex(1) or True)
-    with qtbot.waitSignal(session.padder.ended, timeout=PATIENCE) as ended:
+    with qtbot.waitSignal(session.padder.ended) as ended:
         window.action("pad").trigger()
     assert len(ended.args[0].layer) < 54

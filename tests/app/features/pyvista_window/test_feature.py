@@ -9,7 +9,6 @@ import pyvista as pv
 from hexmend_app.features.pyvista_window.shown_mesh import show_in
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.scene.colour.colouring import OUTSIDE
-from tests.patience import PATIENCE
 
 
 def _cut(window, style, metric):
@@ -31,7 +30,7 @@ def test_the_window_shows_the_colours_and_the_cut_and_its_plane_cuts_more(fresh_
     feature, height = fresh_window.features["pyvista_window"], _cut(fresh_window, CutStyle.SMOOTH, "q")
     fresh_window.action("pyvista_window").trigger()
     (plotter,) = feature.plotters
-    qtbot.waitUntil(lambda: plotter.app_window.windowHandle().isExposed(), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: plotter.app_window.windowHandle().isExposed())
     grid, quality = _drawn(plotter), fresh_window.session.document.now.figures
     assert np.isclose(grid.bounds[5], height)
     assert set(grid["vtkOriginalCellIds"]) == set(np.flatnonzero(fresh_window.canvas.viewport.remaining_after_cut()))

@@ -11,22 +11,17 @@ from hexmend.run import smooth
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
-from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.run_setup import RunSetup
-from hexmend_app.widgets.section import Section
-from tests.app.driving import LEFT, choose, click, key, named, phase, press
-from tests.patience import PATIENCE
+from tests.app.driving import LEFT, brought, choose, key, named, phase, press
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
 
 
 @pytest.fixture
 def panel(window, qtbot):
-    window.show_panel("recipe")
-    qtbot.waitUntil(window.features["recipe"].panel.isVisible, timeout=PATIENCE)
-    return window.features["recipe"].panel
+    return brought(window, qtbot, "recipe")
 
 
 def button(panel, name):
@@ -56,18 +51,6 @@ def said(window):
     """Return the sentence below the buttons of a run."""
     window.refresh()
     return named(window.features["smooth"].panel, QLabel, "Outcome").text()
-
-
-def type_value(window, name, text):
-    """Type a value of the selected method."""
-    panel = window.features["smooth"].panel
-    next(one for one in panel.findChildren(Section) if one.text() == "Parameters").expand()
-    editor = panel.stage.parameters.editor(name).lineEdit()
-    editor.setFocus()
-    editor.selectAll()
-    QTest.keyClicks(editor, text)
-    QTest.keyClick(editor, Qt.Key.Key_Return)
-    window.refresh()
 
 
 def test_a_draft_is_a_sequence_of_stages():
@@ -116,48 +99,13 @@ def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
     seen = set()
     window.session.run.iterated.connect(lambda frame: seen.add(said(window)))
     press(button(panel, "Run recipe"))
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     np.testing.assert_array_equal(window.session.document.now.mesh.points, smooth(mesh, recipe).mesh.points)
     assert [row["method"] for row in window.session.run.record.rows[1:]] == ["getme"] * 3 + ["local-sd"] * 3
     assert window.session.document.undo_title == recipe.title
     assert "Stage 1, GETMe" in said(window)
     key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert window.session.document.now.mesh.points is mesh.points
-
-
-@pytest.mark.slow
-def test_the_active_stage_of_a_paused_recipe_can_be_changed(window, panel, qtbot):
-    add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=2, tolerance=0))
-    add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=3, tolerance=0))
-    choose(window, "laplacian")
-    window.session.run.break_at(Breakpoints(node=free_node(window), move=0.0))
-    press(button(panel, "Run recipe"))
-    qtbot.waitUntil(lambda: paused_after(window, 1), timeout=PATIENCE)
-    window.refresh()
-    assert window.session.run_setup.method == "local-sd"  # the stage at work, not what was shown before
-    for number in (2, 3):
-        click(window, "Resume")
-        qtbot.waitUntil(lambda number=number: paused_after(window, number), timeout=PATIENCE)
-    window.refresh()
-    type_value(window, "p", "4")
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE) as ended:
-        window.session.run.break_at(Breakpoints())
-        click(window, "Resume")
-    assert [(one.stage, one.parameters["p"], one.iterations) for one in ended.args[0].stages] == [
-        (1, 2, 2), (2, 2, 1), (2, 4, 2),
-    ]  # fmt: skip
-    assert [stage.smoother.p for stage in window.session.recipe_draft.stages] == [
-        2,
-        2,
-    ]  # the recipe itself is as it was
-
-
-def free_node(window):
-    return int(np.flatnonzero(window.session.document.now.mesh.free)[0])
-
-
-def paused_after(window, number):
-    return window.session.run.phase is Phase.PAUSED and window.session.run.record.newest == number
 
 
 def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatch):

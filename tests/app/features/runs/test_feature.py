@@ -6,7 +6,6 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtTest import QTest
 
 from hexmend.iteration import StoppingCriteria
-from hexmend.mesh.rules import MotionRules
 from hexmend.smoothers import METHODS
 from hexmend_app.features.runs.dot_delegate import axis_of, place
 from hexmend_app.features.runs.run_table import FIRST, NAME, QUANTITIES, SETTINGS, RunRow, RunTable
@@ -14,7 +13,6 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import BLUE, MUTED
 from tests.app.driving import phase
-from tests.patience import PATIENCE
 
 GIVEN = {"inverted": 0, "invalid": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
 ROW_HELP = "Every other result is worse in at least one key figure."
@@ -24,7 +22,7 @@ def run(window, qtbot, name, stop, **values):
     """Run a method from the mesh at the start."""
     window.session.commands.reset()
     window.session.run.start(METHODS[name](**values), stop)
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     return window.session.timeline.record
 
 
@@ -109,7 +107,7 @@ def test_a_click_shows_the_mesh_at_the_start_even_if_no_run_began_there(window, 
     points[np.flatnonzero(start.mesh.free)[0]] += 1e-3
     session.commands.adopt_positions("move a node", State.of(start.mesh.with_points(points)))
     session.run.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=2))
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     window.show_panel("runs")
     window.refresh()
     click(window, 0)
@@ -122,30 +120,6 @@ def test_a_click_shows_the_mesh_at_the_start_even_if_no_run_began_there(window, 
     assert session.document.now.mesh.hex_sets["new"].tolist() == [1]
     click(window, 1)
     assert session.timeline.shown_iteration.number == session.timeline.record.result
-
-
-@pytest.mark.slow
-def test_runs_that_differ_in_rules_of_motion_alone_have_other_settings(window, qtbot):
-    session, stop = window.session, StoppingCriteria(max_iterations=1)
-    session.commands.tag("a<b", [1, 2])
-    for rules in (MotionRules(), MotionRules(fix=("a<b",))):
-        session.run.start(METHODS["local-sd"](), stop, rules=rules)
-        qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    window.show_panel("runs")
-    window.refresh()
-    assert texts(window, SETTINGS) == ["", "max_iterations=1", "max_iterations=1; fix=a<b"]
-    assert "fix=a&lt;b" in panel(window).model.index(2, NAME).data(Qt.ItemDataRole.ToolTipRole)
-
-
-@pytest.mark.slow
-def test_iterations_that_arrive_leave_the_row_that_was_reached_by_keys(window, three):
-    click(window, 3)
-    table = panel(window).table
-    QTest.keyClick(table, Qt.Key.Key_Up)
-    assert table.currentIndex().row() == 2
-    three[2].rows.append(three[2].rows[-1])
-    window.refresh()
-    assert table.currentIndex().row() == 2
 
 
 def test_the_dots_are_between_the_smallest_and_the_largest_value():

@@ -1,7 +1,5 @@
 """Meshes and pictures saved from the window."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -21,15 +19,13 @@ from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase
-from tests.app.hosting import PlainHost
-from tests.patience import PATIENCE
 
 
 def test_saving_writes_the_displayed_mesh(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_F10)
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.PAUSED))
     window.session.run.stop()
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     window.refresh()
     assert window.isWindowModified()
     assert window.features["save"].save_and_wait(tmp_path / "out.vtk")
@@ -47,24 +43,23 @@ def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot,
     offered = []
     out = str(tmp_path / "out.vtk")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: offered.append(given[3]) or (out, ""))
-    with qtbot.waitSignal(window.session.saver.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.saver.ended):
         window.action("save").trigger()
     assert all(f"(*{suffix})" in offered[0] for suffix in io.writable_suffixes())
     np.testing.assert_array_equal(io.read(out).points, window.session.document.now.mesh.points)
 
 
 @pytest.fixture
-def deck(qtbot, tmp_path):
+def deck(qtbot, hosted, tmp_path):
     """Feature of a host with an open Abaqus deck that has a comment, and its file."""
     path = tmp_path / "deck.inp"
     io.write(path, make("cube", size=27, scramble=0.2))
     path.write_text(f"{path.read_text()}** a comment\n")
-    host = PlainHost(make("cube", size=8))
+    host = hosted(make("cube", size=8))
     feature = FeatureSave(host)
-    with qtbot.waitSignal(host.session.opener.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(host.session.opener.ended):
         host.session.commands.open(path)
-    yield feature, path
-    host.session.close()
+    return feature, path
 
 
 @pytest.mark.parametrize(("button", "kept"), [("Replace coordinates", True), ("Rewrite file", False), ("Cancel", None)])
@@ -79,7 +74,7 @@ def test_saving_in_the_format_of_the_file_asks_whether_to_write_it_anew(deck, qt
 
     monkeypatch.setattr(QMessageBox, "exec", answer)
     feature.ask_mesh()
-    qtbot.waitUntil(lambda: not feature.session.saver.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not feature.session.saver.busy)
     assert proposed[0].endswith("mesh-smoothed.inp")
     assert "are lost" in said[0]
     assert out.exists() is (kept is not None)
@@ -93,7 +88,7 @@ def test_saving_in_another_format_asks_nothing(deck, qtbot, monkeypatch):
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: (str(out), ""))
     monkeypatch.setattr(QMessageBox, "exec", lambda box: pytest.fail(box.text()))
     feature.ask_mesh()
-    qtbot.waitUntil(lambda: not feature.session.saver.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not feature.session.saver.busy)
     assert out.exists()
 
 
@@ -136,7 +131,7 @@ def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypa
     out, said = tmp_path / "out.vtu", []
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: said.append(given[2]) or (str(out), ""))
     window.action("save_visible").trigger()
-    qtbot.waitUntil(lambda: not window.features["save"].visible.going_on, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not window.features["save"].visible.going_on)
     assert said[0].endswith("-visible.vtu")
     corners = mesh.points[mesh.hexes][:, :, 0]
     shown = centres[:, 0] <= middle[0] if style is CutStyle.CRINKLE else corners.min(axis=1) < middle[0]
@@ -155,6 +150,6 @@ def test_only_data_of_the_visible_hexes_is_missed(window, qtbot, tmp_path, tagge
     window.refresh()
     saver = window.features["save"].visible
     saver.save(tmp_path / "out.su2", window.canvas.viewport)
-    qtbot.waitUntil(lambda: not saver.going_on, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not saver.going_on)
     missed = " ".join(text for _, title, text in window.messages.messages() if title == "Some data was not saved")
     assert ("element sets (far)" in missed) is warned

@@ -12,7 +12,6 @@ from hexmend_app.picture import Camera, Page, PicturePanel, Scene, read_scene, w
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 
 @pytest.fixture(autouse=True)
@@ -140,5 +139,5 @@ def test_a_page_too_small_for_its_panels_is_reported(qtbot):
     with pytest.raises(ParameterError, match="too few for 12 panels"):
         draw_page(scene, [subject])
     dialog = made(qtbot, scene, lambda scene: draw_page(scene, [subject]), [""] * 12)
-    qtbot.waitUntil(lambda: bool(said(dialog)), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: bool(said(dialog)))
     assert "too few for 12 panels" in said(dialog)[0]

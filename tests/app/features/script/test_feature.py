@@ -3,24 +3,16 @@
 import pytest
 from PySide6.QtWidgets import QApplication, QFileDialog, QPlainTextEdit, QPushButton
 
-from hexmend.run import StoppingCriteria
-from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import choose, click, named, phase, press
-from tests.patience import PATIENCE
+from tests.app.driving import brought, named, press, run_to_end
 
 
 @pytest.fixture
 def panel(window, qtbot):
-    window.show_panel("script")
-    qtbot.waitUntil(window.features["script"].panel.isVisible, timeout=PATIENCE)
-    return window.features["script"].panel
+    return brought(window, qtbot, "script")
 
 
 def test_the_script_is_shown_copied_and_saved(window, panel, qtbot, tmp_path, monkeypatch):
-    choose(window, "local-sd", StoppingCriteria(max_iterations=2, tolerance=0))
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    window.refresh()
+    run_to_end(window, qtbot, "local-sd", max_iterations=2, tolerance=0)
     text = panel.findChild(QPlainTextEdit).toPlainText()
     assert "mesh_1 = hx.smooth(mesh_0, hx.LocalSteepestDescent(), " in text
     assert "[camera]" in text

@@ -20,7 +20,6 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.tasks.mesh_padder import PaddingChoice
-from tests.patience import PATIENCE
 
 SHORT = StoppingCriteria(max_iterations=6, tolerance=0)
 ENDLESS = StoppingCriteria(max_iterations=100_000, tolerance=0)
@@ -50,23 +49,23 @@ def session(qtbot, path):
 
 
 def open_file(qtbot, session, path):
-    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.opener.ended):
         session.commands.open(path)
 
 
 def save(qtbot, session, path):
-    with qtbot.waitSignal(session.saver.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.saver.ended):
         session.commands.save_in_background(path)
 
 
 def run(qtbot, session, work):
-    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.run.ended):
         (session.commands.run_recipe if isinstance(work, Recipe) else session.commands.run)(work)
 
 
 def pause(qtbot, session, work, iterations):
     session.commands.step(work, iterations)
-    qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED)
 
 
 def executed(qtbot, session, tmp_path):
@@ -90,7 +89,7 @@ def executed(qtbot, session, tmp_path):
 
 def test_edits_and_runs_are_repeated(session, qtbot, tmp_path):
     commands = session.commands
-    with qtbot.waitSignal(session.repairer.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.repairer.ended):
         commands.repair()
     commands.tag("ends", [0, 1, *range(20, 60)])
     commands.free_only([3, 4], 2)
@@ -102,15 +101,15 @@ def test_edits_and_runs_are_repeated(session, qtbot, tmp_path):
     pause(qtbot, session, stage("local-sd", ENDLESS), 3)
     session.run.change(stage("laplacian", ENDLESS))
     session.run.step(2)
-    qtbot.waitUntil(lambda: session.run.record.newest == 5, timeout=PATIENCE)
-    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+    qtbot.waitUntil(lambda: session.run.record.newest == 5)
+    with qtbot.waitSignal(session.run.ended):
         session.run.stop()
     text = executed(qtbot, session, tmp_path)
     assert [text.count(call) for call in ("hx.smooth(", "switch_method(", "Recipe", "hx.read(")] == [1, 1, 0, 1]
 
 
 def test_a_layer_is_laid_again(session, qtbot, tmp_path):
-    with qtbot.waitSignal(session.padder.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.padder.ended):
         session.commands.pad(PaddingChoice())
     assert "hx.pad(mesh_0, " in executed(qtbot, session, tmp_path)
 
@@ -127,7 +126,7 @@ def test_a_branch_starts_from_an_iteration(session, qtbot, tmp_path):
 def test_a_compared_result_and_a_reset(session, qtbot, tmp_path):
     compared = session.comparison
     compared.start([stage("laplacian").smoother], SHORT, MotionRules())
-    qtbot.waitUntil(lambda: not compared.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not compared.busy)
     session.commands.pin(7, True)
     session.commands.adopt_positions("take Laplacian", compared.results[0].state)
     executed(qtbot, session, tmp_path)

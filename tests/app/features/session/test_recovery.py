@@ -1,7 +1,5 @@
 """Recovery of the session of a window that ended unexpectedly."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os
@@ -11,17 +9,14 @@ import subprocess
 import sys
 
 import pytest
-from PySide6.QtWidgets import QPushButton
 
 from hexmend.errors import HexmendError
 from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.session import recovery as recovery_module
 from hexmend_app.state.session import session_data
 from hexmend_app.state.settings.paths import VARIABLE
-from tests.app.driving import open_and_wait, press
-from tests.patience import PATIENCE
+from tests.app.driving import button, open_and_wait, press, smooth
 
 #: A window that smooths a mesh, tells what it has come to once that is kept, and never ends by itself.
 _PROGRAM = """
@@ -66,11 +61,12 @@ def own_state(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def killed(tmp_path, mesh_file, qapp):
+def killed(tmp_path, mesh_file, qapp, monkeypatch):
     """Kill the process of a window during its work; return the points and rows that it had printed."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "XDG_CONFIG_HOME": str(tmp_path / "config")}
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     command = [sys.executable, "-c", _PROGRAM, str(mesh_file)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         told = process.stdout.readline()
         process.send_signal(signal.SIGKILL)
     return json.loads(told)
@@ -81,16 +77,6 @@ def offered(window):
     return [text for _, text, _ in window.messages.messages() if "can be recovered" in text]
 
 
-def choice(window, word):
-    (button,) = (one for one in window.messages.findChildren(QPushButton) if one.text() == word and one.isVisible())
-    return button
-
-
-def run(window, qtbot):
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
-
-
 @pytest.mark.slow
 def test_a_killed_window_is_recovered(killed, fresh_window, qtbot, mesh_file, own_state):
     window, session = fresh_window, fresh_window.session
@@ -98,8 +84,8 @@ def test_a_killed_window_is_recovered(killed, fresh_window, qtbot, mesh_file, ow
     assert offered(window) == [f"{mesh_file.name} can be recovered"]
     (text,) = (text for _, title, text in window.messages.messages() if "recovered" in title)
     assert "with 1 run." in text
-    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
-        press(choice(window, "Recover"))
+    with qtbot.waitSignal(session.opener.ended):
+        press(button(window.messages, "Recover"))
     window.refresh()
     assert hashlib.sha256(session.document.now.mesh.points.tobytes()).hexdigest() == killed["points"]
     assert session.history.records[0].rows == killed["rows"]
@@ -124,7 +110,7 @@ def test_recovery_is_offered_until_discarded(killed, fresh_window, own_state):
     feature.start_autosave()
     fresh_window.action("recover").trigger()
     assert offered(fresh_window)
-    press(choice(fresh_window, "Discard"))
+    press(button(fresh_window.messages, "Discard"))
     feature.close()
     assert list(own_state.iterdir()) == []
 
@@ -139,13 +125,13 @@ def test_a_run_is_recovered_at_its_newest_iteration(fresh_window, qtbot, own_sta
     (written,) = own_state.glob("*/session.hexmend")
     left = shutil.copytree(written, tmp_path / "left.hexmend")
     points = session.run.newest.iteration.points
-    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.run.ended):
         session.run.resume()
     wait_for_run(
         own_state, qtbot, lambda record: len(record.rows) == 11 and record.message == session.run.record.message
     )
     recovery.end()
-    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.opener.ended):
         session.opener.open(left, recovers=True)
     assert (session.document.now.mesh.points == points).all()
     assert session.document.modified
@@ -163,7 +149,7 @@ def wait_for_run(own_state, qtbot, is_written):
         except (ValueError, HexmendError):  # not written yet, or being written
             return False
 
-    qtbot.waitUntil(found, timeout=PATIENCE)
+    qtbot.waitUntil(found)
 
 
 @pytest.mark.slow
@@ -173,8 +159,8 @@ def test_a_closed_window_leaves_no_files(fresh_window, qtbot, own_state, mesh_fi
     recovery.write()
     (own,) = own_state.iterdir()
     assert not (own / "session.hexmend").exists()  # there is nothing to lose yet
-    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
-        run(fresh_window, qtbot)
+    with qtbot.waitSignal(recovery.written):
+        smooth(qtbot, fresh_window.session)
     assert (own / "session.hexmend").exists()
     assert sorted(one.name for one in own.iterdir()) == ["about.json", "lock", "session.hexmend"]
     open_and_wait(qtbot, fresh_window, mesh_file)
@@ -183,15 +169,16 @@ def test_a_closed_window_leaves_no_files(fresh_window, qtbot, own_state, mesh_fi
     assert list(own_state.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_autosave_writes_only_changes(fresh_window, qtbot, own_state):
     session, recovery = fresh_window.session, fresh_window.features["session"].recovery
     recovery.begin()
-    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
-        run(fresh_window, qtbot)
+    with qtbot.waitSignal(recovery.written):
+        smooth(qtbot, fresh_window.session)
     (arrays,) = own_state.glob("*/session.hexmend/arrays")
     before = {one.name: one.stat().st_mtime_ns for one in arrays.iterdir()}
     session.view.change(show={"peel": 1})
-    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
+    with qtbot.waitSignal(recovery.written):
         recovery.write()
     assert {one.name: one.stat().st_mtime_ns for one in arrays.iterdir()} == before
     kept = session_data.read(arrays.parent)
@@ -201,11 +188,11 @@ def test_autosave_writes_only_changes(fresh_window, qtbot, own_state):
 
 
 @pytest.mark.slow
-def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state):
+def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state, monkeypatch):
     recovery = fresh_window.features["session"].recovery
     recovery.begin()
-    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
-        run(fresh_window, qtbot)
+    with qtbot.waitSignal(recovery.written):
+        smooth(qtbot, fresh_window.session)
     program = (
         "from PySide6.QtCore import QCoreApplication\n"
         "from hexmend_app.state.session.recovery import Recovery\n"
@@ -216,24 +203,11 @@ def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state):
         "print(len(recovery.recoverable))\n"
         "recovery.end()\n"
     )
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, env=environment)
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "0\n"
     assert len(list(own_state.iterdir())) == 1
     recovery.end()
-
-
-@pytest.mark.slow
-def test_a_change_during_a_write_is_written_too(fresh_window, qtbot, own_state):
-    run(fresh_window, qtbot)
-    recovery = fresh_window.features["session"].recovery
-    recovery.begin()
-    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
-        recovery.write()
-        fresh_window.session.view.change(show={"peel": 1})
-        recovery.write()
-    (own,) = own_state.iterdir()
-    assert session_data.read(own / "session.hexmend").view.look.show.peel == 1
 
 
 @pytest.mark.slow
@@ -247,14 +221,14 @@ def test_a_failed_write_is_repeated(fresh_window, qtbot, own_state, monkeypatch)
         write_session(*arguments)
 
     monkeypatch.setattr(recovery_module, "write_session", fail_once)
-    run(fresh_window, qtbot)
+    smooth(qtbot, fresh_window.session)
     recovery = fresh_window.features["session"].recovery
     recovery.begin()
-    with qtbot.waitSignal(recovery.failed, timeout=PATIENCE):
+    with qtbot.waitSignal(recovery.failed):
         recovery.write()
 
     def is_written():
         recovery.write()  # as the timer does; nothing has changed since the failure
         return any(own_state.glob("*/session.hexmend"))
 
-    qtbot.waitUntil(is_written, timeout=PATIENCE)
+    qtbot.waitUntil(is_written)

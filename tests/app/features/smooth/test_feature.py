@@ -1,18 +1,22 @@
 """Runs in the window: started, paused, stepped, stopped and reset, by mouse and keys."""
 
-from __future__ import annotations
-
 import threading
 
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QMessageBox
 
 from hexmend.run import StoppingCriteria
+from hexmend.run.recipe import Stage
+from hexmend.smoothers import METHODS
 from hexmend_app.state.run import worker
+from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import choose, click, key, named, phase
+from hexmend_app.state.session import commands
+from hexmend_app.state.settings import settings
+from tests.app.driving import choose, click, key, named, phase, run_to_end, smooth
 from tests.patience import PATIENCE
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
@@ -41,16 +45,16 @@ def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
     window, document = endless, endless.session.document
     start = document.now
     click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
-    qtbot.waitUntil(lambda: document.now is not start, timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.RUNNING))
+    qtbot.waitUntil(lambda: document.now is not start)
     click(window, "Pause")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.PAUSED))
     held = document.now
     click(window, "Step")
-    qtbot.waitUntil(lambda: document.now is not held, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: document.now is not held)
     assert document.now.summary.objective != held.summary.objective or held.summary.objective is None
     click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     window.refresh()
     assert window.isWindowModified()
     assert document.undo_title == "Local steepest descent"
@@ -63,9 +67,7 @@ def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
 @pytest.mark.parametrize("back", [Qt.Key.Key_Z, Qt.Key.Key_R], ids=["undo", "reset"])
 def test_the_outcome_of_a_run_follows_undo_and_redo(window, qtbot, back):
     panel, before = window.features["smooth"].panel, counts(window)
-    choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
-    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
-        click(window, "Run")
+    run_to_end(window, qtbot, "laplacian", tolerance=0.0, max_iterations=3)
     after, said, progress = counts(window), sentence(window), named(panel, QLabel, "Progress").text()
     assert after != before
     assert said
@@ -103,7 +105,7 @@ def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_metho
     assert "when the method is ready" in sentence(window)
     assert not window.action("stop").isEnabled()
     slow_method.set()
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     assert window.session.document.now is before
     assert window.session.document.undo_title is None
     assert "Stopped" in sentence(window)
@@ -119,7 +121,7 @@ def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_metho
 def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatch):
     window = fresh_window
     click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.PAUSED))
     with monkeypatch.context() as patched:
         patched.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Cancel)
         window.close()
@@ -127,11 +129,111 @@ def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatc
         assert window.session.run.phase is Phase.PAUSED
 
 
+# The pace at which iterations are shown is chosen in a menu and stored.
+
+
+def test_a_pace_is_chosen_in_the_menu_and_stored(window):
+    pace = Pace.EVERY
+    action = window.action(f"pace_{pace.value}")
+    action.trigger()
+    window.refresh()
+    assert window.session.run.view.pace is pace
+    assert [one for one in Pace if window.action(f"pace_{one.value}").isChecked()] == [pace]
+    assert Pace(settings.RUN_PACE.get()) is pace
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(("metric", "shown"), [("q", "scaled-jacobian"), ("condition", "condition")])
-def test_a_run_that_raises_the_scaled_jacobian_is_coloured_by_it(window, qtbot, metric, shown):
-    window.session.view.change(colours={"metric": metric})
-    choose(window, "mend", goal="scaled-jacobian")
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert window.session.view.look.colours.metric == shown
+def test_actions_and_sessions_have_the_result_and_not_what_is_shown_on_the_way(window, qtbot):
+    session = window.session
+    session.run.set_pace(Pace.EASED)
+    for act in (window.action("cut").trigger, session.to_data):
+        smooth(qtbot, session, "local-sd", 8)
+        qtbot.waitUntil(lambda: session.document.now is not session.document.recorded)
+        act()
+        assert session.document.now is session.document.recorded
+        assert not session.run.view.eased.active
+
+
+@pytest.mark.slow
+def test_keys_that_move_the_camera_leave_the_easing_and_others_end_it(window, qtbot):
+    session, view = window.session, window.canvas.interactor
+    session.run.set_pace(Pace.EASED)
+    smooth(qtbot, session, "local-sd", 8)
+    assert session.run.view.eased.active
+    direction = window.canvas.viewport.camera.GetDirectionOfProjection()
+    QTest.keyClick(view, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
+    QTest.keyClick(view, Qt.Key.Key_Right)
+    QTest.keyPress(view, Qt.Key.Key_Shift)
+    window.action("fit").trigger()
+    assert window.canvas.viewport.camera.GetDirectionOfProjection() != direction
+    assert session.run.view.eased.active
+    QTest.keyClick(view, Qt.Key.Key_Q)
+    assert not session.run.view.eased.active
+    assert session.document.now is session.document.recorded
+
+
+# Shortage of memory: the window asks before a run, and nothing changes if the user declines.
+
+
+YES, NO = QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No
+
+
+@pytest.fixture
+def asked(window, monkeypatch):
+    """Make memory short; record the questions of the window and answer them with `answer`."""
+
+    class Asked(list):
+        answer = NO
+
+        def exec(self, box):
+            self.append(f"{box.text()} {box.informativeText()}")
+            return self.answer
+
+    asked = Asked()
+    monkeypatch.setattr(commands, "available", lambda: 80_000_000)
+    monkeypatch.setattr(QMessageBox, "exec", lambda box: asked.exec(box))
+    monkeypatch.setattr(METHODS["mend"], "bytes_per_hex", 10**9)
+    return asked
+
+
+@pytest.mark.slow
+def test_a_run_starts_only_with_consent(window, qtbot, asked):
+    session = window.session
+    before = session.document.now
+    choose(window, "mend", StoppingCriteria(max_iterations=2))
+    for begin in (lambda: click(window, "Run"), lambda: click(window, "Step"), lambda: key(window, Qt.Key.Key_F5)):
+        begin()
+        assert session.run.phase is Phase.IDLE
+        assert session.document.now is before
+        assert not session.history.records
+    assert len(asked) == 3
+    assert "Mend on " in asked[0]
+    assert "80\u00a0MB are free" in asked[0]
+    assert METHODS["local-sd"].title in asked[0] or METHODS["local-nr"].title in asked[0]
+    asked.answer = YES
+    with qtbot.waitSignal(session.run.ended):
+        click(window, "Run")
+    assert session.document.now is not before
+
+
+def test_a_recipe_and_a_comparison_need_consent(window, asked):
+    session = window.session
+    session.recipe_draft.add(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
+    session.recipe_draft.add(Stage(METHODS["mend"](), StoppingCriteria(max_iterations=2)))
+    window.features["recipe"].run()
+    assert session.run.phase is Phase.IDLE
+    window.features["compare"].panel.run_requested.emit(["laplacian", "mend"])
+    assert not session.comparison.busy
+    assert len(asked) == 2
+
+
+@pytest.mark.slow
+def test_a_branch_without_consent_leaves_the_active_run(window, qtbot, asked):
+    choose(window, "laplacian", StoppingCriteria(tolerance=0.0))
+    click(window, "Step")
+    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    record = window.session.run.record
+    window.session.commands.branch(Stage(METHODS["mend"](), StoppingCriteria()))
+    assert len(asked) == 1
+    assert window.session.run.phase is Phase.PAUSED
+    assert window.session.run.record is record

@@ -7,7 +7,8 @@ from PySide6.QtWidgets import QApplication, QComboBox, QLabel
 
 from hexmend.gallery import make
 from hexmend.mesh.rules import MotionRules
-from hexmend.run import StoppingCriteria, smooth
+from hexmend.run import StoppingCriteria
+from hexmend.run import smooth as smoothed
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.recipe_files import read_recipe, write_recipe
 from hexmend.smoothers import METHODS
@@ -16,9 +17,7 @@ from hexmend_app.features.smooth.rule_form import RuleForm
 from hexmend_app.features.smooth.set_rules import choices_of, rules_of_set, with_set_rules
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
-from tests.app.driving import named
-from tests.app.hosting import PlainHost
-from tests.patience import PATIENCE
+from tests.app.driving import named, smooth
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
 SLIDING = MotionRules(interfaces="slide", fix=("inlet",))
@@ -47,11 +46,10 @@ def form(shown, mesh):
 
 
 @pytest.fixture
-def host(qtbot, mesh):
-    host = PlainHost(mesh)
+def host(hosted, mesh):
+    host = hosted(mesh)
     host.feature = FeatureSmooth(host)
-    yield host
-    host.session.close()
+    return host
 
 
 def boxes(form):
@@ -72,12 +70,6 @@ def pick(form, name, text):
     assert combo.model().item(at).isEnabled(), text
     combo.setCurrentIndex(at)
     combo.activated.emit(at)
-
-
-def run(qtbot, session, method="local-sd", **values):
-    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
-        session.commands.run(Stage(METHODS[method](**values), SHORT))
-    return session.document.now.mesh
 
 
 def test_the_form_tells_the_interfaces_and_lists_the_sets(form):
@@ -149,17 +141,15 @@ def test_the_form_is_hidden_for_a_mesh_without_sets_and_while_a_run_is_paused(ho
 
 def test_a_run_has_the_rules_and_its_result_has_none(host, mesh, qtbot):
     host.session.run_setup.set_rules(SLIDING)
-    after = run(qtbot, host.session, boundary="slide")
-    expected = smooth(mesh, METHODS["local-sd"](boundary="slide"), SHORT, interfaces="slide", fix=("inlet",)).mesh
+    smooth(qtbot, host.session, "local-sd", boundary="slide")
+    after = host.session.document.now.mesh
+    expected = smoothed(mesh, METHODS["local-sd"](boundary="slide"), SHORT, interfaces="slide", fix=("inlet",)).mesh
     np.testing.assert_array_equal(after.points, expected.points)
     assert (after.points[mesh.node_sets["inlet"]] == mesh.points[mesh.node_sets["inlet"]]).all()
-    assert (after.points != run_without_rules(mesh).points).any()
+    free = smoothed(mesh, METHODS["local-sd"](boundary="slide"), SHORT).mesh
+    assert (after.points != free.points).any()
     assert not after.node_rules.rules
     assert host.session.run.record.rules == SLIDING
-
-
-def run_without_rules(mesh):
-    return smooth(mesh, METHODS["local-sd"](boundary="slide"), SHORT).mesh
 
 
 def test_recipes_have_the_rules_in_files(host, tmp_path):
@@ -195,12 +185,12 @@ def test_rules_that_do_not_fit_the_mesh_are_an_error_before_the_run(host, qtbot)
     session = host.session
     session.run_setup.set_rules(MotionRules(fix=("nowhere",)))
     before = session.document.now
-    with qtbot.waitSignal(session.run.failed, timeout=PATIENCE):
+    with qtbot.waitSignal(session.run.failed):
         session.commands.run(Stage(METHODS["local-sd"](), SHORT))
     assert session.document.now is before
-    labels = [label.text() for label in host.messages.findChildren(QLabel)]
-    assert any("Run not started" in text for text in labels)
-    assert any("there is no set 'nowhere'" in text for text in labels)
+    ((kind, title, text),) = host.messages.messages()
+    assert (kind, title) == ("error", "Run not started")
+    assert "there is no set 'nowhere'" in text
 
 
 def test_rules_follow_a_tag_that_is_renamed(qtbot, host):
@@ -215,7 +205,8 @@ def test_rules_follow_a_tag_that_is_renamed(qtbot, host):
     session.commands.redo()
     session.run_setup.set_rules(MotionRules(fix=("lower half",)))
     before = session.document.now.mesh
-    after = run(qtbot, session)
+    smooth(qtbot, session, "local-sd")
+    after = session.document.now.mesh
     nodes = np.unique(before.hexes[before.hex_sets["lower half"]])
     np.testing.assert_array_equal(after.points[nodes], before.points[nodes])
 

@@ -8,10 +8,12 @@ from PySide6.QtWidgets import QComboBox, QLabel
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
+from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.widgets.section import Section
-from tests.patience import PATIENCE
+from tests.app.driving import named
 
 _STATES = ("idle", "preparing", "running", "paused", "finished")
 _SIGNALS = (
@@ -42,11 +44,6 @@ def heard(panel):
     for name in _SIGNALS:
         getattr(panel, name).connect(lambda *args, name=name: calls.append((name, *args)))
     return calls
-
-
-def named(panel, kind, name):
-    """Return a widget of the panel by its accessible name."""
-    return next(one for one in panel.findChildren(kind) if one.accessibleName() == name)
 
 
 def sections(panel):
@@ -132,5 +129,35 @@ def test_the_status_shows_progress_and_wraps_the_outcome(panel, qtbot):
     progress, sentence = named(panel, QLabel, "Progress"), named(panel, QLabel, "Outcome")
     assert progress.text().split("·")[0].strip() == "12 iterations"
     assert "1.84 s" in progress.text()
-    qtbot.waitUntil(lambda: sentence.height() > 2 * sentence.fontMetrics().height(), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: sentence.height() > 2 * sentence.fontMetrics().height())
     assert sentence.width() <= panel.width()
+
+
+# Form for breakpoints, without a run.
+
+
+@pytest.fixture
+def form(qtbot):
+    form = BreakpointForm()
+    qtbot.addWidget(form)
+    form.set_mesh(10, 20)
+    return form
+
+
+@pytest.mark.parametrize("breakpoints", [
+    Breakpoints(),
+    Breakpoints(inverts=True, q_min_falls=True),
+    Breakpoints(node=3, move=0.25),
+    Breakpoints(hex=7, change=0.5, backtracks=9),
+])  # fmt: skip
+def test_breakpoints_are_emitted_and_read_back(form, qtbot, breakpoints):
+    with qtbot.waitSignal(form.changed) as told:
+        form.set_breakpoints(breakpoints)
+    assert told.args == [breakpoints]
+    assert form.breakpoints() == breakpoints
+
+
+def test_another_mesh_removes_breakpoints_on_single_hexes_and_nodes(form):
+    form.set_breakpoints(Breakpoints(inverts=True, node=19, hex=9))
+    form.set_mesh(5, 6)
+    assert form.breakpoints() == Breakpoints(inverts=True)

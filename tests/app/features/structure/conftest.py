@@ -1,7 +1,5 @@
 """Fixture with a window that shows a mesh of five blocks."""
 
-from __future__ import annotations
-
 import pytest
 
 from hexmend import gallery, io

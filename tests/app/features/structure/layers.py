@@ -1,7 +1,5 @@
 """Helpers that operate the layers of the structure."""
 
-from __future__ import annotations
-
 import numpy as np
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
@@ -9,7 +7,6 @@ from PySide6.QtWidgets import QLabel
 
 from tests.app.driving import LEFT, key, open_and_wait, turn
 from tests.app.driving import pixels as drawn
-from tests.patience import PATIENCE
 
 KEYS = {
     "irregular": "S",
@@ -27,7 +24,7 @@ KEYS = {
 def open_and_know(qtbot, window, path):
     """Open a mesh, and wait until its structure is found."""
     open_and_wait(qtbot, window, path)
-    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None)
     window.refresh()
 
 

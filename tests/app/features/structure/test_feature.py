@@ -1,22 +1,18 @@
 """Layers of the structure in the window, by mouse and keys."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
 
 from hexmend import io
-from hexmend.boundary import NodeClass
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.page import Page
-from hexmend_app.scene.layers.optional.structure import KINDS
-from hexmend_app.state.mesh.document import State
-from tests.app.driving import choose
-from tests.app.features.structure.layers import count, open_and_know, pixels, press_key, texts
+from tests.app.driving import open_and_wait, tick
+from tests.app.features.structure.layers import open_and_know, pixels, press_key, texts
+from tests.core.curved_shell import curved_shell
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 
 def test_a_key_shows_and_hides_a_layer(five):
@@ -33,42 +29,6 @@ def test_a_key_shows_and_hides_a_layer(five):
 
 
 @pytest.mark.slow
-def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
-    press_key(five, "kinds")
-    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.is_on("kinds"), timeout=PATIENCE)
-    panel = five.features["structure"].panel
-    classes = five.session.boundary_classifier.classes
-    assert texts(panel, "kinds")[0] == f"{classes.count(NodeClass.CORNER)} corners"
-    assert count(pixels(five), KINDS[NodeClass.PATCH]) > 100
-    assert classes.count(NodeClass.CURVE)
-    with qtbot.waitSignal(five.session.boundary_classifier.found, timeout=PATIENCE):
-        choose(five, "mend", feature_angle=180)
-    five.refresh()
-    after = five.session.boundary_classifier.classes
-    assert 0 < after.count(NodeClass.CURVE) < classes.count(NodeClass.CURVE)  # the rims of sets stay curves
-    mesh = five.session.document.now.mesh
-    in_sets = np.unique(np.concatenate(list(mesh.node_sets.values())))
-    assert np.isin(np.flatnonzero(after.kinds == NodeClass.CURVE), in_sets).all()
-    assert f"{after.count(NodeClass.CURVE)} on curves" in texts(panel, "kinds")
-
-
-@pytest.mark.slow
-def test_the_original_surface_is_that_of_the_opened_mesh(five):
-    press_key(five, "original")
-    window, opened = five, five.session.document.start.mesh.points
-    five.refresh()
-    assert window.canvas.viewport.overlay_layers.optional["original"].shown
-    mesh = window.session.document.now.mesh
-    moved = mesh.with_points(mesh.points * 1.2)
-    window.session.commands.adopt_positions("grow", State.of(moved))
-    five.refresh()
-    places = window.canvas.viewport.overlay_layers.optional["original"].places
-    np.testing.assert_allclose(np.ptp(places, axis=0), np.ptp(opened, axis=0), rtol=1e-6)
-    press_key(five, "original")
-    assert not window.canvas.viewport.overlay_layers.optional["original"].shown
-
-
-@pytest.mark.slow
 def test_other_cells_are_shown_and_reported(window, qtbot, tmp_path):
     bare = grid(2, 2, 1)
     tip = bare.points[bare.hexes[0, 4:]].mean(axis=0) + [0, 0, 1]
@@ -81,14 +41,55 @@ def test_other_cells_are_shown_and_reported(window, qtbot, tmp_path):
     layer = window.features["structure"].panel.layers["others"]
     assert layer.box.isVisibleTo(window.features["structure"].panel)
     assert texts(window.features["structure"].panel, "others") == ["1 pyramid"]
-    press_key(window, "others")
-    window.refresh()
-    assert not window.canvas.viewport.overlay_layers.optional["others"].shown
-    press_key(window, "others")
-    window.refresh()
-    assert window.canvas.viewport.overlay_layers.optional["others"].shown
     io.write(tmp_path / "plain.exo", bare)
     open_and_know(qtbot, window, tmp_path / "plain.exo")
     assert "next to the hexes" not in window.messages.text.text()
     assert not window.canvas.viewport.overlay_layers.optional["others"].shown
     assert not layer.box.isVisibleTo(window.features["structure"].panel)
+
+
+# The switch of curved faces in the window, and curved faces while a method runs.
+
+
+def shell():
+    """Return a shell with free nodes that are moved away from their places."""
+    mesh = curved_shell(20, through=3, around=3, along=3)
+    points = mesh.points.copy()
+    points[mesh.free] += np.random.default_rng(0).normal(scale=0.05, size=(np.count_nonzero(mesh.free), 3))
+    return mesh.with_points(points)
+
+
+@pytest.fixture
+def opened(window, qtbot, tmp_path):
+    io.write(tmp_path / "shell.vtu", shell())
+    open_and_wait(qtbot, window, tmp_path / "shell.vtu")
+    window.refresh()
+    return window
+
+
+def parts(window):
+    """Return the number of drawn polygons for each visible face."""
+    layer = window.canvas.viewport.mesh_layer
+    return layer.whole.n_cells / len(layer.faces.quads)
+
+
+@pytest.mark.slow
+def test_the_switch_is_on_for_hexes_with_mid_nodes_and_not_offered_for_others(opened, qtbot, tmp_path):
+    box, action = opened.features["structure"].panel.layers["curved"].box, opened.window_actions["show_curved"]
+    assert action.isEnabled()
+    assert action.isChecked()
+    assert parts(opened) == 64
+    opened.show_panel("show")
+    tick(box)
+    assert not action.isChecked()
+    assert parts(opened) == 1
+    action.trigger()
+    opened.refresh()
+    assert box.checkState() == Qt.CheckState.Checked
+    assert parts(opened) == 64
+    io.write(tmp_path / "grid.vtu", grid(3))
+    open_and_wait(qtbot, opened, tmp_path / "grid.vtu")
+    opened.refresh()
+    assert not action.isEnabled()
+    assert not box.isVisibleTo(opened)
+    assert parts(opened) == 1

@@ -1,20 +1,22 @@
 """Counts and check boxes of the structure panel."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
+from hexmend import gallery, io
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.picture.appearance import Structure
+from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.layers.optional.original_surface import OriginalSurface
+from hexmend_app.scene.layers.optional.structure import SHARP, VALENCES
 from hexmend_app.shell.start.program import application
+from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.structure import find_structure
-from tests.app.features.structure.layers import press, texts
+from tests.app.driving import open_and_wait
+from tests.app.features.structure.layers import count, pixels, press, press_key, texts
 from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -23,7 +25,7 @@ def panel(qtbot):
     panel = StructurePanel()
     qtbot.addWidget(panel)
     panel.resize(330, panel.sizeHint().height())
-    with qtbot.waitExposed(panel, timeout=PATIENCE):
+    with qtbot.waitExposed(panel):
         panel.show()
     return panel
 
@@ -98,3 +100,39 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     press(panel.layers["irregular"].box)
     assert heard == [Structure()]
     assert not panel.offered()["irregular"]
+
+
+# The structure of the open mesh is found in the background.
+
+
+def begin_searching(window):
+    """Not waited for: a small mesh's search may be over between two looks at it."""
+    window.session.structure_finder.search()
+    assert window.session.structure_finder.busy
+
+
+@pytest.mark.slow
+def test_the_structure_of_the_last_opened_mesh_is_found(window, qtbot):
+    first, last = State.of(gallery.make("five-side", size=30_000)), State.of(grid(2))
+    window.session.document.replace(first, None)
+    begin_searching(window)
+    window.session.document.replace(last, None)
+    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None)
+    assert len(window.session.structure_finder.structure.sharp) == 24
+
+
+@pytest.mark.slow
+def test_a_layer_stays_on_for_the_next_mesh(five, qtbot, tmp_path):
+    press_key(five, "sharp")
+    press_key(five, "irregular")
+    io.write(tmp_path / "cube.vtu", grid(3))
+    open_and_wait(qtbot, five, tmp_path / "cube.vtu")
+    assert five.session.structure_finder.structure is None
+    assert five.canvas.viewport.frame.look.structure.on.isdisjoint(EDGE_LAYERS)  # the view does not wait for them
+    qtbot.waitUntil(lambda: five.session.structure_finder.structure is not None)
+    five.refresh()
+    assert five.canvas.viewport.frame.look.structure == Structure.of("irregular", "sharp")
+    assert texts(five.features["structure"].panel, "sharp") == ["36"]
+    assert five.features["structure"].panel.layers["irregular"].box.isEnabled()  # to be switched off
+    assert count(pixels(five), SHARP) > 300
+    assert count(pixels(five), VALENCES[5]) == 0

@@ -1,7 +1,5 @@
 """Tagging hexes in the window by mouse and keys."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -9,15 +7,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableWidget
 
 from hexmend import io
-from tests.app.driving import LEFT, key, press
-from tests.patience import PATIENCE
+from tests.app.driving import LEFT, brought, key, press
 
 
 @pytest.fixture
 def panel(window, qtbot):
-    window.show_panel("tags")
-    qtbot.waitUntil(window.features["tags"].panel.isVisible, timeout=PATIENCE)
-    return window.features["tags"].panel
+    return brought(window, qtbot, "tags")
 
 
 def button(panel, text):
@@ -100,7 +95,7 @@ def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
         QTest.keyClicks(editor, text)
         QTest.keyClick(editor, Qt.Key.Key_Return)
         # Qt takes what was typed in a later turn of the event loop
-        qtbot.waitUntil(lambda: table.findChild(QLineEdit) is None, timeout=PATIENCE)
+        qtbot.waitUntil(lambda: table.findChild(QLineEdit) is None)
         window.refresh()
 
     QTest.mouseClick(table.viewport(), LEFT, pos=QPoint(20, 10))

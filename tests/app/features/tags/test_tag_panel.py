@@ -8,9 +8,8 @@ from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.features.tags.feature import FeatureTags
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.hosting import PlainHost, action
+from tests.app.hosting import action
 from tests.core.grids import grid, scrambled
-from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -52,10 +51,8 @@ def test_a_refused_tag_has_a_reason(panel, refused, rows, selected, busy, name, 
 
 
 @pytest.fixture
-def host(qtbot):
-    host = PlainHost(scrambled(grid(4), 0.3))
-    yield host
-    host.session.close()
+def host(hosted):
+    return hosted(scrambled(grid(4), 0.3))
 
 
 def test_the_shortcut_reports_that_a_run_is_paused(host, qtbot):
@@ -64,13 +61,13 @@ def test_the_shortcut_reports_that_a_run_is_paused(host, qtbot):
     smoothing = host.session.run
     host.session.selection.choose(5)
     smoothing.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0), 1)
-    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED)
     feature.refresh()
     assert tag.enabled()
     tag.handle()
     assert "during a run" in " ".join(host.messages.messages()[-1])
     assert host.session.document.now.mesh.hex_sets == {}
-    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(smoothing.ended):
         smoothing.stop()
     feature.refresh()
     tag.handle()

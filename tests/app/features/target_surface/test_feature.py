@@ -6,14 +6,12 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QLabel
 
-from hexmend import io
 from hexmend.boundary import SkinSurface
 from hexmend.iteration import StoppingCriteria
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import choose, click, open_and_wait, phase
+from tests.app.driving import choose, click, open_and_wait, open_mesh, phase
 from tests.core.boundary.solids import ball, slid
 from tests.core.smoothers.test_sliding_on_surface import skin_of, write_stl
-from tests.patience import PATIENCE
 
 SKIN = skin_of(ball(8))
 
@@ -21,9 +19,8 @@ SKIN = skin_of(ball(8))
 @pytest.fixture
 def stl(window, qtbot, tmp_path):
     """Open a coarse ball, and return the file of a fine surface of it."""
-    io.write(tmp_path / "ball.vtu", slid(ball(3), 0.2))
     write_stl(tmp_path / "fine.stl", SKIN)
-    open_and_wait(qtbot, window, tmp_path / "ball.vtu")
+    open_mesh(qtbot, window, tmp_path / "ball.vtu", slid(ball(3), 0.2))
     choose(window, "laplacian", StoppingCriteria(max_iterations=2, keep_last=True))
     return tmp_path / "fine.stl"
 
@@ -39,10 +36,11 @@ def test_runs_slide_on_a_chosen_surface(window, qtbot, stl):
     assert target(window).name == "fine.stl"
     assert window.session.run_setup.smoother.boundary == "slide"
     click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
     mesh = window.session.document.now.mesh
     assert target(window).distances(mesh.points[mesh.topology.boundary]).max() < 1e-6
     assert "from fine.stl" in window.session.timeline.record.advice.surface
+    assert re.search(rf"sliding_on_file\(\w+, {re.escape(repr(str(stl)))}\)", window.features["script"].text)
 
 
 @pytest.mark.slow
@@ -83,10 +81,3 @@ def test_a_surface_that_does_not_fit_is_refused(window, stl, tmp_path):
         assert not window.features["target_surface"].choose(tmp_path / name)
         assert problem in window.messages.text.text()
         assert window.session.document.now is before
-
-
-@pytest.mark.slow
-def test_the_script_reads_the_surface(window, stl):
-    window.features["target_surface"].choose(stl)
-    text = window.features["script"].text
-    assert re.search(rf"sliding_on_file\(\w+, {re.escape(repr(str(stl)))}\)", text)

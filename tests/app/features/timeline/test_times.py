@@ -7,7 +7,6 @@ from hexmend import io
 from hexmend.io.formats.openfoam.points import replaced_points
 from tests.app.driving import named, open_and_wait
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -29,7 +28,7 @@ def case(tmp_path):
 def opened(window, qtbot, case):
     """Window with the case and its times."""
     open_and_wait(qtbot, window, case)
-    qtbot.waitUntil(lambda: not window.session.time_reader.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not window.session.time_reader.busy)
     window.refresh()
     return window
 

@@ -1,7 +1,5 @@
 """Trees of plain data and arrays in one file: as they were, and nothing but data is ever taken from a file."""
 
-from __future__ import annotations
-
 import io
 import json
 import tracemalloc

@@ -1,7 +1,5 @@
 """A tree that is written again and again: only what is new of it, and whole at any moment."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import signal

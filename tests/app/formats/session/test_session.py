@@ -1,7 +1,5 @@
 """Sessions as the core sees them: meshes with all that they carry, of which one was shown."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

@@ -10,6 +10,7 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box, Plane
 from hexmend_app.scene.cutting import cut
+from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.geometry.filters import Filters
 from hexmend_app.scene.geometry.skin import Skin
 from hexmend_app.scene.layers.surface import quads
@@ -63,14 +64,6 @@ def test_hidden_hexes_are_not_cut():
     assert got.area == pytest.approx(1)
 
 
-def test_the_remaining_skin_lies_in_front_of_the_plane():
-    faces = Skin(MESH).visible()
-    skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes], faces.hexes)
-    rest = cut.remaining_skin(skin, Cut.at((1, 0, 0), (1.5, 0, 0), CutStyle.SMOOTH))
-    assert rest.area == pytest.approx(6 + 2 * 1.5 * 3 + 2 * 1.5 * 2)
-    assert rest.bounds[1] == pytest.approx(1.5)
-
-
 CORNER = (Plane((1, 0, 0), point=(1.5, 0, 0)), Plane((0, 1, 0), point=(0, 1.25, 0)))
 BOX = ((0.5, 0.5, 0.5), (2.5, 1.5, 1.25))
 
@@ -110,3 +103,58 @@ def test_a_plane_near_an_axis_snaps_to_it():
     assert Plane((0.1, -1, 0.05), point=(1, 2, 3)).snapped() == Plane((0, -1, 0), point=(1, 2, 3))
     oblique = Plane((0.5, -1, 0.05))
     assert oblique.snapped() == oblique
+
+
+# Clipping of polygons by planes, checked by areas.
+
+
+HEXAGON = np.array([[np.cos(t), np.sin(t), 0] for t in np.arange(6) * np.pi / 3])
+
+
+def polygons(shift):
+    """Return a triangle, a square and a hexagon, each shifted in its plane."""
+    parts = [HEXAGON[::2], HEXAGON[[0, 1, 3, 4]], HEXAGON]
+    points = np.concatenate([part + [*move, 0] for part, move in zip(parts, shift, strict=True)])
+    return Polygons(points, np.array([0, 3, 7, 13]), np.arange(13), np.array([7, 3, 5]))
+
+
+def areas(of):
+    """Return the area of each polygon by its owner."""
+    area_of = {}
+    for i, owner in enumerate(of.owner):
+        x, y, _ = of.points[of.places[of.start[i] : of.start[i + 1]]].T
+        area_of[int(owner)] = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2
+    return area_of
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 3))
+def test_parts_in_front_of_and_beyond_planes_add_up_to_the_whole(seed, planes):
+    random = np.random.default_rng(seed)
+    whole = polygons(random.uniform(-1, 1, (3, 2)))
+    normals, offsets = random.normal(size=(planes, 3)), random.uniform(-1, 1, planes)
+    sums = dict.fromkeys((7, 3, 5), 0.0)
+    for k in range(planes):  # before the first k planes, and beyond the next
+        sign = np.where(np.arange(k + 1) == k, -1.0, 1.0)
+        for owner, area in areas(whole.before(normals[: k + 1] * sign[:, None], offsets[: k + 1] * sign)).items():
+            sums[owner] += area
+    left = whole.before(normals, offsets)
+    for owner, area in areas(left).items():
+        assert area >= -1e-14
+        sums[owner] += area
+    expected = areas(whole)
+    np.testing.assert_allclose([sums[k] for k in expected], list(expected.values()), atol=1e-12)
+    assert (left.points @ normals.T <= offsets + 1e-12).all()
+    assert left.start[0] == 0
+    assert left.start[-1] == len(left.points) == len(left.places)
+
+
+def test_a_plane_through_corners_leaves_the_part_in_front():
+    square = Polygons(
+        np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]]), np.array([0, 4]), np.arange(4), np.array([2])
+    )
+    half = square.before(np.array([[1.0, -1, 0]]), np.zeros(1))
+    assert areas(half) == {2: 0.5}
+    assert {tuple(point) for point in half.points} == {(0, 0, 0), (1, 1, 0), (0, 1, 0)}
+    outside = square.before(np.array([[1.0, 0, 0]]), np.array([-2.0]))
+    assert len(outside) == len(outside.points) == 0
+    assert outside.start.tolist() == [0]

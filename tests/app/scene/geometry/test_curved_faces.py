@@ -2,19 +2,16 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
 
-from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.geometry.curved_faces import CurvedFaces
 from hexmend_app.scene.geometry.edge_flags import edge_flags, normals_of
 from hexmend_app.scene.geometry.skin import Skin
 from hexmend_app.scene.layers.invalid_outline import outlines
 from hexmend_app.scene.layers.surface import hexes_of
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
+from tests.app.scene.showing import frame_of
 from tests.core.curved_shell import curved_shell
 
 SIZE, SCALE = 400, 1.2  # pixels of the picture, and half of its height in the unit of the mesh
@@ -22,25 +19,18 @@ CURVED, FLAT = Look(), Look(structure=Structure().without("curved"))
 
 
 @pytest.fixture
-def seen():
+def seen(off_screen):
     """A view along -z of a quarter of a ring between radii 1 and 2, and a function that returns its pixels."""
-    with Stage((SIZE, SIZE)) as stage:
-        pane = Pane(stage.window)
-        viewport = Viewport(pane, axes=False)
+    viewport = off_screen(SIZE, SIZE, axes=False)
 
-        def draw(mesh, look=CURVED):
-            viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look))
-            camera = viewport.camera
-            camera.SetParallelProjection(True)
-            camera.SetFocalPoint(1, 1, 0)
-            camera.SetPosition(1, 1, 10)
-            camera.SetViewUp(0, 1, 0)
-            camera.SetParallelScale(SCALE)
-            pane.renderer.ResetCameraClippingRange()
-            viewport.still()
-            return stage.picture().astype(int)
+    def draw(mesh, look=CURVED):
+        viewport.draw(frame_of(mesh, look))
+        apply_pose(viewport.camera, CameraPose((1, 1, 10), (1, 1, 0), (0, 1, 0), True, SCALE, "z"))
+        viewport.layers[0].ResetCameraClippingRange()
+        viewport.still()
+        return viewport.pixels()
 
-        yield viewport, draw
+    return viewport, draw
 
 
 def pixel(x, y):
@@ -128,10 +118,6 @@ def test_moved_faces_are_those_of_the_moved_mesh():
     np.testing.assert_array_equal(poly.points, expected.points)
     np.testing.assert_array_equal(normals_of(poly), normals_of(expected))
     np.testing.assert_array_equal(poly.cell_data["colours"], expected.cell_data["colours"])
-
-
-def drawn(viewport):
-    return pv.wrap(viewport.mesh_layer.skin.actor.GetMapper().GetInput())
 
 
 def test_a_switch_draws_the_hexes_by_their_corners(seen):

@@ -11,10 +11,7 @@ from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.layers import arrows as layer
-from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
 from tests.core.grids import grid, scrambled
 
 MESH = grid(6)
@@ -25,22 +22,16 @@ CUT = Cut.at((1, 0, 0), (3.3, 3.0, 3.0))
 
 
 @pytest.fixture
-def stage():
-    with Stage((300, 300)) as stage:
-        yield stage
-
-
-@pytest.fixture
-def viewport(stage):
-    viewport = Viewport(Pane(stage.window))
+def viewport(off_screen):
+    viewport = off_screen(300, 300)
     viewport.draw(Frame(MESH, THEN.quality))
     viewport.view("iso")
     return viewport
 
 
-@pytest.fixture
-def drawn(stage):
-    return lambda: stage.picture().astype(int)
+def counts(viewport):
+    """Return the numbers of arrows and of nodes that have moved."""
+    return viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved
 
 
 def move(viewport, points=NOW, figures=FIGURES):
@@ -67,26 +58,21 @@ def test_an_arrow_ends_at_the_end_of_its_path_and_the_length_of_its_head_is_limi
 
 def test_visible_or_all_nodes_that_have_moved_have_arrows(viewport):
     move(viewport)
-    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)
+    assert counts(viewport) == (0, 0)
     look_at(viewport, Look(movement=Traces(arrows=Arrows.ALL)))
     every = int(MESH.free.sum())
-    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (every, every)
+    assert counts(viewport) == (every, every)
     look_at(viewport, Look(movement=Traces(arrows=Arrows.SIGHT)))
-    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (
-        0,
-        0,
-    )  # nodes of the boundary stay
-    look_at(viewport, Look(cut=CUT, movement=Traces(arrows=Arrows.SIGHT)))
-    assert 0 < viewport.overlay_layers.arrows.drawn < every
-    look_at(
-        viewport, Look(cut=Cut.at((1, 0, 0), (3.3, 3.0, 3.0), CutStyle.SMOOTH), movement=Traces(arrows=Arrows.SIGHT))
-    )
-    assert 0 < viewport.overlay_layers.arrows.drawn < every
+    assert counts(viewport) == (0, 0)  # nodes of the boundary stay
+    for style in CutStyle:
+        look_at(viewport, Look(cut=Cut.at((1, 0, 0), (3.3, 3, 3), style), movement=Traces(arrows=Arrows.SIGHT)))
+        assert 0 < counts(viewport)[0] < every
     move(viewport, MESH.points, THEN.quality)
-    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)
+    assert counts(viewport) == (0, 0)
 
 
-def test_arrows_are_drawn_move_with_the_nodes_and_are_removed(viewport, drawn):
+def test_arrows_are_drawn_move_with_the_nodes_and_are_removed(viewport):
+    drawn = viewport.pixels
     without = drawn()
     look_at(viewport, Look(cut=CUT, movement=Traces(arrows=Arrows.SIGHT, factor=1)))
     plain = drawn()

@@ -13,10 +13,7 @@ from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.geometry.curved_edges import DIVISIONS, sharp_curved_edges
 from hexmend_app.scene.layers.invalid_outline import outlines
 from hexmend_app.scene.layers.surface import colours_of
-from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
 from hexmend_app.state.mesh.structure import sharp_edges
 from tests.core.curved_shell import curved_shell
 
@@ -24,11 +21,8 @@ MESH = curved_shell(27, around=5, angle=1.5 * np.pi)
 
 
 @pytest.fixture
-def viewport():
-    with Stage((200, 150)) as stage:
-        viewport = Viewport(Pane(stage.window))
-        viewport.render = stage.window.Render
-        yield viewport
+def viewport(off_screen):
+    return off_screen(200, 150)
 
 
 def draw(viewport, mesh=MESH, original=None, **tables):
@@ -52,7 +46,7 @@ def test_edges_of_a_marked_hex_run_along_the_circles_and_move_with_it(viewport):
     assert edges.lines.n_cells == 12 * DIVISIONS
     along = np.isclose(np.asarray(edges.lines.points)[:, 2] % 1, 0)
     assert np.count_nonzero(on_walls(edges.lines.points) & along) >= 4 * (DIVISIONS + 1)
-    viewport.render()
+    viewport.pixels()
     dashes = np.asarray(edges.dashes.points)
     across = np.unique(MESH.points[MESH.hexes[2]][:, :2], axis=0)
     rays = np.abs(dashes[:, :1] * across[:, 1] - dashes[:, 1:2] * across[:, 0]).min(axis=1) < 0.02

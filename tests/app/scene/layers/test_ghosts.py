@@ -6,37 +6,25 @@ import numpy as np
 import pytest
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.quality import measure
-from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.camera_pose import CameraPose
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.layers.ghosts import Ghosts
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
+from tests.app.scene.showing import frame_of
 from tests.core.grids import grid
 
 MESH = grid(5)
-FIGURES = measure(MESH.points, MESH.hexes)
 MIDDLE = 62
 
 
 def frame(**look):
-    return Frame(MESH, FIGURES, look=Look(**look))
+    return frame_of(MESH, **look)
 
 
 @pytest.fixture
-def stage():
-    with Stage((240, 180)) as stage:
-        yield stage
-
-
-@pytest.fixture
-def viewport(stage):
-    return Viewport(Pane(stage.window))
+def viewport(off_screen):
+    return off_screen(240, 180)
 
 
 @pytest.mark.parametrize("rings", [0, 1, 2])
@@ -61,11 +49,11 @@ def test_hexes_dug_out_or_cut_away_are_no_ghosts(viewport):
     assert not ghosts[61]
 
 
-def test_an_isolated_hex_is_visible_through_its_ghosts(stage, viewport):
+def test_an_isolated_hex_is_visible_through_its_ghosts(viewport):
     viewport.draw(frame(show=Show(isolate=Isolate((MIDDLE,), 1), outline=False)))
     apply_pose(viewport.camera, CameraPose((7, -5, 7), (2.5, 2.5, 2.5), (0, 0, 1), False, 1.0, "z"))
     viewport.layers[0].ResetCameraClippingRange()
-    ghostly = stage.picture().astype(int)
+    ghostly = viewport.pixels()
     middle = ghostly[80:100, 110:130].reshape(-1, 3).mean(axis=0)
     assert middle[0] - middle[2] > 60  # yellow still: q is 1
     ground = ghostly[2, 2]
@@ -80,7 +68,7 @@ def test_ghosts_follow_the_nodes():
     ghosts.draw(frame(), around, keep)
     assert ghosts.shown
     before = ghosts.places.copy()
-    ghosts.move(Frame(MESH.with_points(MESH.points + 1), FIGURES))
+    ghosts.move(frame_of(MESH.with_points(MESH.points + 1)))
     np.testing.assert_allclose(ghosts.places, before + 1)
     ghosts.draw(frame(), None, keep)
     assert not ghosts.shown

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import pyvista as pv
 
-from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut, CutStyle
@@ -13,26 +12,20 @@ from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.colouring import OPENED, OUTSIDE
 from hexmend_app.scene.geometry import occlusion
 from hexmend_app.scene.layers.surface import colours_of
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
-from tests.core.grids import grid
+from tests.app.scene.showing import MESH, frame_of
 
-MESH = grid(4)
 STEP = Look(
     show=Show(hidden=frozenset(int(h) for h in np.flatnonzero((MESH.points[MESH.hexes].mean(axis=1) > 2).all(axis=1))))
 )
 
 
 @pytest.fixture
-def viewport():
-    with Stage((200, 150)) as stage:
-        yield Viewport(Pane(stage.window))
+def viewport(off_screen):
+    return off_screen(200, 150)
 
 
 def draw(viewport, look=STEP, mesh=MESH):
-    viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look))
+    viewport.draw(frame_of(mesh, look))
     viewport.still()
 
 

@@ -7,13 +7,9 @@ from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Show
-from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
-from tests.core.grids import grid
+from tests.app.scene.showing import MESH
 
-MESH = grid(4)
 ON, OFF = Look(structure=Structure.of("original")), Look()
 
 
@@ -23,22 +19,19 @@ def frame(points, look=ON):
 
 
 @pytest.fixture
-def drawn():
-    """A function that draws a frame and returns its pixels; its attribute `viewport` is the view."""
-    stage = Stage((240, 180))
-    viewport = Viewport(Pane(stage.window))
+def drawn(off_screen):
+    """A function that draws a frame and returns its pixels; its attribute `surface` is the layer."""
+    viewport = off_screen(240, 180)
+    viewport.draw(frame(MESH.points))
+    viewport.view("iso")
 
     def draw(one):
         viewport.draw(one)
-        if not draw.looked:
-            viewport.view("iso")
-            draw.looked = True
         viewport.moving()
-        return stage.picture().astype(int)
+        return viewport.pixels()
 
-    draw.viewport, draw.looked = viewport, False
-    yield draw
-    stage.close()
+    draw.surface = viewport.overlay_layers.optional["original"]
+    return draw
 
 
 def differ(one, other):
@@ -52,20 +45,19 @@ def test_it_is_hidden_where_the_boundary_is_unchanged(drawn):
 def test_it_is_visible_around_a_shrunk_mesh(drawn):
     centre = MESH.points.mean(axis=0)
     shrunk = centre + 0.7 * (MESH.points - centre)
-    drawn(frame(MESH.points))
     without, seen = drawn(frame(shrunk, OFF)), drawn(frame(shrunk))
     assert differ(without, seen) > 2000
-    assert drawn.viewport.overlay_layers.optional["original"].shown
-    np.testing.assert_array_equal(np.ptp(drawn.viewport.overlay_layers.optional["original"].places, axis=0), 4)
+    assert drawn.surface.shown
+    np.testing.assert_array_equal(np.ptp(drawn.surface.places, axis=0), 4)
 
 
 def test_faces_of_hidden_hexes_are_not_drawn(drawn):
     half = Look(cut=Cut.at((0, 0, 1), (2, 2, 1.9)), structure=Structure.of("original"))
     drawn(frame(MESH.points))
-    assert len(drawn.viewport.overlay_layers.optional["original"].places) == MESH.topology.boundary.sum()
+    assert len(drawn.surface.places) == MESH.topology.boundary.sum()
     drawn(frame(MESH.points, half))
-    assert 0 < np.ptp(drawn.viewport.overlay_layers.optional["original"].places, axis=0)[2] < 3
+    assert 0 < np.ptp(drawn.surface.places, axis=0)[2] < 3
     drawn(frame(MESH.points, Look(structure=Structure.of("original"), show=Show(peel=1))))
-    assert not drawn.viewport.overlay_layers.optional["original"].shown
+    assert not drawn.surface.shown
     drawn(frame(MESH.points))
-    assert drawn.viewport.overlay_layers.optional["original"].shown
+    assert drawn.surface.shown

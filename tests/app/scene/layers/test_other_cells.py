@@ -1,18 +1,13 @@
 """Non-hexahedral cells: their outer faces are drawn, but no faces that they share with other cells."""
 
 import numpy as np
-import pytest
 
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.layers.optional.other_cells import FACES, outer_faces
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
+from tests.app.scene.showing import frame_of
 from tests.core.grids import grid
 
 OFF = Look(structure=Structure(frozenset()))
@@ -33,27 +28,6 @@ def hybrid() -> Mesh:
     )
 
 
-def frame(mesh, look=None):
-    return Frame(mesh, measure(mesh.points, mesh.hexes), look=look or Look())
-
-
-@pytest.fixture
-def drawn():
-    """A function that draws a frame and returns its pixels; its attribute `viewport` is the view."""
-    stage = Stage((240, 180))
-    viewport = Viewport(Pane(stage.window))
-
-    def draw(one):
-        viewport.draw(one)
-        viewport.view("iso")
-        viewport.moving()
-        return stage.picture().astype(int)
-
-    draw.viewport = viewport
-    yield draw
-    stage.close()
-
-
 def test_the_faces_of_each_cell_type_are_closed():
     for faces in FACES.values():
         edges = [frozenset(pair) for face in faces for pair in zip(face, (*face[1:], face[0]), strict=True)]
@@ -71,14 +45,17 @@ def test_a_cut_removes_cells_by_their_centres():
     assert len(triangles) == 4
 
 
-def test_they_are_drawn_unless_switched_off(drawn):
-    mesh = hybrid()
-    seen = drawn(frame(mesh))
-    assert drawn.viewport.overlay_layers.optional["others"].shown
-    assert drawn.viewport.places[:, 2].max() == 2
-    poly = drawn.viewport.overlay_layers.optional["others"].poly
-    drawn(frame(mesh))
-    assert drawn.viewport.overlay_layers.optional["others"].poly is poly
-    without = drawn(frame(mesh, OFF))
-    assert not drawn.viewport.overlay_layers.optional["others"].shown
+def test_they_are_drawn_unless_switched_off(off_screen):
+    mesh, viewport = hybrid(), off_screen(240, 180)
+    layer = viewport.overlay_layers.optional["others"]
+    viewport.draw(frame_of(mesh))
+    viewport.view("iso")
+    seen, poly = viewport.pixels(), layer.poly
+    assert layer.shown
+    assert viewport.places[:, 2].max() == 2
+    viewport.draw(frame_of(mesh))
+    assert layer.poly is poly
+    viewport.draw(frame_of(mesh, OFF))
+    without = viewport.pixels()
+    assert not layer.shown
     assert np.abs(seen - without).sum(axis=2).astype(bool).sum() > 500

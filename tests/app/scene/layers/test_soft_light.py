@@ -7,16 +7,13 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.page import LineStyle, Page
 from hexmend_app.picture.visibility import Show
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
-from tests.app.scene.views.showing import show
+from tests.app.scene.showing import show
 from tests.core.grids import grid
 
 MESH = grid(3)  # of cubes, with the last colour of the map
 
 
-def faces(direction, colour_map="viridis", edges=0.0, fine=True):
+def faces(viewport, direction, colour_map="viridis", edges=0.0, fine=True):
     """Return the colours of the faces that are seen, (k, 3), and the colour of the legend, (3,)."""
     look = Look(
         lines=LineStyle(edges=edges),
@@ -24,31 +21,28 @@ def faces(direction, colour_map="viridis", edges=0.0, fine=True):
         page=Page(shading=False),
         colours=Colours(map=colour_map),
     )
-    with Stage((200, 200)) as stage:
-        viewport = Viewport(Pane(stage.window), axes=False)
-        show(viewport, MESH, look)
-        viewport.view(direction)
-        (viewport.still if fine else viewport.moving)()
-        pixels = stage.picture().reshape(-1, 3)
-        colours, counts = np.unique(pixels, axis=0, return_counts=True)
-        background = pixels[0]
-        drawn = (counts > 200) & (colours != background).any(axis=1)
-        return colours[drawn].astype(float), viewport.colouring.table[-1].astype(float)
+    show(viewport, MESH, look)
+    viewport.view(direction)
+    (viewport.still if fine else viewport.moving)()
+    pixels = viewport.pixels().reshape(-1, 3)
+    colours, counts = np.unique(pixels, axis=0, return_counts=True)
+    drawn = (counts > 200) & (colours != pixels[0]).any(axis=1)
+    return colours[drawn].astype(float), viewport.colouring.table[-1].astype(float)
 
 
 @pytest.mark.parametrize(
     ("direction", "edges", "fine"), [("+x", None, True), ("-y", 0.0, True), ("+z", None, False), ("+x", 0.0, False)]
 )
-def test_a_face_towards_the_viewer_has_the_colour_of_the_legend(direction, edges, fine):
-    colours, legend = faces(direction, edges=edges, fine=fine)
+def test_a_face_towards_the_viewer_has_the_colour_of_the_legend(off_screen, direction, edges, fine):
+    colours, legend = faces(off_screen(200, 200, axes=False), direction, edges=edges, fine=fine)
     assert np.abs(colours - legend).max(axis=1).min() <= 2
 
 
 @pytest.mark.parametrize(
     ("direction", "colour_map"), [("iso", "viridis"), ((1.0, 0.3, 0.1), "plasma"), ((-1.0, -0.2, -0.9), "viridis")]
 )
-def test_shades_keep_the_hue_and_most_of_the_brightness(direction, colour_map):
-    colours, legend = faces(direction, colour_map)
+def test_shades_keep_the_hue_and_most_of_the_brightness(off_screen, direction, colour_map):
+    colours, legend = faces(off_screen(200, 200, axes=False), direction, colour_map)
     shades = colours / legend
     assert len(colours) >= 2
     assert shades.min() > 0.7

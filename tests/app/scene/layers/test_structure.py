@@ -1,7 +1,5 @@
 """Layers of the mesh structure: colours, filters and moving nodes."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
@@ -15,6 +13,7 @@ from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box
 from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
+from hexmend_app.scene.layers.optional.interfaces import InterfaceLayer
 from hexmend_app.scene.layers.optional.structure import (
     BOUNDARY,
     FREE,
@@ -27,8 +26,9 @@ from hexmend_app.scene.layers.optional.structure import (
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
 from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER, classify_boundary
+from tests.app.features.structure.layers import count
+from tests.app.scene.showing import frame_of
 from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.grids import grid
 
@@ -46,30 +46,20 @@ NO_CUT, BELOW = Cut(), Cut.at((0, 0, 1), (0, 0, 0.7))
 
 
 @pytest.fixture
-def draw():
+def draw(off_screen):
     """A function that draws a mesh with a look and returns its pixels; its attribute `viewport` is the view."""
-    stage = Stage((400, 300))
-    viewport = Viewport(Pane(stage.window))
+    viewport = off_screen(400, 300)
 
     def drawn(mesh, structure, cut=NO_CUT, shrink=0.0):
         show = Show(shrink=shrink, outline=False)
         look = Look(structure=structure, cut=cut, lines=LineStyle(edges=0.0), show=show)
-        viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look))
+        viewport.draw(frame_of(mesh, look))
         viewport.view("iso")
         viewport.moving()
-        return pixels()
+        return viewport.pixels()
 
-    def pixels():
-        return stage.picture().astype(int)
-
-    drawn.viewport, drawn.pixels = viewport, pixels
-    yield drawn
-    stage.close()
-
-
-def count(image, colour):
-    """Count the pixels of exactly this colour; marks are not shaded."""
-    return int((image == np.frombuffer(bytes.fromhex(colour[1:]), np.uint8)).all(axis=2).sum())
+    drawn.viewport = viewport
+    return drawn
 
 
 def test_irregular_edges_are_visible_through_the_mesh_in_the_colour_of_their_valence(draw):
@@ -106,8 +96,8 @@ def test_nodes_of_locked_hexes_are_marked(draw):
     points[15] = points[15] + [-1.5, 0, 0]  # of an edge of the box, past its neighbour on the boundary
     locked = Mesh(points, mesh.hexes)
     assert count(draw(locked, Structure.of("locked")), LOCKED) > 20
-    draw.viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=draw.viewport.frame.look))
-    assert count(draw.pixels(), LOCKED) == 0
+    draw.viewport.draw(frame_of(mesh, draw.viewport.frame.look))
+    assert count(draw.viewport.pixels(), LOCKED) == 0
 
 
 @pytest.mark.parametrize(
@@ -127,11 +117,7 @@ def test_only_shown_hexes_have_marks(draw, cut):
     assert layers.irregular.count == 5  # of the eleven, those below the plane
     for marks in (layers.irregular, layers.sharp, layers.nodes):
         assert marks.poly.points[:, 2].max() <= 0.75
-    draw.viewport.draw(
-        dataclasses.replace(
-            draw.viewport.frame, look=Look(structure=wanted, show=Show(hidden=frozenset(range(FIVE.n_hexes))))
-        )
-    )
+    draw.viewport.draw(frame_of(FIVE, structure=wanted, show=Show(hidden=frozenset(range(FIVE.n_hexes)))))
     assert not layers.irregular.shown
     assert not layers.nodes.shown
 
@@ -139,7 +125,7 @@ def test_only_shown_hexes_have_marks(draw, cut):
 def test_marks_move_with_the_nodes_and_with_shrunk_hexes(draw):
     draw(FIVE, Structure.of("irregular", "fixed"), shrink=0.3)
     moved = FIVE.points * [1, 1, 0.5]
-    draw.viewport.draw(Frame(FIVE.with_points(moved), measure(moved, FIVE.hexes), look=draw.viewport.frame.look))
+    draw.viewport.draw(frame_of(FIVE.with_points(moved), draw.viewport.frame.look))
     layers = draw.viewport.overlay_layers.structure
     axis = layers.irregular.poly.points
     assert axis[:, 2].max() == pytest.approx(0.75)
@@ -179,6 +165,40 @@ def test_a_view_beside_the_first_does_not_mark_nodes_that_have_not_moved_there()
     classes = classify_boundary(moved, figures, 40.0)
     first = Frame(moved, figures, kinds=classes.kinds, original_kinds=classes.original_kinds)
     assert classes.count(LEFT) == 1
-    other = Frame(mesh, measure(mesh.points, mesh.hexes)).matching(first)
+    other = frame_of(mesh).matching(first)
     assert not (other.kinds == LEFT).any()
     assert Frame(moved, figures).matching(first).kinds is classes.kinds
+
+
+# Layer of the interfaces between materials.
+
+
+ONE = grid(4)
+LOW = ONE.points[ONE.hexes].mean(axis=1)[:, 0] < 2
+TWO = ONE.replace(hex_sets={"low": np.flatnonzero(LOW), "high": np.flatnonzero(~LOW)})
+
+
+@pytest.fixture
+def layer():
+    with Stage((120, 90)) as stage:
+        yield InterfaceLayer(Pane(stage.window))
+
+
+def test_interfaces_are_the_faces_between_materials_at_shown_hexes(layer):
+    layer.draw(frame_of(TWO), None)
+    assert layer.shown
+    assert layer.poly.n_cells == 16
+    assert (layer.places[:, 0] == 2).all()
+    layer.draw(frame_of(TWO), TWO.points[TWO.hexes].mean(axis=1)[:, 2] < 1)
+    assert layer.poly.n_cells == 4
+    layer.draw(frame_of(ONE), None)
+    assert not layer.shown
+
+
+def test_an_unchanged_interface_is_not_built_again_and_moves_with_its_nodes(layer):
+    layer.draw(frame_of(TWO), None)
+    poly = layer.poly
+    layer.draw(frame_of(TWO), None)
+    assert layer.poly is poly
+    layer.draw(frame_of(TWO.with_points(TWO.points + 1)), None)
+    assert (layer.places[:, 0] == 3).all()

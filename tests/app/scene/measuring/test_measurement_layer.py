@@ -3,33 +3,24 @@
 import numpy as np
 import pytest
 
-from hexmend.quality import measure
-from hexmend_app.picture.appearance import Look, Measurement
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
-from tests.core.grids import grid
+from hexmend_app.picture.appearance import Measurement
+from tests.app.scene.showing import MESH, frame_of
 
-MESH = grid(4)
-FIGURES = measure(MESH.points, MESH.hexes)
 POINTS = (4.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 3.0, 4.0)  # the second is hidden behind the mesh
 
 
 @pytest.fixture
-def drawn():
+def drawn(off_screen):
     """A function that draws points to measure and returns the pixels and the texts."""
-    stage = Stage((240, 180))
-    viewport = Viewport(Pane(stage.window))
+    viewport = off_screen(240, 180)
 
     def draw(*points):
-        viewport.draw(Frame(MESH, FIGURES, look=Look(measurement=Measurement(points))))
+        viewport.draw(frame_of(MESH, measurement=Measurement(points)))
         viewport.view("iso")
         viewport.moving()
-        return stage.picture().astype(int), viewport.overlay_layers.measurement.texts
+        return viewport.pixels(), viewport.overlay_layers.measurement.texts
 
-    yield draw
-    stage.close()
+    return draw
 
 
 def changed(one, other):

@@ -1,7 +1,5 @@
 """Pages: sizes, formats, backgrounds and texts."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -1,7 +1,6 @@
 """Off-screen pictures: shown and hidden hexes and colours, checked by pixels."""
 
 import argparse
-import json
 import os
 import subprocess
 import sys
@@ -12,6 +11,7 @@ import pytest
 from PIL import Image
 from PySide6.QtGui import QOpenGLContext
 
+from hexmend.cli.main import main
 from hexmend.errors import FileError
 from hexmend.io import write
 from hexmend_app.cli.render import command
@@ -25,39 +25,17 @@ from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
 from tests.core.grids import grid, scrambled
 
-#: Program that runs commands from its standard input, one a line, and prints their exit status.
-COMMANDS = """
-import contextlib, io, json, sys
-from hexmend.cli.main import main
-for line in sys.stdin:
-    with contextlib.redirect_stdout(io.StringIO()):
-        status = main(json.loads(line))
-    print(status, flush=True)
-"""
 
+@pytest.fixture
+def pictures(tmp_path):
+    """A function that draws a mesh with options of the command."""
+    write(tmp_path / "mesh.vtu", scrambled(grid(5), 0.7))
 
-@pytest.fixture(scope="module")
-def pictures(tmp_path_factory):
-    """A function that draws a mesh with options of the command, in a process without a display."""
-    folder = tmp_path_factory.mktemp("pictures")
-    mesh = scrambled(grid(5), 0.7)
-    write(folder / "mesh.vtu", mesh)
-    environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    pipe = subprocess.PIPE
-    with subprocess.Popen(
-        [sys.executable, "-c", COMMANDS], env=environment, stdin=pipe, stdout=pipe, stderr=pipe, text=True
-    ) as process:
+    def draw(*words, call=main):
+        assert call(["render", f"{tmp_path}/mesh.vtu", "-o", f"{tmp_path}/p.png", "--size", "320x240", *words]) == 0
+        return np.asarray(Image.open(tmp_path / "p.png").convert("RGB")).astype(int)
 
-        def draw(*words):
-            path = folder / ("-".join(word.strip("-") or "none" for word in words).replace(":", "_") + ".png")
-            line = ["render", str(folder / "mesh.vtu"), "-o", str(path), "--size", "320x240", *words]
-            print(json.dumps(line), file=process.stdin, flush=True)
-            assert process.stdout.readline().strip() == "0", process.communicate()[1]
-            return np.asarray(Image.open(path).convert("RGB")).astype(int)
-
-        yield draw
-        assert process.communicate()[1] == ""
-        assert process.returncode == 0
+    return draw
 
 
 def ink(image):
@@ -80,8 +58,13 @@ def test_a_plane_hides_half(pictures):
         assert 0.25 * whole < half < 0.65 * whole
 
 
+def without_a_display(words):
+    environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    return subprocess.run([sys.executable, "-m", "hexmend", *words], env=environment).returncode
+
+
 def test_a_smooth_cut_shows_inverted_elements_inside(pictures):
-    inside = pictures("--view", "+z", "--clip", "z:0.5", "--smooth")[:200]
+    inside = pictures("--view", "+z", "--clip", "z:0.5", "--smooth", call=without_a_display)[:200]
     assert (np.abs(inside - INVERTED).sum(axis=2) < 90).sum() > 50
 
 
@@ -113,34 +96,16 @@ def test_a_quality_range_hides_the_others(pictures):
     ],
 )
 def test_invalid_options_are_reported(words, message, tmp_path, capsys):
-    from hexmend.cli.main import main
-
     write(tmp_path / "mesh.vtu", grid(2))
     assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "out.png"), *words]) == 2
     assert message in capsys.readouterr().err
 
 
-def test_several_meshes_are_drawn_side_by_side_by_the_command(tmp_path, capsys):
-    from hexmend.cli.main import main
-
-    paths = [str(tmp_path / f"{name}.vtu") for name in ("plain", "tangled")]
-    write(paths[0], grid(5))
-    write(paths[1], scrambled(grid(5), 0.7))
-    out = tmp_path / "out.png"
-    assert main(["render", *paths, "-o", str(out), "--size", "640x320", "--clip", "z:0.5", "--smooth"]) == 0
-    drawn = np.asarray(Image.open(out).convert("RGB")).astype(int)
-    assert drawn.shape == (320, 640, 3)
-    assert min(ink(drawn[:, :320]), ink(drawn[:, 320:])) > 0.1
-    magenta = (np.abs(drawn[:280] - INVERTED).sum(axis=2) < 90).sum(axis=0)
-    assert magenta[:320].sum() == 0
-    assert magenta[320:].sum() > 50
-    for words, message in (
-        ([paths[0]] * 13, "at most 12"),
-        ([*paths, "--captions", "a,b,c"], "expected as many names as panels (2)"),
-    ):
-        assert main(["render", *words, "-o", str(tmp_path / "none.png")]) == 2
-        assert message in capsys.readouterr().err
-        assert not (tmp_path / "none.png").exists()
+def test_at_most_12_meshes_are_drawn(tmp_path, capsys):
+    write(tmp_path / "mesh.vtu", grid(2))
+    assert main(["render", *[str(tmp_path / "mesh.vtu")] * 13, "-o", str(tmp_path / "none.png")]) == 2
+    assert "at most 12" in capsys.readouterr().err
+    assert not (tmp_path / "none.png").exists()
 
 
 def sheet(*meshes, look=Look(), bar=True, names="abcdef", **page):  # noqa: B008
@@ -198,8 +163,6 @@ def test_other_shapes_are_asked_for():
 
 
 def test_a_picture_has_the_format_of_its_suffix(tmp_path, capsys):
-    from hexmend.cli.main import main
-
     write(tmp_path / "mesh.vtu", grid(2))
     assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "p.jpg")]) != 0
     assert "p.jpg: a picture cannot be written as .jpg. Use .png, .tif, .tiff, .pdf or .svg." in capsys.readouterr().err

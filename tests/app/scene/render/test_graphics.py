@@ -28,6 +28,7 @@ def test_without_the_library(tmp_path):
     assert not (tmp_path / "out.png").exists()
 
 
+@pytest.mark.slow
 def test_without_a_driver(tmp_path):
     done = render(tmp_path, __EGL_VENDOR_LIBRARY_FILENAMES=str(tmp_path / "none.json"))
     assert done.returncode == 2

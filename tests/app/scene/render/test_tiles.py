@@ -1,7 +1,5 @@
 """Pictures that are too large to be rendered at once: tiles are joined without seams."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -10,10 +10,7 @@ from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.picture.page import LineStyle
-from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame, same_hexes
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
 from tests.core.grids import grid, scrambled
 
 MESH = grid(4)
@@ -23,11 +20,9 @@ MOVED_FIGURES = measure(MOVED.points, MOVED.hexes)
 
 
 @pytest.fixture
-def watched(monkeypatch):
+def watched(off_screen, monkeypatch):
     """A function that draws a frame and returns the names of the called methods, and the viewport."""
-    stage = Stage((80, 60))
-    viewport = Viewport(Pane(stage.window))
-    done = []
+    viewport, done = off_screen(80, 60), []
 
     def watch(part, name):
         act = getattr(part, name)
@@ -47,8 +42,7 @@ def watched(monkeypatch):
         viewport.draw(frame)
         return set(done)
 
-    yield draw, viewport
-    stage.close()
+    return draw, viewport
 
 
 def test_another_mesh_is_drawn_from_scratch(watched):

@@ -3,28 +3,21 @@
 import numpy as np
 import pytest
 
-from hexmend.quality import measure
-from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
+from tests.app.scene.showing import frame_of
 from tests.core.grids import grid
 
 MESH = grid(5)
-FIGURES = measure(MESH.points, MESH.hexes)
 
 
 @pytest.fixture
-def seen():
+def seen(off_screen):
     """A viewport that looks at a grid from above."""
-    with Stage((200, 200)) as stage:
-        viewport = Viewport(Pane(stage.window))
-        viewport.draw(Frame(MESH, FIGURES))
-        viewport.view("+z")
-        stage.picture()
-        yield viewport
+    viewport = off_screen(200, 200)
+    viewport.draw(frame_of(MESH))
+    viewport.view("+z")
+    viewport.pixels()
+    return viewport
 
 
 @pytest.mark.parametrize("place", [(100, 100), (60, 130), (150, 45)])
@@ -43,7 +36,7 @@ def test_nothing_is_picked_outside_the_mesh(seen):
 
 
 def test_the_picked_point_on_a_section_lies_on_the_plane(seen):
-    seen.draw(Frame(MESH, FIGURES, look=Look(cut=Cut.at((0, 0, 1), (2.5, 2.5, 2.3), CutStyle.SMOOTH))))
+    seen.draw(frame_of(MESH, cut=Cut.at((0, 0, 1), (2.5, 2.5, 2.3), CutStyle.SMOOTH)))
     hit = seen.pick(100, 100)
     assert hit.place[2] == pytest.approx(2.3, abs=1e-6)
     assert MESH.points[MESH.hexes[hit.hex]][:, 2].tolist().count(2.0) == 4

@@ -12,16 +12,12 @@ from hexmend_app.shell.palette.palette_entries import choice_entries, command_en
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.theme.style import set_help
 from hexmend_app.widgets.section import Section
-from tests.app.hosting import PlainHost
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 
 @pytest.fixture
-def host(qtbot):
-    host = PlainHost(grid(3))
-    yield host
-    host.session.close()
+def host(hosted):
+    return hosted(grid(3))
 
 
 @pytest.fixture
@@ -71,7 +67,7 @@ def test_choosing_a_method_keeps_its_last_parameters(host):
 def test_choosing_a_metric_colours_by_it(host, qtbot):
     entries = {entry.title: entry for entry in choice_entries(host.session)}
     for metric in (*METRICS.values(), *DISPLACEMENT_QUANTITIES.values()):
-        with qtbot.waitSignal(host.session.view.metric_wanted, timeout=PATIENCE) as signal:
+        with qtbot.waitSignal(host.session.view.metric_wanted) as signal:
             entries[f"Colour by: {metric.title}"].run()
         assert signal.args == [metric.name]
 

@@ -1,12 +1,9 @@
 """Start of the window: mesh first, then all panels."""
 
-from __future__ import annotations
-
 import pytest
 
 from hexmend_app.shell.features import feature_names, first_names
 from hexmend_app.shell.start.window_start import WindowStart
-from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -15,11 +12,11 @@ def test_the_mesh_is_drawn_before_the_other_features_are_built(bare_window, qtbo
     window, drawn_by = bare_window, []
     WindowStart(window, mesh_file)
     assert window.session is None  # it is imported in a thread
-    qtbot.waitUntil(lambda: window.canvas is not None, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.canvas is not None)
     window.canvas.interactor.frameSwapped.connect(
         lambda: window.canvas.colouring is not None and drawn_by.append(tuple(window.features))
     )
-    with qtbot.waitSignal(window.ready, timeout=PATIENCE):
+    with qtbot.waitSignal(window.ready):
         pass
     assert drawn_by[0] == ("open", "appearance", "camera")
     assert set(first_names()) == set(drawn_by[0])
@@ -29,7 +26,7 @@ def test_the_mesh_is_drawn_before_the_other_features_are_built(bare_window, qtbo
 
 def test_panels_are_built_and_an_error_is_shown_if_the_mesh_cannot_be_opened(bare_window, qtbot, tmp_path):
     path = tmp_path / "none.vtk"
-    with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
+    with qtbot.waitSignal(bare_window.ready):
         WindowStart(bare_window, path)
     assert not bare_window.session.document.is_open
     assert bare_window.messages.isVisible()
@@ -39,7 +36,7 @@ def test_panels_are_built_and_an_error_is_shown_if_the_mesh_cannot_be_opened(bar
 def test_adding_the_view_does_not_recreate_the_window(bare_window, qtbot, mesh_file):
     before = bare_window.windowHandle().winId()
     WindowStart(bare_window, mesh_file)
-    with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
+    with qtbot.waitSignal(bare_window.ready):
         pass
-    qtbot.waitUntil(lambda: bare_window.canvas.isVisible(), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: bare_window.canvas.isVisible())
     assert bare_window.windowHandle().winId() == before

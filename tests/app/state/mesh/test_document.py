@@ -8,7 +8,6 @@ import pytest
 from hexmend.boundary import surface_change
 from hexmend_app.state.mesh.document import Document, State
 from tests.core.grids import grid, scrambled
-from tests.patience import PATIENCE
 
 
 def moved(state, amount):
@@ -43,7 +42,7 @@ def test_changes_are_undone_and_redone(document):
 
 
 def test_a_preview_is_no_change(document, qtbot):
-    with qtbot.waitSignal(document.points_moved, timeout=PATIENCE):
+    with qtbot.waitSignal(document.points_moved):
         document.preview(moved(document.now, 0.01))
     assert document.undo_title is None
 
@@ -76,7 +75,7 @@ def test_saving_marks_the_state_that_was_saved(document):
 
 def test_opening_a_mesh_discards_the_changes(document, qtbot):
     document.commit("smooth", moved(document.now, 0.01))
-    with qtbot.waitSignal(document.mesh_replaced, timeout=PATIENCE):
+    with qtbot.waitSignal(document.mesh_replaced):
         document.replace(State.of(grid(2)), None)
     assert document.undo_title is None
     assert document.start is document.now

@@ -9,6 +9,7 @@ from hexmend_app.picture.visibility import Isolate
 from hexmend_app.scene.colour.colouring import resolve
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.hex_groups import GROUPS, hexes_of_group
+from hexmend_app.state.mesh.snapshots import MAX_SNAPSHOTS, Snapshots
 from hexmend_app.state.mesh.worst_hexes import WorstHexes
 from hexmend_app.state.view.view_model import ViewModel
 from tests.app.invalid_hexes import INSIDE, INVERTED, THREE, VALID
@@ -71,3 +72,41 @@ def test_isolated_hexes_are_shown_whatever_the_other_filters(qapp):
     assert view.look.show.isolate == Isolate((3, 8), rings=view.rings)
     assert view.look.show.quality is None
     assert view.rings == 1  # for the next isolation
+
+
+# Snapshots of the open mesh.
+
+
+STATE = State.of(scrambled(grid(3), 0.6))
+
+
+def test_snapshots_have_unique_slots_and_names(qtbot):
+    snapshots = Snapshots(Document())
+    for _ in range(MAX_SNAPSHOTS + 2):
+        snapshots.add("mend 3", STATE)
+    assert snapshots.full
+    assert [one.slot for one in snapshots.all] == list(range(MAX_SNAPSHOTS))
+    assert [one.name for one in snapshots.all] == ["mend 3", *(f"mend 3 ({k})" for k in range(2, MAX_SNAPSHOTS + 1))]
+
+
+def test_a_free_slot_is_reused_and_the_others_do_not_change(qtbot):
+    snapshots = Snapshots(Document())
+    for name in "abc":
+        snapshots.add(name, STATE)
+    snapshots.remove(1)
+    snapshots.add("d", STATE)
+    assert [(one.slot, one.name) for one in snapshots.all] == [(0, "a"), (2, "c"), (1, "d")]
+    snapshots.rename(2, "see")
+    assert [one.name for one in snapshots.all] == ["a", "see", "d"]
+    snapshots.clear()
+    assert not snapshots.all
+
+
+def test_only_changes_are_signalled(qtbot):
+    snapshots, counts = Snapshots(Document()), []
+    snapshots.changed.connect(lambda: counts.append(len(snapshots.all)))
+    snapshots.clear()
+    snapshots.add("a", STATE)
+    snapshots.remove(4)
+    snapshots.remove(0)
+    assert counts == [1, 0]

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from hexmend.errors import MeshError
 from hexmend.gallery import make
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
+from hexmend_app.state.mesh.inspection import describe_node
 from hexmend_app.state.node_step import StepStatus, Sweep, explain
 from tests.app.state.node_step.node_steps import LOCAL, after, patch_energy, swept
 from tests.core.grids import grid, scrambled
@@ -167,3 +169,46 @@ def test_the_example_of_the_docs_runs(capsys):
     first, second = capsys.readouterr().out.splitlines()
     assert first.startswith("Moved. ['1.00', '0.70', '0.49', '0.34', '0.24']")  # four cuts, as the text says
     assert "[-" in second
+
+
+# The direction of steepest descent of nodes at their minimum and away from it.
+
+
+SHEAR = np.array([[1, 0.4, 0.1], [0, 1, 0.3], [0, 0, 0.6]])
+MIDDLE = 62  # of the five nodes along each axis
+
+
+def sheared(shift=0.0, seed=0, size=1.0):
+    """Return a sheared grid, each inner node of which is at the minimum of its energy by symmetry."""
+    mesh = grid(4)
+    return mesh.with_points(size * mesh.points @ SHEAR @ Rotation.random(random_state=seed).as_matrix() + shift)
+
+
+def moved(mesh, distance):
+    points = mesh.points.copy()
+    points[MIDDLE] += distance
+    return mesh.with_points(points)
+
+
+@given(st.integers(0, 2**31), st.sampled_from([0.0, 10.0, 1e3, 1e6]), st.sampled_from([1e-3, 1.0, 50.0]))
+def test_a_node_at_its_minimum_has_no_direction_whatever_is_left_by_rounding(seed, shift, size):
+    mesh = sheared(shift, seed, size)
+    assert not describe_node(mesh, MIDDLE).downhill.any()
+    for p in (1.0, 2.0, 4.0):
+        assert not explain(mesh, METHODS["local-sd"](p=p), MIDDLE).descent.any()
+
+
+@pytest.mark.parametrize("distance", [1e-11, 1e-8, 1e-3, 0.1])
+def test_a_node_that_is_away_from_its_minimum_has_one_that_leads_back(distance):
+    mesh = moved(sheared(), [distance, 0, 0])
+    step = explain(mesh, METHODS["local-sd"](), MIDDLE)
+    for direction in (describe_node(mesh, MIDDLE).downhill, step.descent):
+        assert direction[0] < 0
+    np.testing.assert_array_equal(step.descent, -step.gradient)
+
+
+def test_a_curve_is_rounding_if_the_energy_hardly_changes_along_it():
+    assert explain(sheared(), METHODS["local-nr"](), MIDDLE).curve_is_rounding
+    assert explain(moved(sheared(), [1e-12, 0, 0]), METHODS["local-nr"](), MIDDLE).curve_is_rounding
+    assert not explain(moved(sheared(), [1e-4, 0, 0]), METHODS["local-nr"](), MIDDLE).curve_is_rounding
+    assert explain(grid(4), METHODS["local-nr"](), MIDDLE).curve_is_rounding  # there is none

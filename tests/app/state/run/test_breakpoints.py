@@ -2,6 +2,7 @@
 
 import dataclasses
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,7 +11,11 @@ from hexmend import gallery
 from hexmend.iteration import Iteration
 from hexmend.quality import measure
 from hexmend.run import StoppingCriteria, iterate
+from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.breakpoints import Breakpoints
+from hexmend_app.state.run.run_controller import Phase
+from tests.core.grids import grid, scrambled
 
 MESH = gallery.make("bridge-sharp", size=864)  # Laplacian inverts hexes of it
 
@@ -72,3 +77,40 @@ def test_how_many_elements_inverted_is_said(run):
     assert said(4) == "Hex 4 inverted"
     assert said(4, 9) == "Hex 4 and 1 more inverted"
     assert said(4, 9, 12) == "Hex 4 and 2 more inverted"
+
+
+# Pausing of runs at breakpoints.
+
+
+@pytest.fixture
+def session(hosted):
+    return hosted(MESH).session
+
+
+def test_a_run_pauses_exactly_at_the_iteration_of_a_breakpoint(session, run, qtbot):
+    smoothing = session.run
+    smoothing.break_at(Breakpoints(inverts=True))
+    pauses = [b.number for a, b in pairwise(run) if Breakpoints(inverts=True).hit(a, b, 1.0)]
+    with qtbot.waitSignal(smoothing.hit) as hit:
+        smoothing.start(Laplacian(), StoppingCriteria(max_iterations=15, tolerance=0))
+    assert hit.args[0].iteration.number == pauses[0]
+    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED)
+    assert smoothing.record.newest == pauses[0] == session.timeline.shown_iteration.number
+    for number in pauses[1:3]:
+        with qtbot.waitSignal(smoothing.hit) as hit:
+            smoothing.resume()
+        assert hit.args[0].iteration.number == number
+    assert list(smoothing.record.pauses) == pauses[:3]
+    smoothing.break_at(Breakpoints())
+    with qtbot.waitSignal(smoothing.ended):
+        smoothing.resume()
+    assert smoothing.record.newest == 15
+
+
+def test_breakpoints_can_be_set_during_a_run(session, qtbot):
+    session.document.replace(State.of(scrambled(grid(6), 0.4)), Path("b.vtu"))
+    session.run.start(Laplacian(), StoppingCriteria(max_iterations=10**6, tolerance=0))
+    qtbot.waitUntil(lambda: session.run.phase is Phase.RUNNING)
+    node = int(np.flatnonzero(session.document.now.mesh.free)[0])
+    with qtbot.waitSignal(session.run.hit):
+        session.run.break_at(Breakpoints(hex=0, change=-1.0, node=node))

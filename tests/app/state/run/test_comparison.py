@@ -9,24 +9,20 @@ from hexmend.smoothers import METHODS
 from hexmend_app.features.compare.feature import FeatureCompare
 from hexmend_app.state.session import session_data
 from tests.app.features.smooth.test_rules import two_materials
-from tests.app.hosting import PlainHost
-from tests.patience import PATIENCE
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
 RULES = MotionRules(interfaces="free", fix=("inside",))
 
 
 @pytest.fixture
-def host(qtbot):
-    host = PlainHost(two_materials())
-    yield host
-    host.session.close()
+def host(hosted):
+    return hosted(two_materials())
 
 
 def compared(host, qtbot, rules=RULES):
     comparison = host.session.comparison
     comparison.start([METHODS["local-sd"](), METHODS["laplacian"]()], SHORT, rules)
-    qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not comparison.busy)
     return comparison
 
 
@@ -47,7 +43,7 @@ def test_the_feature_compares_with_the_rules_of_the_next_run(host, qtbot):
     feature = FeatureCompare(host)
     session.run_setup.set_rules(RULES)
     feature.panel.run_requested.emit(["local-sd"])
-    qtbot.waitUntil(lambda: not session.comparison.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not session.comparison.busy)
     assert session.comparison.to_data().rules == RULES
 
 

@@ -18,7 +18,6 @@ from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
 from tests.app.driving import turn
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 SLOW = StoppingCriteria(tolerance=0, max_iterations=100_000)
 
@@ -47,7 +46,7 @@ def phase_is(smoothing, phase):
 
 def test_a_run_has_the_result_of_the_command_line(document, smoothing, qtbot):
     expected = smooth(document.now.mesh, LocalSteepestDescent())
-    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
+    with qtbot.waitSignal(smoothing.ended) as ended:
         smoothing.start(LocalSteepestDescent(), StoppingCriteria())
     (result,) = ended.args
     assert result.outcome is expected.outcome
@@ -64,7 +63,7 @@ def test_every_iteration_is_shown_where_that_is_asked_for(document, smoothing, q
     seen = []
     smoothing.iterated.connect(lambda frame: seen.append(frame.iteration.number))
     smoothing.set_pace(pace)
-    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
+    with qtbot.waitSignal(smoothing.ended) as ended:
         smoothing.start(LocalSteepestDescent(), StoppingCriteria(max_iterations=12, tolerance=0))
     numbers = sorted(set(seen))
     if pace is Pace.EVERY:
@@ -75,10 +74,10 @@ def test_every_iteration_is_shown_where_that_is_asked_for(document, smoothing, q
 def test_a_run_that_waits_to_be_shown_can_be_closed_and_let_go_on(document, smoothing, qtbot):
     smoothing.set_pace(Pace.EVERY)
     smoothing.start(LocalSteepestDescent(), SLOW)
-    qtbot.waitUntil(lambda: smoothing.record.newest > 2, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: smoothing.record.newest > 2)
     smoothing.set_pace(Pace.FASTEST)
     before = smoothing.record.newest
-    qtbot.waitUntil(lambda: smoothing.record.newest > before + 5, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: smoothing.record.newest > before + 5)
     smoothing.set_pace(Pace.EVERY)
     smoothing.close()
     wait_for_dropped()
@@ -100,28 +99,28 @@ def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtb
     seen = []
     smoothing.iterated.connect(lambda frame: seen.append(frame.iteration.number))
     smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
-    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED))
     for count in (2, 3):
         smoothing.step()
-        qtbot.waitUntil(lambda count=count: seen[-1:] == [count], timeout=PATIENCE)
-    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
+        qtbot.waitUntil(lambda count=count: seen[-1:] == [count])
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED))
     assert seen == [1, 2, 3]
     smoothing.resume()
-    qtbot.waitUntil(lambda: seen[-1] > 6, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: seen[-1] > 6)
     smoothing.pause()
-    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED))
     turn()  # signals that were queued when it paused
     last = seen[-1]
     smoothing.step()
-    qtbot.waitUntil(lambda: seen[-1] > last, timeout=PATIENCE)
-    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: seen[-1] > last)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED))
     assert seen[-1] == last + 1  # it went no further while it was paused
     assert seen == sorted(set(seen))
 
 
 @pytest.mark.parametrize("iterations", [1, float("inf")])
 def test_closing_leaves_no_thread(document, smoothing, qtbot, iterations):
-    with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
+    with qtbot.waitSignal(smoothing.iterated):
         smoothing.start(LocalSteepestDescent(), SLOW, iterations=iterations)
     smoothing.close()
     assert not smoothing.busy
@@ -130,7 +129,7 @@ def test_closing_leaves_no_thread(document, smoothing, qtbot, iterations):
 
 
 def test_a_mesh_is_replaced_without_waiting_for_the_current_iteration(document, smoothing, qtbot, monkeypatch):
-    with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
+    with qtbot.waitSignal(smoothing.iterated):
         smoothing.start(LocalSteepestDescent(), SLOW)
     with monkeypatch.context() as patch:
         patch.setattr(Task, "join", lambda *_: pytest.fail("the window waits for the run"))
@@ -142,7 +141,7 @@ def test_a_mesh_is_replaced_without_waiting_for_the_current_iteration(document, 
 
 def test_a_method_that_raises_leaves_its_last_iteration_which_can_be_undone(document, smoothing, qtbot):
     before = document.now
-    with qtbot.waitSignal(smoothing.failed, timeout=PATIENCE) as failed:
+    with qtbot.waitSignal(smoothing.failed) as failed:
         smoothing.start(Failing(), SLOW)
     assert isinstance(failed.args[0], ZeroDivisionError)
     assert smoothing.phase is Phase.IDLE
@@ -157,19 +156,19 @@ def test_requested_metrics_are_computed_by_the_worker(document, smoothing, qtbot
     smoothing.iterated.connect(frames.append)
     smoothing.request_metrics({"condition"})
     smoothing.start(LocalSteepestDescent(), StoppingCriteria(), iterations=1)
-    qtbot.waitUntil(lambda: len(frames) == 1, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(frames) == 1)
     assert "condition" in metric_cache.CACHE[frames[0].state.figures]
     assert smoothing.record.name == "Local steepest descent"
     smoothing.request_metrics({"taper", "q"})  # during a run
     smoothing.step()
-    qtbot.waitUntil(lambda: len(frames) == 2, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(frames) == 2)
     assert set(metric_cache.CACHE[frames[1].state.figures]) == {"taper", "q"}
 
 
 def test_stop_takes_effect_within_one_iteration(document, smoothing, qtbot):
     smoothing.start(LocalSteepestDescent(), SLOW)
-    qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 3, timeout=PATIENCE)
-    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE):
+    qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 3)
+    with qtbot.waitSignal(smoothing.ended):
         smoothing.stop()
         newest = smoothing.record.newest
     assert smoothing.record.newest <= newest + 1

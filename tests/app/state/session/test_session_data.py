@@ -1,33 +1,26 @@
 """Sessions are read as they were written; data that no window wrote are reported."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
+from PySide6.QtCore import QObject, Signal
 
 from hexmend.errors import FileError
-from hexmend.run import StoppingCriteria
-from hexmend.smoothers import METHODS
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session import Session
+from hexmend_app.state.session.state_part import StatePart
+from tests.app.driving import smooth
 from tests.core.grids import grid, scrambled
-from tests.patience import PATIENCE
 
 
 @pytest.fixture
-def path(qtbot, tmp_path):
+def path(qtbot, hosted, tmp_path):
     """A session with a run of three iterations and its advice, in a file."""
-    session = Session()
-    session.document.replace(State.of(scrambled(grid(3), 0.4)), Path("a.vtu"))
-    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
-        session.run.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=3, tolerance=0))
+    session = hosted(scrambled(grid(3), 0.4)).session
+    smooth(qtbot, session)
     session_data.write(tmp_path / "work.hexmend", session.to_data())
-    session.close()
     return tmp_path / "work.hexmend"
 
 
@@ -70,3 +63,60 @@ def test_a_session_is_unchanged_by_reading_and_writing_it(path, tmp_path):
     assert again.history.records[0].rows == record.rows
     assert again.history.records[0].advice.reason == record.advice.reason
     np.testing.assert_array_equal(again.document.now.mesh.points, data.document.now.mesh.points)
+
+
+# State parts of features: restored late, closed, saved automatically, and of one mesh only.
+
+
+class Counter(QObject):
+    """A feature's state: a number."""
+
+    changed = Signal()
+
+    def __init__(self):
+        super().__init__()
+        self.number, self.closed = 0, False
+
+    def restore(self, number):
+        self.number = number
+
+    def close(self):
+        self.closed = True
+
+    def part(self):
+        return StatePart(name="test-counter", data=int, to_data=lambda: self.number, restore=self.restore,
+                         close=self.close, changed=self.changed)  # fmt: skip
+
+
+@pytest.fixture
+def session(hosted):
+    return hosted(grid(2)).session
+
+
+def test_data_of_a_session_are_restored_when_the_part_is_declared(session):
+    session.feature_states.restore({"test-counter": 7})
+    assert session.feature_states.to_data() == {"test-counter": 7}
+    counter = Counter()
+    session.feature_states.add(counter.part())
+    assert counter.number == 7
+    with pytest.raises(ValueError, match="two features declare the state 'test-counter'"):
+        session.feature_states.add(counter.part())
+
+
+def test_data_of_another_mesh_are_neither_restored_nor_saved(session):
+    session.feature_states.restore({"test-counter": 7})
+    session.document.replace(State.of(grid(3)), None)
+    counter = Counter()
+    session.feature_states.add(counter.part())
+    assert counter.number == 0
+    assert session.feature_states.to_data() == {"test-counter": 0}
+
+
+def test_a_part_is_saved_after_changes_and_closed_with_the_session(qapp):
+    session, counter, changes = Session(), Counter(), []
+    session.feature_states.add(counter.part())
+    session.data_changed.connect(lambda: changes.append(counter.number))
+    counter.changed.emit()
+    assert changes == [0]
+    session.close()
+    assert counter.closed

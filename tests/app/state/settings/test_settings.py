@@ -1,8 +1,7 @@
 """Settings that are stored between starts."""
 
-from __future__ import annotations
-
 import re
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,6 +9,7 @@ from PySide6.QtCore import QByteArray, QSettings
 
 import hexmend_app
 from hexmend_app.state.settings import settings
+from hexmend_app.state.settings.paths import VARIABLE, state_folder
 from hexmend_app.state.settings.settings import Setting
 
 ALL = {name: value for name, value in vars(settings).items() if isinstance(value, Setting)}
@@ -69,3 +69,25 @@ def test_only_this_module_uses_qsettings():
         str(path.relative_to(root)) for path in root.rglob("*.py") if re.search(r"\bQSettings\b", path.read_text())
     }
     assert users == {"state/settings/settings.py"}
+
+
+# The state folder on each system.
+
+
+@pytest.mark.parametrize(("system", "variables", "expected"), [
+    ("linux", {}, "home/.local/state/hexmend"),
+    ("linux", {"XDG_STATE_HOME": "/x"}, "/x/hexmend"),
+    ("linux", {"XDG_STATE_HOME": "x"}, "home/.local/state/hexmend"),
+    ("darwin", {}, "home/Library/Application Support/Hexmend"),
+    ("win32", {}, "home/AppData/Local/Hexmend"),
+    ("win32", {"LOCALAPPDATA": "/data"}, "/data/Hexmend"),
+    ("linux", {VARIABLE: "/own", "XDG_STATE_HOME": "/x"}, "/own"),
+])  # fmt: skip
+def test_the_folder_follows_the_convention_of_the_system(system, variables, expected, monkeypatch, tmp_path):
+    for name in (VARIABLE, "XDG_STATE_HOME", "LOCALAPPDATA"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(sys, "platform", system)
+    monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
+    assert state_folder() == tmp_path / expected

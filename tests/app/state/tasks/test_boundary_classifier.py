@@ -16,7 +16,6 @@ from hexmend_app.state.tasks.boundary_classifier import (
 )
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 MESH = grid(4)
 FIGURES = measure(MESH.points, MESH.hexes)
@@ -85,11 +84,11 @@ def test_pinned_nodes_stay_a_class_of_their_own():
 
 def test_only_the_latest_request_is_answered(classifier, qtbot):
     pinned = MESH.replace(pinned=MESH.topology.boundary)
-    with qtbot.waitSignal(classifier.found, timeout=PATIENCE):
+    with qtbot.waitSignal(classifier.found):
         classifier.ask(ball(2), FIGURES, 40.0)
         classifier.ask(MESH, FIGURES, 40.0)
         classifier.ask(pinned, FIGURES, 40.0)
-    qtbot.waitUntil(lambda: not classifier.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not classifier.busy)
     assert classifier.of(MESH).count(PIN) == MESH.topology.boundary.sum()
     assert classifier.of(ball(2)) is None
     answer = classifier.classes
@@ -99,15 +98,15 @@ def test_only_the_latest_request_is_answered(classifier, qtbot):
 
 
 def test_an_error_is_reported_and_the_next_request_is_computed(classifier, qtbot):
-    with qtbot.waitSignal(classifier.found, timeout=PATIENCE):
+    with qtbot.waitSignal(classifier.found):
         classifier.ask(MESH, FIGURES, 40.0)
-    with qtbot.waitSignal(classifier.found, timeout=PATIENCE):
+    with qtbot.waitSignal(classifier.found):
         classifier.ask(MESH, None, 40.0)
     assert isinstance(classifier.error, AttributeError)
     assert classifier.of(MESH) is None
     classifier.ask(MESH, None, 40.0)
     assert not classifier.busy  # it would fail again
-    with qtbot.waitSignal(classifier.found, timeout=PATIENCE):
+    with qtbot.waitSignal(classifier.found):
         classifier.ask(MESH, FIGURES, 30.0)
     assert classifier.error is None
     assert classifier.of(MESH) is not None
@@ -121,7 +120,7 @@ def test_results_for_a_closed_mesh_are_dropped(figures, classifier, qtbot):
     classifier.forget()
     other = ball(2)
     classifier.ask(other, measure(other.points, other.hexes), 40.0)
-    qtbot.waitUntil(lambda: not classifier.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not classifier.busy)
     ((classes, error),) = results
     assert classes.mesh is other
     assert error is None

@@ -1,16 +1,16 @@
 """Background tasks: signals, cancelling, dropping, and threads that stay running."""
 
-from __future__ import annotations
-
 import gc
 import os
+import sys
 import threading
 import weakref
 
 import pytest
 
+from hexmend.kernels import set_threads, threads
 from hexmend_app.state.tasks.task import Task, running
-from tests.patience import PATIENCE
+from hexmend_app.state.tasks.thread_priority import lower_priority
 
 
 @pytest.fixture
@@ -21,31 +21,23 @@ def gate():
     gate.set()
 
 
-def test_the_end_is_reported_in_the_thread_that_made_the_task(qtbot):
-    worked, signals = [], []
-    task = Task("reading a test", lambda task: worked.append(threading.get_ident()) or 42)
-    task.ended.connect(lambda: signals.append(threading.get_ident()))
-    task.start()
-    qtbot.waitUntil(lambda: signals != [], timeout=PATIENCE)
-    assert signals == [threading.get_ident()]
-    assert worked != signals
-    assert (task.result, task.error) == (42, None)
-    assert task.over
-
-
-def test_reports_come_in_order_and_before_the_end(qtbot):
-    signals = []
+def test_reports_come_in_order_and_before_the_end_in_the_thread_that_made_the_task(qtbot):
+    signals, threads = [], []
 
     def work(task):
         for word in ("one", "two"):
             task.report(word)
+        return threading.get_ident()
 
     task = Task("reading a test", work)
     task.reported.connect(signals.append)
-    task.ended.connect(lambda: signals.append("end"))
+    task.ended.connect(lambda: (signals.append("end"), threads.append(threading.get_ident())))
     task.start()
-    qtbot.waitUntil(lambda: signals[-1:] == ["end"], timeout=PATIENCE)
+    qtbot.waitUntil(lambda: signals[-1:] == ["end"])
     assert signals == ["one", "two", "end"]
+    assert threads == [threading.get_ident()] != [task.result]
+    assert task.error is None
+    assert task.over
 
 
 @pytest.mark.parametrize("error", [ValueError("no"), SystemExit(1)])
@@ -54,7 +46,7 @@ def test_an_exception_of_any_kind_becomes_the_error(qtbot, error):
         raise error
 
     task = Task("reading a test", work)
-    with qtbot.waitSignal(task.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(task.ended):
         task.start()
     assert task.error is error
     assert task.result is None
@@ -75,7 +67,7 @@ def test_a_running_thread_is_listed_by_name(qtbot, gate):
 
 def test_a_cancelled_task_ends_early_and_emits_ended(qtbot):
     task = Task("reading a test", lambda task: task.cancelled.wait())
-    with qtbot.waitSignal(task.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(task.ended):
         task.start()
         task.cancel()
     assert task.result is True
@@ -97,8 +89,8 @@ def test_dropped_tasks_and_those_waited_for_emit_nothing(qtbot, gate):
     gate.set()
     waited.wait()
     last = Task("reading the last", lambda task: None)
-    qtbot.waitUntil(lambda: dropped.over, timeout=PATIENCE)
-    with qtbot.waitSignal(last.ended, timeout=PATIENCE):  # their signals would have come before
+    qtbot.waitUntil(lambda: dropped.over)
+    with qtbot.waitSignal(last.ended):  # their signals would have come before
         last.start()
     assert signals == []
 
@@ -113,7 +105,7 @@ def test_a_task_without_references_lives_until_it_is_over(qtbot, gate):
     gc.collect()
     assert known() is not None
     gate.set()
-    qtbot.waitUntil(lambda: signals == ["end"], timeout=PATIENCE)
+    qtbot.waitUntil(lambda: signals == ["end"])
     gc.collect()
     assert known() is None
 
@@ -123,7 +115,33 @@ def test_a_task_without_references_lives_until_it_is_over(qtbot, gate):
 def test_a_task_that_yields_has_a_lower_priority(qtbot, yields):
     own = os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
     task = Task("smoother", lambda task: os.getpriority(os.PRIO_PROCESS, threading.get_native_id()), yields=yields)
-    with qtbot.waitSignal(task.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(task.ended):
         task.start()
     assert (task.result > own) == (yields and own < 19)  # the lowest
     assert os.getpriority(os.PRIO_PROCESS, threading.get_native_id()) == own
+
+
+# Threads that compute have a lower priority than the window.
+
+
+@pytest.fixture
+def priorities(monkeypatch):
+    """Record the calls of `os.setpriority` instead of making them."""
+    calls = []
+    monkeypatch.setattr(os, "setpriority", lambda *values: calls.append(values), raising=False)
+    before = threads()
+    yield calls
+    set_threads(before)
+
+
+def test_a_thread_takes_a_lower_priority_on_linux(priorities, monkeypatch):
+    monkeypatch.setattr(sys, "platform", "linux")
+    lower_priority()
+    assert len(priorities) == 1
+
+
+@pytest.mark.parametrize("platform", ["darwin", "win32", "freebsd14"])
+def test_a_thread_keeps_its_priority_where_its_number_is_not_that_of_a_process(priorities, monkeypatch, platform):
+    monkeypatch.setattr(sys, "platform", platform)
+    lower_priority()
+    assert priorities == []

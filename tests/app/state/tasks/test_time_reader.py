@@ -11,7 +11,6 @@ from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend_app.state.mesh.history import RecordedIteration
 from hexmend_app.state.session.session import Session
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 TIMES = ("10", "0.002", "0.5")
 
@@ -44,7 +43,7 @@ def session(qapp):
 
 def opened(qtbot, session, path):
     """Open a case, wait for its times, and return the errors of those left out."""
-    with qtbot.waitSignal(session.time_reader.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.time_reader.ended):
         session.commands.open(path)
     return session.time_reader.errors
 
@@ -94,7 +93,7 @@ def test_a_run_from_a_time_slides_on_the_boundary_of_that_time(case, session, qt
     session.timeline.go(times, 2)
     shown = session.document.now.mesh
     assert shown.surface_points is shown.points
-    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.run.ended):
         session.run.start(Laplacian(boundary="slide"), StoppingCriteria(max_iterations=3))
     run = session.run.record
     assert run.parent == RecordedIteration(times, 2)
@@ -112,11 +111,11 @@ def test_a_run_from_a_time_slides_on_the_boundary_of_that_time(case, session, qt
 def test_sessions_keep_the_times(case, session, qtbot, tmp_path):
     opened(qtbot, session, case)
     session.timeline.go(session.timeline.record, 1)
-    with qtbot.waitSignal(session.saver.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.saver.ended):
         session.commands.save_in_background(tmp_path / "a.hexmend")
     points = session.document.now.mesh.points
     other = Session()
-    with qtbot.waitSignal(other.opener.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(other.opener.ended):
         other.commands.open(tmp_path / "a.hexmend")
     assert not other.time_reader.busy
     (record,) = other.history.records
@@ -131,6 +130,6 @@ def test_another_mesh_ends_the_reading(case, session, qtbot, tmp_path):
     io.write(tmp_path / "a.vtu", grid(2))
     session.commands.open(case)
     session.commands.open(tmp_path / "a.vtu")
-    qtbot.waitUntil(lambda: session.document.name == "a.vtu", timeout=PATIENCE)
+    qtbot.waitUntil(lambda: session.document.name == "a.vtu")
     assert not session.time_reader.busy
     assert session.history.records == []

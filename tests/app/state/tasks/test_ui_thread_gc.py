@@ -7,7 +7,6 @@ import weakref
 import pytest
 
 from hexmend_app.state.tasks.ui_thread_gc import UiThreadGC
-from tests.patience import PATIENCE
 
 
 class Cycle:
@@ -38,7 +37,7 @@ def test_garbage_is_collected_while_the_window_waits(garbage, qtbot):
     collected = []
     Cycle(collected)
     kept = [[] for _ in range(10_000)]
-    qtbot.waitUntil(lambda: bool(collected), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: bool(collected))
     assert kept
 
 

@@ -5,15 +5,17 @@ import threading
 import pytest
 
 from benchmarks.window.windows import save_and_wait
+from hexmend import gallery
 from hexmend.errors import FileError, ParameterError
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera
 from hexmend_app.picture.named_cameras import cameras_of, merged
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.snapshots import Snapshots
 from hexmend_app.state.session import session_data
-from hexmend_app.state.session.session import Session
 from hexmend_app.state.view.saved_cameras import SavedCameras
+from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS, SideViews, Wipe
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
@@ -57,11 +59,8 @@ def test_cameras_of_a_scene_are_added_under_free_names(cameras):
 
 
 @pytest.fixture
-def session(qtbot, tmp_path):
-    session = Session()
-    session.document.replace(State.of(grid(2)), tmp_path / "mesh.vtu")
-    yield session
-    session.close()
+def session(hosted, tmp_path):
+    return hosted(grid(2), tmp_path / "mesh.vtu").session
 
 
 def test_a_session_is_modified_if_its_cameras_differ_from_its_file(session, tmp_path):
@@ -88,11 +87,11 @@ def test_saving_a_session_while_another_is_opened_does_not_modify_the_other(sess
 
     monkeypatch.setattr(session_data, "write", slow)
     saving = session.commands.save_in_background(tmp_path / "work.hexmend")
-    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.opener.ended):
         session.commands.open(tmp_path / "other.hexmend")
     assert not session.modified
     opened.set()
-    qtbot.waitUntil(lambda: saving.over, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: saving.over)
     assert saving.error is None
     assert session.document.path == tmp_path / "other.hexmend"
     assert not session.modified
@@ -110,3 +109,94 @@ def test_cameras_are_read_from_a_file_and_errors_name_the_camera(session, tmp_pa
     write_archive(path, "Hexmend session", VERSION, data)
     with pytest.raises(FileError, match=r"work\.hexmend: has invalid cameras: .*front.* from = 'beneath' is unknown"):
         cameras_of(path)
+
+
+# Side views: their number, their names and their arrangement.
+
+
+@pytest.fixture
+def document(qapp):
+    document = Document()
+    document.replace(State.of(gallery.make("cube", size=8)), None)
+    return document
+
+
+@pytest.fixture
+def views(document):
+    return SideViews(document, Snapshots(document))
+
+
+@pytest.fixture
+def states(document):
+    mesh = document.now.mesh
+    return [State.of(mesh.with_points(mesh.points * scale)) for scale in (1.0, 2.0, 3.0, 4.0)]
+
+
+def test_there_are_at_most_three_side_views(views, states):
+    counts = []
+    views.changed.connect(lambda: counts.append(len(views.all)))
+    assert [views.show(str(k), state) for k, state in enumerate(states)] == [True, True, True, False]
+    assert counts == [1, 2, 3]
+    assert views.full
+    assert MAX_SIDE_VIEWS == 3
+    assert [views.shows(state) for state in states] == [True, True, True, False]
+
+
+def test_views_are_closed_by_number_or_all_or_with_the_mesh(views, states, document):
+    for k, state in enumerate(states[:3]):
+        views.show(str(k), state)
+    views.close_view(2)
+    assert [view.name for view in views.all] == ["0", "2"]
+    document.replace(State.of(gallery.make("cube", size=27)), None)
+    assert views.all == ()
+
+
+def test_a_wipe_needs_two_views_and_ends_with_the_second(views, states):
+    views.set_wiping(True)
+    assert views.wipe is None
+    views.show("a", states[0])
+    views.show("b", states[1])
+    views.set_wiping(True)
+    assert views.wipe == Wipe(0, 2)
+    views.close_view(1)
+    assert views.wipe == Wipe(0, 1)
+    views.close_view(1)
+    assert views.wipe is None
+
+
+def test_choosing_one_view_for_both_sides_swaps_the_sides(views, states):
+    for k, state in enumerate(states[:2]):
+        views.show(str(k), state)
+    views.set_wiping(True)
+    views.choose_wiped(1, 2)
+    assert (views.wipe.left, views.wipe.right) == (1, 2)
+    views.choose_wiped(2, 2)
+    assert (views.wipe.left, views.wipe.right) == (2, 1)
+
+
+@pytest.mark.parametrize(("requested", "low", "high"), [(-3.0, 0.01, 0.1), (0.4, 0.4, 0.4), (7.0, 0.9, 0.99)])
+def test_the_edge_stays_within_the_view(views, states, requested, low, high):
+    views.show("a", states[0])
+    views.move_wipe(0.2)
+    assert views.wipe is None
+    views.set_wiping(True)
+    positions = []
+    views.wiped.connect(lambda: positions.append(views.wipe.at))
+    views.move_wipe(requested)
+    assert low <= views.wipe.at <= high
+    assert positions == [views.wipe.at]
+
+
+def test_a_view_has_a_snapshot_as_long_as_it_is_open(document, states):
+    snapshots = Snapshots(document)
+    views = SideViews(document, snapshots)
+    views.show("first", states[0])
+    views.show("second", states[1])
+    assert [snapshot.name for snapshot in snapshots.all] == ["first", "second"]
+    views.show("first", states[2])
+    assert [snapshot.name for snapshot in snapshots.all] == ["second", "first"]
+    assert snapshots.of(states[0]) is None
+    views.close_view(1)
+    assert [snapshot.name for snapshot in snapshots.all] == ["second"]
+    views.close_all()
+    assert snapshots.all == ()

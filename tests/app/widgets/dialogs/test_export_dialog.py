@@ -1,12 +1,11 @@
 """Dialogs that export charts and tables."""
 
 import pytest
-from PySide6.QtWidgets import QFileDialog, QMessageBox
+from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox
 
 from hexmend_app.report.charts import ChartStyle
 from hexmend_app.report.histogram import Histogram, Outline
 from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, TableDialog
-from tests.patience import PATIENCE
 
 HISTOGRAM = Histogram([Outline("at the start", "#5b6573", [1, 2, 3])], "bridge", "q", "hexes", [(0.0, "0")], (0.0, 1.0))
 WORDS = ("the histogram", "bridge.svg", "SVG figure (*.svg);;Counts (*.csv)", ChartStyle())
@@ -30,19 +29,16 @@ def test_edited_values_are_in_the_chosen_style(dialog):
     assert dialog.result() == ChartDialog.DialogCode.Accepted
 
 
-@pytest.mark.parametrize(("file", "problem"), [("", "Enter the name of the file"), ("a.gif", ".gif")])
-def test_a_missing_or_unsupported_file_name_is_a_problem(dialog, qtbot, file, problem):
+@pytest.mark.parametrize(("file", "height", "problem"), [
+    ("", None, "Enter the name of the file"), ("a.gif", None, ".gif"), ("a.svg", 5.0, "at least 20 mm"),
+])  # fmt: skip
+def test_a_wrong_file_name_or_size_is_a_problem(dialog, file, height, problem):
     dialog.target.line.setText(file)
+    if height is not None:
+        dialog.form.editor("height").set_value(height)
     dialog.accept()
     assert dialog.isVisible()
     assert any(problem in text for text in texts(dialog))
-
-
-def test_an_invalid_size_is_a_problem(dialog, qtbot):
-    dialog.form.editor("height").set_value(5.0)
-    dialog.accept()
-    assert dialog.isVisible()
-    assert any("at least 20 mm" in text for text in texts(dialog))
 
 
 def test_replacing_an_existing_file_is_asked_once(dialog, qtbot, tmp_path, monkeypatch):
@@ -66,14 +62,12 @@ def test_the_preview_of_a_table_has_the_typed_names(qtbot):
     dialog = TableDialog(lambda style: f"**{style.names.get('mend', 'mend')}**", *WORDS, "bridge", ["mend"])
     qtbot.addWidget(dialog)
     dialog.show()
-    qtbot.waitUntil(lambda: dialog.preview.toPlainText() == "mend", timeout=PATIENCE)
+    qtbot.waitUntil(lambda: dialog.preview.toPlainText() == "mend")
     dialog.names["mend"].setText("ours")
     dialog.names["mend"].textEdited.emit("ours")
-    qtbot.waitUntil(lambda: dialog.preview.toPlainText() == "ours", timeout=PATIENCE)
+    qtbot.waitUntil(lambda: dialog.preview.toPlainText() == "ours")
 
 
 def texts(dialog):
     """Return the problems that the dialog shows."""
-    from PySide6.QtWidgets import QLabel
-
     return [label.text() for label in dialog.findChildren(QLabel) if label.accessibleName() == "Problem"]

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QToolButton
+from PySide6.QtWidgets import QApplication, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from hexmend.parameters import Parametrised, declared, parameter
 from hexmend.smoothers import METHODS
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
+from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
 
 _LEFT = Qt.MouseButton.LeftButton
@@ -124,20 +124,8 @@ def test_the_wheel_changes_only_focused_editors(form):
     form.editor("label").setFocus()
 
     def turn(widget):
-        at = QPointF(5, 5)
-        QApplication.sendEvent(
-            widget,
-            QWheelEvent(
-                at,
-                widget.mapToGlobal(at),
-                QPoint(),
-                QPoint(0, 120),
-                Qt.MouseButton.NoButton,
-                Qt.KeyboardModifier.NoModifier,
-                Qt.ScrollPhase.NoScrollPhase,
-                False,
-            ),
-        )
+        place = widget.mapTo(form, QPoint(5, 5))
+        QTest.wheelEvent(form.windowHandle(), QPointF(place), QPoint(0, 120))
 
     turn(form.editor("max_cuts"))
     turn(form.editor("weights"))
@@ -211,3 +199,41 @@ def test_advanced_parameters_are_shown_on_request_below_the_basic_ones(shown):
     assert shown_names(form) == ["goal"]
     QApplication.processEvents()
     assert form.sizeHint().height() == low
+
+
+# Rows of joined buttons, used by keyboard.
+
+
+@pytest.fixture
+def between(shown):
+    """Three joined buttons between two text fields."""
+    widget = QWidget()
+    column = QVBoxLayout(widget)
+    widget.before, widget.after = QLineEdit(), QLineEdit()
+    widget.choice = Segmented("Size", [(key, key.title(), f"{key}.") for key in ("small", "middle", "large")])
+    for part in (widget.before, widget.choice, widget.after):
+        column.addWidget(part)
+    return shown(widget)
+
+
+@pytest.mark.parametrize("chosen", ["small", "middle", "large"])
+@pytest.mark.parametrize("back", [False, True], ids=["Tab", "Shift+Tab"])
+def test_tab_reaches_only_the_checked_button_from_either_side(between, chosen, back):
+    between.choice.set_value(chosen)
+    first, last = (between.after, between.before) if back else (between.before, between.after)
+    first.setFocus()
+    key = Qt.Key.Key_Backtab if back else Qt.Key.Key_Tab
+    QTest.keyClick(first, key)
+    assert QApplication.focusWidget() is between.choice.button(chosen)
+    QTest.keyClick(QApplication.focusWidget(), key)
+    assert QApplication.focusWidget() is last
+
+
+def test_arrow_keys_check_buttons(between, qtbot):
+    between.before.setFocus()
+    QTest.keyClick(between.before, Qt.Key.Key_Tab)
+    with qtbot.waitSignal(between.choice.chosen) as told:
+        QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Right)
+    assert told.args == ["middle"]
+    assert between.choice.value() == "middle"
+    assert between.choice.button("middle").hasFocus()

@@ -8,10 +8,7 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.layers.selection.hex_edges import dashed
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
-from tests.app.scene.views.showing import show
+from tests.app.scene.showing import show
 from tests.core.grids import grid
 
 MESH = grid(3)
@@ -20,18 +17,16 @@ INSIDE = int((MESH.points[MESH.hexes].mean(axis=1) == 1.5).all(axis=1).nonzero()
 
 
 @pytest.fixture
-def viewport():
-    with Stage((400, 400)) as stage:
-        viewport = Viewport(Pane(stage.window), axes=False)
-        show(viewport, MESH, Look(lines=LineStyle(edges=0.0), show=Show(outline=False)))
-        viewport.view((1.0, 0.8, 0.6))
-        viewport.picture = lambda: stage.picture().astype(int)
-        yield viewport
+def viewport(off_screen):
+    viewport = off_screen(400, 400, axes=False)
+    show(viewport, MESH, Look(lines=LineStyle(edges=0.0), show=Show(outline=False)))
+    viewport.view((1.0, 0.8, 0.6))
+    return viewport
 
 
 def white_shares(viewport, h):
     """Return the fraction of each edge of a hex that is light in the picture, (12,), without the ends of edges."""
-    image, renderer = viewport.picture()[::-1], viewport.layers[0]
+    image, renderer = viewport.pixels()[::-1], viewport.layers[0]
     shares = []
     for a, b in MESH.points[MESH.hexes[h]][EDGES]:
         white = []
@@ -62,12 +57,12 @@ def test_visible_edges_are_whole_and_hidden_ones_are_dashed(viewport, h, fine):
 
 
 def test_marked_hexes_of_a_look_are_drawn_until_the_look_has_none(viewport):
-    bare = viewport.picture()
+    bare = viewport.pixels()
     show(viewport, look=Look(lines=LineStyle(edges=0.0), show=Show(outline=False, marked=frozenset({CORNER, INSIDE}))))
     assert (white_shares(viewport, INSIDE) > 0.25).all()
     assert (white_shares(viewport, CORNER)[~is_hidden(CORNER)] == 1).all()
     show(viewport, look=Look(lines=LineStyle(edges=0.0), show=Show(outline=False)))
-    np.testing.assert_array_equal(viewport.picture(), bare)
+    np.testing.assert_array_equal(viewport.pixels(), bare)
 
 
 def test_dashes_are_parts_of_their_edges():

@@ -6,19 +6,13 @@ import pytest
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.visibility import Show
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.pane import Pane
-from hexmend_app.scene.views.viewport import Viewport
 from tests.app.invalid_hexes import BENT, INSIDE, INVERTED, THREE, VALID
-from tests.app.scene.views.showing import show
+from tests.app.scene.showing import show
 
 
 @pytest.fixture
-def viewport():
-    with Stage((200, 150)) as stage:
-        viewport = Viewport(Pane(stage.window), axes=False)
-        viewport.picture = lambda: stage.picture().astype(int)
-        yield viewport
+def viewport(off_screen):
+    return off_screen(200, 150, axes=False)
 
 
 @pytest.fixture
@@ -71,6 +65,6 @@ def test_the_region_is_seen_in_pictures_of_the_marked_hex_through_what_is_in_fro
     for marked in (frozenset(), frozenset({h})):
         show(viewport, mesh, Look(show=Show(outline=False, marked=marked)))
         viewport.view((0.0, -1.0, 0.0))
-        red, green, blue = np.moveaxis(viewport.picture(), -1, 0)
+        red, green, blue = np.moveaxis(viewport.pixels(), -1, 0)
         counts.append(np.count_nonzero((red > 100) & (green < 60) & (blue > 50)))
     assert counts[1] > counts[0] + 20

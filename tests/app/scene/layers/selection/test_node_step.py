@@ -10,7 +10,7 @@ from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.node_step import explain
 from hexmend_app.theme.palette import DESCENT, SEARCH
-from tests.app.state.node_step.test_descent import MIDDLE, sheared
+from tests.app.state.node_step.test_node_step import MIDDLE, sheared
 from tests.core.grids import grid, scrambled
 
 
