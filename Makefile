@@ -30,14 +30,14 @@ run: $(VENV)/.app $(VENV)/.kernels
 	@scripts/debian-packages
 	@scripts/run $(BIN) "$(MESH)"
 
-# What glibc is given back goes back to the system, and threads share two heaps: a process that opens window after window
-# keeps less. Hundreds of processes find compiled what one has: else each takes half as long again to begin.
+# Limit glibc's arenas: repeated windows would otherwise keep memory. Allow .pyc files: subprocesses start faster.
 PYTEST = PYTHONDONTWRITEBYTECODE= MALLOC_ARENA_MAX=2 MALLOC_TRIM_THRESHOLD_=131072 \
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 test: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages
-	@$(PYTEST) -m "not slow"
+	@$(PYTEST) -m "not slow" $(if $(COVERAGE),--cov=core/hexmend --cov=app/hexmend_app --cov-report=)
+	@$(if $(COVERAGE),for part in core app; do echo "lines run of $$part: $$($(BIN)/coverage report --include="$$part/*" --format=total) %"; done)
 
 # Browsers, notebooks, clusters, programs in processes of their own, windows opened one after another, large meshes.
 test-slow: $(VENV)/.test $(VENV)/.kernels
@@ -52,7 +52,7 @@ soak: $(VENV)/.test $(VENV)/.kernels
 	@$(PYTEST) -m hypothesis --hypothesis-profile=soak --hypothesis-seed=$(SEED) --timeout=3600
 
 mutants: $(VENV)/.test $(VENV)/.kernels
-	@status=0; for kind in "" --native; do $(BIN)/python scripts/mutants.py $$kind || status=1; done; exit $$status
+	@status=0; for script in mutants native_mutants; do $(BIN)/python scripts/$$script.py || status=1; done; exit $$status
 
 lint: $(VENV)/.test $(VENV)/.pins
 	@$(BIN)/ruff check

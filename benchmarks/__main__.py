@@ -11,7 +11,7 @@ from benchmarks.sections import SECTIONS
 from benchmarks.thesis import pages, study
 from benchmarks.window import soak
 from hexmend.errors import HexmendError
-from hexmend.report import write_json
+from hexmend.report.records import write_json
 from hexmend.study.machine import machine
 
 
@@ -51,7 +51,7 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("--only", metavar="TABLE", action="append", default=[], help=text)
     command.set_defaults(run=lambda args: study.run(args.output, args.quick, args.max_seconds, args.only))
 
-    command = commands.add_parser("pages", help="write docs/study*.md from the report of thesis and two sections")
+    command = commands.add_parser("pages", help="write the pages of results from the report of thesis and two sections")
     for name in ("study", "offsets", "remarks"):
         command.add_argument(name, metavar=name.upper(), type=Path)
     command.set_defaults(run=lambda args: pages.write(args.study, args.offsets, args.remarks))

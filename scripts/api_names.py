@@ -21,8 +21,8 @@ def directives() -> dict[str, str]:
     return {path: page.name for page in pages for path in _DIRECTIVE.findall(page.read_text(encoding="utf-8"))}
 
 
-def names() -> Iterator[tuple[str, str]]:
-    """List the public names of `hexmend` as links, with the first paragraph of their docstrings.
+def names() -> Iterator[tuple[str, str, str]]:
+    """List the public names of `hexmend`: page, name as a link, and how their docstrings begin.
 
     Raises
     ------
@@ -34,7 +34,7 @@ def names() -> Iterator[tuple[str, str]]:
         value = getattr(hexmend, name)
         anchor, page = _place(name, pages)
         link = page if isinstance(value, ModuleType) else f"{page}#{anchor}"
-        yield f"[`{name}`]({link})", _summary(name, value)
+        yield page, f"[`{name}`]({link})", _summary(name, value)
 
 
 def _place(name: str, pages: dict[str, str]) -> tuple[str, str]:
@@ -57,5 +57,5 @@ def _exports(path: str) -> list[str]:
 
 def _summary(name: str, value: object) -> str:
     if isinstance(value, Registry):
-        return f"Registered {name.lower()} by name."
-    return " ".join((value.__doc__ or "").strip().split("\n\n")[0].split())
+        return f"Registered {name.lower()} by name"
+    return re.split(r"[.:;](?:\s|$)", " ".join((value.__doc__ or "").split()))[0]

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Polygon
 
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES, UNIT_CUBE
-from hexmend.report.charts import new_figure, save_figure
+from hexmend_app.report.charts import new_figure, save_figure
 
 #: Fonts as in a paper, the same in text and formulas.
 LETTERS = {"font.family": "STIXGeneral", "mathtext.fontset": "stix", "font.size": 13}

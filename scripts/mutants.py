@@ -1,121 +1,125 @@
-"""Puts small faults into copies of the core, one at a time, and counts those that the core's tests find.
+"""Puts small faults (mutants) into a copy of the core, by mutmut, and counts those that its quick tests find.
 
-Use: python scripts/mutants.py [--count N] [--seed S] [--only PATH]... [--jobs N] [--seconds S] [--again ID]...
-     [--native]
+Use: python scripts/mutants.py [--count N] [--seed S]
 
-Each fault (a mutant) changes one piece of a source: a comparison, a sign, a constant, a statement that is left out...
-They are chosen at random, evenly over the lines of the sources. Those tests run that execute the changed line, the
-likeliest first, until one fails or they have taken 30 seconds. Faults that change no result are listed with the reason
-in mutants_equivalent.toml. With --native, faults listed in mutants_native.toml are put into the C++ sources and the
-kernels are built with each.
+A sample of the mutants is tried. For each of them, the tests run that call the function with the fault, the quickest
+first, until one fails or they have taken 30 seconds. `[tool.mutmut]` in pyproject.toml names the sources and the tests.
 
-Results are kept in build/mutants, so that a run can be interrupted and continued: a fault is not tried again until
-the tests that were chosen for it have changed.
-
-The exit status is 1 where less than 90 % are found, or the trial of a fault ended with an error.
+The exit status is 1 where less than 90 % are found.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
-import signal
+import random
+import resource
+import shutil
 import sys
-from collections.abc import Sequence
+from collections import Counter
+from contextlib import redirect_stdout
 from pathlib import Path
 
-from mutation.campaign import Results, Row, try_all
-from mutation.equivalents import Equivalents
-from mutation.native import NativeMutants
-from mutation.operators import Mutant, mutants
-from mutation.project import Project
-from mutation.reach import Reach
-from mutation.sampling import sample
-from mutation.table import as_text, share_found
-from mutation.trial import ERROR
+from mutmut import __main__ as mutmut
+from mutmut.mutation import mutators
+from mutmut.state import state
+from mutmut.utils.format_utils import mangled_name_from_mutant_name
 
-#: Share of the faults that tests must find.
+#: Share of the mutants that tests must find.
 WANTED = 0.9
+#: Seconds of tests for each mutant, as they take without a fault; with it, they may take so many times as long.
+SECONDS, TIMES = 30.0, 5
+#: Memory limit of a process in bytes: a fault may allocate without limit.
+MEMORY = 12 << 30
 
 ROOT = Path(__file__).resolve().parents[1]
-EQUIVALENT, NATIVE = (Path(__file__).with_name(f"mutants_{name}.toml") for name in ("equivalent", "native"))
-
-HEXMEND = Project(
-    root=ROOT, tests=("core/hexmend", "tests/core"), imports=("core", "app"), build=ROOT / "build" / "mutants"
-)
-#: Sources in which faults are made, and those of them that write files.
-FOLDERS = "optimise", "iteration", "smoothers", "quality", "run", "boundary"
-FILES = "mesh/orientation.py", "io/storage/atomic.py"
+WORK = ROOT / "build" / "mutants"
 
 
-def hexmend_sources() -> list[str]:
-    """Paths of the sources that are given faults, from the project's root."""
-    core = ROOT / "core" / "hexmend"
-    found = [path for folder in FOLDERS for path in sorted((core / folder).rglob("*.py"))]
-    found += [core / name for name in FILES] + sorted((core / "io/formats").rglob("*writer.py"))
-    return [path.relative_to(ROOT).as_posix() for path in found]
+def sample(count: int, seed: int) -> dict[str, Path]:
+    """Write the sources with all mutants, and return the names of some with their files.
+
+    The same seed chooses the same mutants of functions that have not changed.
+    """
+    # Texts are messages, mostly: a fault in them changes no result.
+    mutators.mutation_operators[:] = [one for one in mutators.mutation_operators if one[1] != mutators.operator_string]
+    with redirect_stdout(None):
+        mutmut.copy_src_dir()
+        mutmut.copy_also_copy_files()
+        mutmut.setup_source_paths()
+        mutmut.create_mutants(os.cpu_count() or 1)
+    mutants, _ = mutmut.collect_source_file_mutation_data(mutant_names=[])
+    files = {name: file.path for file, name, _ in mutants}
+    drawn = sorted(files, key=lambda name: random.Random(f"{seed} {name}").random())
+    return {name: files[name] for name in drawn[:count]}
 
 
-def chosen(project: Project, sources: Sequence[str], asked: argparse.Namespace) -> list[Mutant]:
-    """Mutants that the options ask for."""
-    texts = {path: project.read(path) for path in sources}
-    if asked.again:
-        return [mutant for path, text in texts.items() for mutant in mutants(path, text) if mutant.id in asked.again]
-    if asked.only:
-        texts = {path: text for path, text in texts.items() if any(path.startswith(one) for one in asked.only)}
-    return sample(texts, asked.count, asked.seed)
+def quickest_tests(mutant: str) -> list[str]:
+    """Tests that call the function of a mutant, the quickest first, as many as the limit allows."""
+    seconds = state().duration_by_test
+    tests, left = [], SECONDS
+    for test in sorted(state().tests_by_mangled_function_name[mangled_name_from_mutant_name(mutant)], key=seconds.get):
+        left -= seconds[test]
+        if tests and left < 0:
+            break
+        tests.append(test)
+    return tests
 
 
-def main(
-    arguments: Sequence[str] | None = None, project: Project = HEXMEND, sources: Sequence[str] | None = None
-) -> list[Row]:
-    """Try the mutants that the arguments ask for, print what became of them, and return it."""
+def try_all(mutants: dict[str, Path]) -> dict[str, str]:
+    """Run the tests of each mutant, and return what became of it."""
+    runner = mutmut.get_mutant_runner(os.cpu_count() or 1)
+    mutmut.collect_or_load_stats(runner)
+    mutmut.set_mutant_under_test("")
+    outcomes: dict[str, str] = {}
+
+    def wait() -> None:
+        result = runner.wait_for_result()
+        outcomes[result.mutant_name] = mutmut.status_by_exit_code[result.exit_code]
+        print(f"{len(outcomes):4} {outcomes[result.mutant_name]:10} {result.mutant_name}", flush=True)
+
+    runner.startup()
+    for mutant in mutants:
+        while not runner.has_capacity():
+            wait()
+        tests = quickest_tests(mutant)
+        usual = sum(state().duration_by_test[test] for test in tests)
+        runner.submit(mutant, tests, int(TIMES * (SECONDS + usual)), usual)
+    runner.signal_work_complete()
+    while runner.pending_count():
+        wait()
+    runner.shutdown()
+    return outcomes
+
+
+def main() -> int:
+    """Try a sample, print the survivors' diffs and the counts of each folder, and return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--count", type=int, default=200, help="how many mutants (200)")
-    parser.add_argument("--seed", type=int, default=29, help="of the choice (29)")
-    parser.add_argument("--only", action="append", metavar="PATH", help="sources whose paths begin so")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes at a time (one per core)")
-    parser.add_argument(
-        "--seconds", type=float, default=30.0, help="of tests for each mutant; the likeliest to find it are taken (30)"
-    )
-    parser.add_argument("--again", action="append", metavar="ID", help="try this mutant, whatever is known of it")
-    parser.add_argument("--native", action="store_true", help="faults of the C++ sources, by mutants_native.toml")
-    asked = parser.parse_args(arguments)
-    sources = hexmend_sources() if sources is None else sources
+    parser.add_argument("--count", type=int, default=100, help="how many mutants (100)")
+    parser.add_argument("--seed", type=int, default=7, help="of the choice (7)")
+    asked = parser.parse_args()
 
-    project.build.mkdir(parents=True, exist_ok=True)
-    results = Results(project.build / ("native.json" if asked.native else "results.json"))
-    for name in asked.again or ():
-        results.rows.pop(name, None)
-    reach = Reach(project, sources, asked.seconds)
-    reach.measure(asked.jobs)
-    if left_out := reach.left_out():
-        print(f"Left out: {len(left_out)} tests that fail or are skipped without a fault.")
-    if asked.native:
-        ids = NativeMutants(project, NATIVE).try_all(reach, results, asked.again)
-    else:
-        sampled = chosen(project, sources, asked)
-        ids = [mutant.id for mutant in sampled]
-        try_all(project, reach, sampled, Equivalents(EQUIVALENT).reason, results, asked.jobs)
-    rows = [results.rows[name] for name in ids]
-    print("\n" + as_text(rows))
-    return rows
+    shutil.rmtree(WORK, ignore_errors=True)
+    WORK.mkdir(parents=True)
+    for source in ("core/hexmend", "tests", "benchmarks", "docs", "resources", "scripts", "pyproject.toml"):
+        (WORK / Path(source).name).symlink_to(ROOT / source)
+    os.chdir(WORK)
+    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
 
-
-def status(rows: Sequence[Row]) -> int:
-    """Return the exit status: 0 where enough was found and every fault could be tried, else 1, and say why."""
-    short, errors = share_found(rows) < WANTED, sum(row.outcome == ERROR for row in rows)
-    if short:
-        print(f"Less than {WANTED:.0%} are found: write tests that find the survivors.")
-    if errors:
-        print(f"{errors} could not be tried: see the errors above.")
-    return int(short or errors > 0)
+    mutants = sample(asked.count, asked.seed)
+    outcomes = try_all(mutants)
+    survivors = [name for name in mutants if outcomes[name] in ("survived", "no tests")]
+    for name in survivors:
+        print(f"\n{name}: {outcomes[name]}\n{mutmut.get_diff_for_mutant(name, path=mutants[name])}")
+    tried = Counter(path.parent.as_posix() for path in mutants.values())
+    survived = Counter(mutants[name].parent.as_posix() for name in survivors)
+    print(f"\n{'folder':40}{'mutants':>10}{'found':>10}")
+    for folder in sorted(tried):
+        print(f"{folder:40}{tried[folder]:10}{tried[folder] - survived[folder]:10}")
+    share = 1 - len(survivors) / len(mutants)
+    print(f"{share:.0%} of {len(mutants)} mutants are found; {WANTED:.0%} are wanted")
+    return int(share < WANTED)
 
 
 if __name__ == "__main__":
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.default_int_handler)
-    try:
-        sys.exit(status(main()))
-    except KeyboardInterrupt:
-        sys.exit("interrupted: the same command goes on where this one ended")
+    sys.exit(main())

@@ -1,14 +1,12 @@
-"""Hooks of MkDocs for `make site`: formulas as MathML, titles in links, no access to a network.
+"""Hooks of MkDocs for `make site`: formulas as MathML, no access to a network.
 
-Formulas stand in the pages as `$...$` and `$$...$$`, which GitHub shows too; the extension arithmatex marks them. Links
-that are called as their file is, `[keys.md](keys.md)`, are called as the page is.
+Formulas stand in the pages as `$...$` and `$$...$$`, which GitHub shows too; the extension arithmatex marks them.
 """
 
 from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -18,7 +16,6 @@ from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 
 _ROOT = Path(__file__).resolve().parents[1]
-_BY_FILE = re.compile(r"\[([\w-]+\.md)\]\(((?:[\w./-]*/)?\1(?:#[\w-]*)?)\)")
 _FORMULA = re.compile(r'<(span|div) class="arithmatex">(.*?)</\1>', re.DOTALL)
 #: Bars of norms, and slashes, which would get the space of operators.
 _CLOSE = re.compile(r"<mo[^>]*>(&#x0007C;|&#x0002F;|\||/)</mo>")
@@ -37,24 +34,11 @@ def on_files(files: Files, config: Any) -> Files:
     return files
 
 
-def on_page_markdown(markdown: str, config: Any, **_: Any) -> str:
-    """Call links by the titles of their pages."""
-    titles = {Path(page).name: title for page, title in _titles(config["nav"])}
-
-    def titled(found: re.Match[str]) -> str:
-        return f"[{titles.get(found[1], found[1])}]({found[2]})"
-
-    return _BY_FILE.sub(titled, markdown)
-
-
-def _titles(entries: list[Any]) -> Iterator[tuple[str, str]]:
-    """List the pages of a navigation that have titles there, with these."""
-    for entry in entries:
-        for title, value in entry.items() if isinstance(entry, dict) else ():
-            if isinstance(value, str):
-                yield value, title
-            else:
-                yield from _titles(value)
+def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
+    """Let the search find how-to pages before those of the API."""
+    if page.file.src_uri.startswith("api/"):
+        page.meta["search"] = {"boost": 0.3}
+    return markdown
 
 
 def on_page_content(page_html: str, page: Any, **_: Any) -> str:

@@ -13,19 +13,16 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Union, get_args, get_origin
 
-from api_names import names
+from api_names import API, names
 
 from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
-from hexmend.iteration import StoppingCriteria
 from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
 from hexmend.solver_checks import QUOTED, SOLVERS
 from hexmend.solver_checks.validity import VALIDITY
-from hexmend.study.batch.case import TaskLimits
-from hexmend.study.batch.table_columns import COLUMNS
 from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.picture import Scene
@@ -44,18 +41,21 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines).replace("| --- ", "|---").replace("|--- |", "|---|")
 
 
-PARAMETER_HEAD = "name", "default", "values", "unit", "what"
+PARAMETER_HEAD = "name", "default", "values", "what"
 
 
 def parameters(of: type) -> list[tuple[str, ...]]:
     """Rows of the parameters that a class declares."""
-    return [(f"`{one.name}`", f"`{_shown(one.default)}`", one.range, one.unit, one.help) for one in declared(of)]
+    return [
+        (f"`{one.name}`", f"`{_shown(one.default)}`", one.range + (one.unit and f" ({one.unit})"), one.help)
+        for one in declared(of)
+    ]
 
 
 def methods() -> str:
     """The methods, the default first."""
     order = sorted(METHODS.values(), key=lambda method: method.name != "mend")
-    return table(("name", "what", "from"), ((f"`{one.name}`", one.help, one.source) for one in order))
+    return table(("name", "what"), ((f"`{one.name}`", one.help) for one in order))
 
 
 def metrics() -> str:
@@ -69,8 +69,13 @@ def metrics() -> str:
 
 
 def meanings() -> str:
-    """The meaning of a bad value of each metric."""
-    return table(("name", "meaning", "from"), ((f"`{one.name}`", one.meaning, one.source) for one in _metrics()))
+    """The meaning of a bad value of each metric, and the sources."""
+    sources: dict[str, list[str]] = {}
+    for one in _metrics():
+        sources.setdefault(one.source, []).append(f"`{one.name}`")
+    lines = "\n".join(f"- {source}: {', '.join(which)}" for source, which in sources.items())
+    rows = ((f"`{one.name}`", one.meaning) for one in _metrics())
+    return f"{table(('name', 'meaning'), rows)}\n\nSources:\n\n{lines}"
 
 
 def solvers() -> str:
@@ -79,27 +84,30 @@ def solvers() -> str:
     for solver in sorted(SOLVERS.values(), key=lambda one: one.title.lower()):
         checks = [one for one in solver.checks if one is not VALIDITY]
         sources = list(dict.fromkeys(_marked(one.source) for one in checks))
-        rows, above = [], ""
+        rows: dict[str, tuple[str, ...]] = {}
+        first: dict[str, str] = {}  # checks by their definitions
         for one in checks:
-            what = "as above" if one.definition == above else one.definition
             number = str(1 + sources.index(_marked(one.source)))
-            rows.append((one.name, one.limit_text, one.unit, one.level.name.lower(), what, number))
-            above = one.definition
-        head = ("check", "limit", "unit", "beyond it", "definition", "source")
+            words = (one.limit_text, one.unit, f"({one.level.name.lower()})") if one.limit is not None else ("–",)
+            limit = " ".join(filter(None, words))
+            name = one.name.removesuffix(", errors")
+            if name in rows:  # its second limit
+                _, before, what, above = rows[name]
+                number = above if number in above.split(", ") else f"{above}, {number}"
+                rows[name] = name, f"{before}, {limit}", what, number
+                continue
+            known = first.setdefault(one.definition, name)
+            rows[name] = name, limit, one.definition if known == name else f"as for {known}", number
+        head = ("check", "limit", "definition", "source")
         numbered = "\n".join(f"{number}. {source}" for number, source in enumerate(sources, 1))
         parts += [f"## {solver.title}\n`--for {solver.name}`. {solver.tests_validity} {solver.omitted}"]
-        parts += [table(head, rows), f"Sources:\n\n{numbered}"]
+        parts += [table(head, rows.values()), f"Sources:\n\n{numbered}"]
     return "\n\n".join(parts)
 
 
 def _marked(source: str) -> str:
     """A source with an asterisk in place of the reservation on its limits, which the page states once."""
     return source.replace(f" ({QUOTED})", r"\*")
-
-
-def stops() -> str:
-    """When a stage of a recipe ends."""
-    return table(PARAMETER_HEAD, parameters(StoppingCriteria))
 
 
 def formats() -> str:
@@ -145,15 +153,18 @@ def scene() -> str:
 
 
 def _keys(kind: type) -> str:
-    """The keys of a table, and below each that is a table itself, its own."""
+    """The keys of a table, and below each that is a table itself, its own; keys that are alike share a row."""
     rows = []
     for one in options_of(kind):
-        rows.append((f"`{one.name}`", _values(one), _default(one), _help(kind, one)))
+        rows.append((f"`{one.name}`", _values(one), _help(kind, one) + _default(one)))
         inner = _table_of(one.kind)
         if inner is not None:
-            rows += [(f"`{one.name}`: `{key.name}`", _values(key), _default(key), helps(inner)[key.field])
+            rows += [(f"`{one.name}.{key.name}`", _values(key), helps(inner)[key.field] + _default(key))
                      for key in options_of(inner)]  # fmt: skip
-    return table(("key", "values", "default", "what"), rows)
+    alike: dict[tuple[str, ...], list[str]] = {}
+    for name, *rest in rows:
+        alike.setdefault(tuple(rest), []).append(name)
+    return table(("key", "values", "what"), ((", ".join(keys), *rest) for rest, keys in alike.items()))
 
 
 def _help(kind: type, one: Option) -> str:
@@ -196,31 +207,21 @@ def _values(one: Option) -> str:
 
 
 def _default(one: Option) -> str:
-    """Describe the default of a key."""
-    if _table_of(one.kind) is not None or one.default in (None, "", (), frozenset()):
-        return "–"
+    """Describe the default of a key; nothing for one that is off or empty."""
     value = one.default
-    shown = {True: "true", False: "false"}.get(value) if isinstance(value, bool) else None
-    return shown or (
-        f'"{value}"' if isinstance(value, str) else f"{list(value) if isinstance(value, tuple) else value}"
-    )
-
-
-def task() -> str:
-    """The limits of a study's task."""
-    return table(PARAMETER_HEAD, parameters(TaskLimits))
-
-
-def study() -> str:
-    """The columns of a study's table."""
-    kinds = {str: "text", int: "whole number", float: "number"}
-    rows = ((f"`{column.name}`", kinds[column.type], column.help) for column in COLUMNS)
-    return table(("column", "type", "what"), rows)
+    if _table_of(one.kind) is not None or value in (None, False, "", (), frozenset()):
+        return ""
+    shown = f'"{value}"' if isinstance(value, str) else list(value) if isinstance(value, tuple) else value
+    return f" Default {str(shown).lower()}."
 
 
 def api() -> str:
-    """The public names of `hexmend`."""
-    return table(("name", "what"), names())
+    """The public names of `hexmend`, page by page."""
+    pages: dict[str, list[str]] = {}
+    for page, link, summary in names():
+        pages.setdefault(page, []).append(f"- {link}: {summary}")
+    titles = {page: (API / page).read_text(encoding="utf-8").split("\n")[0].removeprefix("# ") for page in pages}
+    return "\n\n".join(f"## [{titles[page]}]({page})\n" + "\n".join(lines) for page, lines in sorted(pages.items()))
 
 
 #: Tables by file.
@@ -229,12 +230,9 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "metrics": ("docs/reference/metrics.md", metrics),
     "meanings": ("docs/reference/metrics.md", meanings),
     "solvers": ("docs/reference/solvers.md", solvers),
-    "stops": ("docs/methods/recipes.md", stops),
     "formats": ("docs/reference/formats.md", formats),
     "scene": ("docs/reference/scene.md", scene),
     "memory": ("docs/measurements/performance-size.md", memory),
-    "task": ("docs/methods/study-many.md", task),
-    "study": ("docs/methods/study-many.md", study),
     "api": ("docs/api/index.md", api),
 }
 

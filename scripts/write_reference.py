@@ -1,7 +1,7 @@
 """Write the pages of the reference that are generated from the program's declarations; a test compares.
 
-methods.md: every method with its parameters. commands.md: every command with its options. What stands above
-the mark in these files is written by hand, or by scripts/tables.py.
+In docs/reference, methods.md has every method with its parameters, commands.md every command with its options. Text
+above the mark in these files is written by hand, or by scripts/tables.py.
 
 Use: python scripts/write_reference.py
 """
@@ -26,9 +26,6 @@ MARK = "<!-- written by make docs from here on -->\n"
 
 Row = tuple[str, ...]
 
-#: Sections that share a row before it stands once, in a section of its own.
-SHARED = 3
-
 
 class Section(NamedTuple):
     """A section of a page: its texts, and the rows of its table."""
@@ -41,8 +38,8 @@ class Section(NamedTuple):
 def page(sections: Sequence[Section], head: Row, common: str) -> Iterator[str]:
     """Texts of sections with their tables; rows of several sections stand once, in a section named `common`."""
     counts = Counter(row for section in sections for row in section.rows)
-    often = {row[0]: row for row, count in reversed(counts.most_common()) if count >= SHARED}  # one row of each name
-    shared = [row for row in counts if often.get(row[0]) == row]
+    often = {_name(row): row for row, count in reversed(counts.most_common()) if count > 1}  # one row of each name
+    shared = [row for row in counts if often.get(_name(row)) == row]
     if shared:
         yield f"## {common}"
         yield table(head, shared)
@@ -51,14 +48,18 @@ def page(sections: Sequence[Section], head: Row, common: str) -> Iterator[str]:
         yield from section.texts
         if own := [row for row in section.rows if row not in shared]:
             yield table(head, own)
-        if names := [row[0].split(" ")[0].strip("`,") for row in section.rows if row in shared]:
-            yield f"{common}: {', '.join(f'`{name}`' for name in names)}."
+        if names := [f"`{_name(row)}`" for row in section.rows if row in shared]:
+            yield f"{common}: {', '.join(names)}."
+
+
+def _name(row: Row) -> str:
+    return row[0].split(" ")[0].strip("`,")
 
 
 def methods() -> Iterator[str]:
     """A section for each method, the default first."""
     order = sorted(METHODS.values(), key=lambda method: method.name != "mend")
-    sections = [Section(one.name, [f"**{one.title}.** {one.help} *{one.source}.*"], parameters(one)) for one in order]
+    sections = [Section(one.name, [f"{one.title}. Source: {one.source}."], parameters(one)) for one in order]
     return page(sections, PARAMETER_HEAD, "Common parameters")
 
 

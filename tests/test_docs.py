@@ -1,7 +1,6 @@
 """The pages of docs: what they say can be done."""
 
 import argparse
-import importlib.util
 import re
 import shlex
 from pathlib import Path
@@ -21,10 +20,6 @@ from tests.examples import blocks, run_page
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 PAGES = sorted(path for path in DOCS.rglob("*.md") if path.parent.name != "api")
 
-spec = importlib.util.spec_from_file_location("draw_method_figures", DOCS.parent / "scripts/draw_method_figures.py")
-draw_method_figures = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(draw_method_figures)
-
 
 def test_every_script_of_pictures_is_run_by_make_pictures():
     scripts = {path.stem for path in (DOCS.parent / "scripts/pictures").glob("*.py")} - {"screenshots"}
@@ -34,17 +29,7 @@ def test_every_script_of_pictures_is_run_by_make_pictures():
     assert {*listed, *single} == scripts
 
 
-@pytest.mark.parametrize(
-    ("page", "file"), [("repair/untangle.md", "run.gif"), ("methods/watch.md", "before-after.gif")]
-)
-def test_an_animation_is_made_by_the_command_that_its_page_names(page, file):
-    text = (DOCS / page).read_text(encoding="utf-8").replace("\\\n", " ")
-    (named,) = re.findall(rf"hexmend film ([^`]*? -o {file}[^`]*)", text)
-    text = (DOCS.parent / "scripts/take-pictures").read_text(encoding="utf-8").replace("\\\n", " ")
-    (run,) = re.findall(rf'"\$bin/hexmend" film (.*/{file}.*)', text)
-    assert named.split() == run.replace(f'"$folder/{file}"', file).replace('"$mesh"', "five-side.vtu").split()
-
-
+@pytest.mark.slow
 def test_the_animation_of_the_readme_says_the_truth(tmp_path, monkeypatch):
     """The figures in its first and last frames are those that the commands of its page lead to."""
     monkeypatch.chdir(tmp_path)
@@ -72,22 +57,6 @@ def test_the_animation_of_the_readme_says_the_truth(tmp_path, monkeypatch):
         assert (made.n_frames, made.size) == (kept.n_frames, kept.size)
         difference = abs(np.asarray(made.convert("RGB")).astype(int) - np.asarray(kept.convert("RGB")))
         assert difference.mean() < 1, "docs/pictures/before-after.gif: run make pictures"
-
-
-@pytest.mark.slow
-def test_the_figures_of_the_mathematics_are_drawn_as_they_stand_there(tmp_path, capsys):
-    """Their files and what is written in them, not how a version of matplotlib draws it."""
-    draw_method_figures.main(tmp_path)
-    assert capsys.readouterr().out.count("kB") == len(draw_method_figures.FIGURES)
-    for file in draw_method_figures.FIGURES:
-        assert f"](../pictures/{file})" in (DOCS / "mathematics/method.md").read_text(encoding="utf-8")
-        for folder in (tmp_path, DOCS / "pictures"):
-            assert (folder / file).stat().st_size < 100_000
-        texts = [
-            re.findall(r"<!-- (.+?) -->", (at / file).read_text(encoding="utf-8"))
-            for at in (tmp_path, DOCS / "pictures")
-        ]
-        assert texts[0] == texts[1], f"{file}: run make docs"
 
 
 @pytest.mark.slow

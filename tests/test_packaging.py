@@ -112,11 +112,6 @@ def test_files_are_told_apart(tmp_path):
     assert json.loads(done.stdout) == expected
 
 
-def test_pins_are_versions_alone():
-    for line in (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines():
-        assert re.fullmatch(r"#.*|[A-Za-z0-9._-]+==[A-Za-z0-9.]+( ; [a-z_]+ [!<=>]+ '[^']+'.*)?", line), line
-
-
 @pytest.mark.skipif(os.name != "posix", reason="a script of the shell")
 def test_a_command_that_fails_shows_its_last_lines(tmp_path):
     words = [ROOT / "scripts" / "logged", tmp_path / "log", "sh", "-c"]
@@ -127,38 +122,6 @@ def test_a_command_that_fails_shows_its_last_lines(tmp_path):
         assert done.returncode == status
         assert done.stderr.splitlines() == shown
         assert (tmp_path / "log").read_text().split() == numbers
-
-
-@pytest.mark.skipif(os.name != "posix", reason="a script of the shell")
-def test_a_command_that_fails_shows_its_first_error(tmp_path):
-    words = [ROOT / "scripts" / "logged", tmp_path / "log", "sh", "-c"]
-    script = "echo a.cpp:3: error: no such name; seq 100; echo b.cpp:7: error: another; exit 1"
-    done = subprocess.run([*words, script], capture_output=True, text=True, check=False)
-    assert done.stderr.splitlines()[:3] == ["a.cpp:3: error: no such name", "...", "72"]
-    assert "b.cpp:7: error: another" in done.stderr
-
-
-@pytest.mark.skipif(not shutil.which("make"), reason="there is no make")
-def test_an_environment_is_made_anew_for_another_python_that_is_named(tmp_path):
-    folder = tmp_path / "venv"
-    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True)
-    for stamp in (".python", ".test"):
-        (folder / stamp).touch()
-    other = tmp_path / "python"
-    other.write_text("#!/bin/sh\necho another one\n")
-    other.chmod(0o755)
-    plain = {name: value for name, value in os.environ.items() if name not in ("PYTHON", "MAKEFLAGS", "MAKELEVEL")}
-    for named, anew in (({}, False), ({"PYTHON": sys.executable}, False), ({"PYTHON": str(other)}, True)):
-        done = subprocess.run(
-            ["make", "-n", f"VENV={folder}", f"{folder}/.test"],
-            cwd=ROOT,
-            env=plain | named,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        assert (f'scripts/environment --named "{other}" {folder}\n' in done.stdout) == anew
-        assert ("scripts/environment" in done.stdout) == anew
 
 
 def test_files_for_others_have_the_version_and_the_dependencies_of_the_package():

@@ -112,11 +112,3 @@ def test_figures_of_other_programs_are_those_of_the_measurements():
         assert other[5] == smoothing
         balanced = next(row for row in goals[start : start + 5] if row[1] == "balanced")
         assert abs(float(balanced[4]) - float(other[4])) < 0.00101  # 0.001 in decimals
-
-
-def test_it_is_short():
-    assert len(README.splitlines()) <= 120
-    assert re.findall(r"!\[.*?\]\(docs/(.*?)\)", README) == [
-        "pictures/before-after.gif",
-        "pictures/window-smoothing.png",
-    ]

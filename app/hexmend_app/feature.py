@@ -95,8 +95,6 @@ class Action:
         The action is in the context menu of the view.
     submenu : QMenu, optional
         Menu that is added after the action.
-    moves_camera : bool
-        The action moves the camera and changes nothing else, so that a run goes on being shown eased.
     """
 
     id: str
@@ -106,17 +104,16 @@ class Action:
     keys: str = ""
     icon: str = ""
     help: str = ""
-    enabled: Callable[[], bool] = always
-    checked: Callable[[], bool] | None = None
+    enabled: Callable[..., bool] = always
+    checked: Callable[..., bool] | None = None
     title: Callable[[], str] | None = None
-    face: Callable[[], ActionFace] | None = None
+    face: Callable[..., ActionFace] | None = None
     tool: str = ""
     needs_mesh: bool = True
     part: int = 0
     exclusive: bool = False
     in_view: bool = False
     submenu: QMenu | None = None
-    moves_camera: bool = False
 
 
 class PanelPlace(Enum):

@@ -20,8 +20,6 @@ class Host(Protocol):
 
     Attributes
     ----------
-    dialog_parent : QWidget
-        Parent of dialogs: the window.
     session : Session
         State of the window.
     canvas : Canvas or None
@@ -32,11 +30,14 @@ class Host(Protocol):
         Shows tasks in progress, with a button to cancel.
     """
 
-    dialog_parent: QWidget
     session: Session
     canvas: Canvas | None
     messages: MessageBar
     busy: Busy
+
+    @property
+    def dialog_parent(self) -> QWidget:
+        """Parent of dialogs: the window."""
 
     def action(self, id: str) -> QAction:
         """Return the action of any feature; available once all features are built."""

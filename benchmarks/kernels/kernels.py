@@ -51,7 +51,7 @@ def _kernels() -> dict[str, Any]:
         local.Direction.STEEPEST_DESCENT, 0.0, ObjectiveNorm(), LineSearch(max_backtracks=60)
     )
 
-    def sweep(by: Callable[..., None]) -> None:
+    def sweep(by: Callable[..., object]) -> None:
         by(x.copy(), hex_mesh, colours.start, colours.items, settings)
 
     # Name, call of the kernel and of the scalar loop, number of repetitions in a call.

@@ -50,7 +50,7 @@ def _optima_lines(figures: dict[str, Any]) -> list[str]:
 
 
 def _untangling() -> dict[str, Any]:
-    seconds, ends, failures = [], Counter(), []
+    seconds, ends, failures = [], Counter[str](), []
     for (name, size), amplitude, seed in itertools.product(_SCRAMBLED, _AMPLITUDES, _SEEDS):
         mesh = make(name, size=size, scramble=amplitude, seed=seed)
         before = summarise(mesh)

@@ -53,7 +53,7 @@ def _rows(name: str, mesh: Mesh) -> Iterator[dict[str, Any]]:
     yield {"mesh": name, "hexes": mesh.n_hexes, "method": None} | _figures(mesh, quads, mesh.points)
     for method in _METHODS:
         for weight in _WEIGHTS:
-            smoother = METHODS[method](boundary="slide", surface_weight=weight)
+            smoother = METHODS[method](boundary="slide", surface_weight=weight)  # type: ignore[call-arg]
             result = smooth(mesh, smoother, StoppingCriteria(max_iterations=_ITERATIONS), progress=False)
             row = {"mesh": name, "hexes": mesh.n_hexes, "method": method, "weight": weight}
             row |= {"iterations": result.iterations, "seconds": result.seconds + result.setup_seconds}

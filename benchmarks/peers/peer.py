@@ -176,7 +176,7 @@ def run_program(
     errors = folder / "errors.txt"
     began = perf_counter()
     with open(folder / "output.txt", "wb") as output, open(errors, "wb") as lines:
-        environment = os.environ | dict.fromkeys(_THREADS, "1") | (variables or {})
+        environment = {**os.environ, **dict.fromkeys(_THREADS, "1"), **(variables or {})}
         try:
             done = subprocess.run(
                 command, stdout=output, stderr=lines, timeout=seconds, check=False, cwd=folder, env=environment

@@ -127,7 +127,7 @@ def _remark(record: Comparison, mesh: str, program: Peer) -> str:
     ours = record.result(mesh, program)
     if ours is None:
         return ""
-    others = [("as given", record.given(mesh))]
+    others: list[tuple[str, Mapping[str, Any]]] = [("as given", record.given(mesh))]
     for other in record.run:
         row = None if other.own else record.result(mesh, other)
         if row and row["invalid_after"] <= ours["invalid_after"] and row["boundary_distance"] <= _FIXED:

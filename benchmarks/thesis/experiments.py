@@ -151,4 +151,4 @@ def _experiment(entry: Mapping[str, Any]) -> Experiment:
             if not math.isnan(value):
                 published[column][figure] = value
     additional = tuple(entry.get("additional", ()))
-    return Experiment(**entry | {"columns": columns, "additional": additional, "published": published})
+    return Experiment(**{**entry, "columns": columns, "additional": additional, "published": published})

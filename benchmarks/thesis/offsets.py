@@ -10,7 +10,6 @@ from benchmarks.thesis.experiments import INITIAL, load
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
 from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
 
 #: Methods whose best result in the thesis is its optimum.
 _OPTIMISERS = "global-nr", "local-nr", "local-sd"
@@ -40,7 +39,7 @@ def _thesis() -> Iterator[tuple[str, Mesh, dict[str, float] | None]]:
 
 def _row(name: str, mesh: Mesh, published: dict[str, float] | None) -> dict[str, Any]:
     stop = StoppingCriteria(max_iterations=1000)
-    ends = [smooth(mesh, METHODS["mend"](goal="shape", offset=offset), stop, progress=False) for offset in _OFFSETS]
+    ends = [smooth(mesh, "mend", stop, progress=False, goal="shape", offset=offset) for offset in _OFFSETS]
     return {
         "mesh": name,
         "hexes": mesh.n_hexes,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from hexmend.report.charts import COLOURS, new_figure, save_figure
+from hexmend_app.report.charts import COLOURS, new_figure, save_figure
 
 _MARKERS = "osD^vPX"
 
@@ -30,8 +30,8 @@ def scaling(
         colour, marker = COLOURS[k % len(COLOURS)], _MARKERS[k % len(_MARKERS)]
         axes.plot(*zip(*sorted(points), strict=True), color=colour, marker=marker, markersize=5, label=method)
         if thesis.get(method):
-            pale = {"color": colour, "marker": marker, "markersize": 3, "linestyle": "--", "alpha": 0.45}
-            axes.plot(*zip(*sorted(thesis[method]), strict=True), **pale)
+            x, y = zip(*sorted(thesis[method]), strict=True)
+            axes.plot(x, y, color=colour, marker=marker, markersize=3, linestyle="--", alpha=0.45)
     axes.set(xscale="log", yscale="log", xlabel="free nodes", ylabel="seconds per iteration")
     axes.set_title("five-side: ours solid, the thesis's program dashed")
     axes.grid(which="major", alpha=0.3)

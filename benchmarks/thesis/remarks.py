@@ -82,22 +82,22 @@ def _memory() -> Remark:
 
 def _accuracy(mesh: Mesh) -> Remark:
     """4.1.3: residuals of the Newton systems of all nodes, solved directly, and of the global one by MINRES."""
-    settings = METHODS["local-nr"](offset=0.0).step_settings(0.0)
+    method: Any = METHODS["local-nr"]
     residuals = []
-    for node in np.flatnonzero(mesh.free):
+    for node in np.flatnonzero(mesh.free).tolist():
         star = mesh.topology.node_corners[node]
         patch = local.patch_energy(mesh.points, mesh.hexes, star, 0.0, 0.0, _SQUARES)
-        step = local.recorded_step(mesh.points, mesh.hexes, star, settings)
+        step = local.recorded_step(mesh.points, mesh.hexes, star, method(offset=0.0).step_settings(0.0))
         if not step.fallback and step.status is local.StepStatus.MOVED:
             xx, xy, xz, yy, yz, zz = patch.hessian
             hessian, gradient = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), np.array(patch.gradient)
             residuals.append(np.linalg.norm(hessian @ step.direction + gradient) / np.linalg.norm(gradient))
     energy = MeshEnergy(mesh, _SQUARES)
     x = energy.to_edge_units(mesh.points)
-    hessian, gradient = energy.hessian(x, 0.0), energy.gradient(x, 0.0).ravel()
+    of_all, gradient = energy.hessian(x, 0.0), energy.gradient(x, 0.0).ravel()
     solver = Minres()
-    solution, iterations = solver(hessian, -gradient)
-    left = np.linalg.norm(hessian.assembled(np.float64).matvec(solution) + gradient) / np.linalg.norm(gradient)
+    solution, iterations = solver(of_all, -gradient)
+    left = np.linalg.norm(of_all.assembled(np.float64).matvec(solution) + gradient) / np.linalg.norm(gradient)
     return Remark(
         "4.1.3",
         "Directly solving the small linear systems is more accurate than the iterative solution of the large one.",
@@ -113,8 +113,8 @@ def _scaling() -> Remark:
     small = mesh.points / _FACTOR + [2 * np.ptp(mesh.points[:, 0]), 0, 0]
     both = Mesh(np.concatenate([mesh.points, small]), np.concatenate([mesh.hexes, mesh.hexes + mesh.n_nodes]))
     counts, stop = [], StoppingCriteria(max_iterations=_ITERATIONS)
-    for name, values in (("local-sd", {}), ("global-mnr", {"delta_unit": "mesh"})):
-        result = smooth(both, METHODS[name](delta=0.01, offset=0.0, **values), stop, progress=False)
+    for name, values in (("local-sd", dict[str, Any]()), ("global-mnr", {"delta_unit": "mesh"})):
+        result = smooth(both, name, stop, progress=False, delta=0.01, offset=0.0, **values)
         inverted = measure(result.mesh.points, both.hexes).inverted
         counts.append(f"{name} {inverted[: mesh.n_hexes].sum():,} and {inverted[mesh.n_hexes :].sum():,}")
     before = measure(mesh.points, mesh.hexes).inverted.sum()

@@ -162,7 +162,7 @@ def write_plots(folder: Path, study: Mapping[str, Any]) -> list[dict[str, str]]:
         Number, caption and file of each figure.
     """
     figures = []
-    ours, theirs = defaultdict(list), defaultdict(list)
+    ours, theirs = defaultdict[str, list](list), defaultdict[str, list](list)
     for experiment in (one for one in study["experiments"] if one["mesh"] == "five-side"):
         columns, published = experiment["columns"], experiment["published"]
         measured = {name: record for name, record in columns.items() if name in published}

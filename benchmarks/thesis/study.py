@@ -11,7 +11,7 @@ from benchmarks.thesis.outlook.experiments import TrialResult
 from benchmarks.thesis.outlook.report import write_outlook
 from benchmarks.thesis.report import REPRODUCTION, write_experiment, write_study
 from benchmarks.thesis.runner import run_experiments, select_tables
-from hexmend.report import output_folder
+from hexmend.report.documents import output_folder
 from hexmend.study.machine import machine
 
 

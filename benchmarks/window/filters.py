@@ -21,7 +21,7 @@ _CHANGES = 9
 
 
 def _measure() -> dict[str, Any]:
-    sizes = (("bridge-sharp", {}), ("five-side", {"size": 110450}), ("five-side", {"size": 1_000_000}))
+    sizes: Any = (("bridge-sharp", {}), ("five-side", {"size": 110450}), ("five-side", {"size": 1_000_000}))
     return measure_meshes((make(name, **size) for name, size in sizes), _row)
 
 
@@ -37,7 +37,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
     places = [tuple(low + (high - low) * share) for share in np.linspace(0.4, 0.6, _CHANGES)]
     deep = int(mesh.topology.layers.argmax())
     outer = np.flatnonzero(mesh.topology.layers == 0)[:: max(1, mesh.n_hexes // 500)]
-    looks = {
+    looks: dict[str, Any] = {
         "clip": [{"cut": Cut.at((1, 0, 0), place)} for place in places],
         "smooth cut": [{"cut": Cut.at((1, 0, 0), place, CutStyle.SMOOTH)} for place in places],
         "box": [{"cut": Cut(box=Box(tuple(low), place))} for place in places],
@@ -64,7 +64,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
         mask_seconds.append(perf_counter() - start)
         return mask
 
-    viewport.kept = timed_mask
+    viewport.kept = timed_mask  # type: ignore[method-assign]
     result = {}
     for name, changes in looks.items():
         masks, faces, frames = [], [], []

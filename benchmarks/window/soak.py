@@ -156,7 +156,7 @@ def _window() -> Iterator[Window]:
     window.show()
     window.build_features()
     window.build_canvas()
-    window.features["session"].start_autosave()
+    window.features["session"].start_autosave()  # type: ignore[attr-defined]
     run_event_loop(0.5)
     try:
         yield window
@@ -177,7 +177,7 @@ def _round(window: Window, path: Path, method: str, folder: Path) -> None:
     save_and_wait(session, folder / "mesh.vtu")
     saved = folder / "round.hexmend"
     save_and_wait(session, saved)
-    window.features["save"].picture(folder / "picture.png", (1280, 800))
+    window.features["save"].picture(folder / "picture.png", (1280, 800))  # type: ignore[attr-defined]
     _open(window, saved)
     for change in (session.commands.undo, session.commands.redo, session.commands.reset):
         change()
@@ -210,7 +210,7 @@ def _change_view(window: Window) -> None:
 
 
 def _smooth(window: Window, method: str) -> None:
-    smoothing, errors = window.session.run, []
+    smoothing, errors = window.session.run, list[Exception]()
     connection = smoothing.failed.connect(errors.append)
     window.session.commands.run(
         Stage(METHODS[method](), StoppingCriteria(max_iterations=_ITERATIONS, max_seconds=_SECONDS))

@@ -79,5 +79,5 @@ class ReportedWindow(Window):
 
 
 if __name__ == "__main__":
-    window.Window = ReportedWindow  # which the program imports when it opens a window
+    window.Window = ReportedWindow  # type: ignore[misc]  # which the program imports when it opens a window
     sys.exit(program.open_window(*sys.argv[2:]))

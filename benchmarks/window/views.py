@@ -15,7 +15,7 @@ from hexmend.gallery import make
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
 
-_SIZES = (("bridge-sharp", {}), ("five-side", {"size": 110450}))
+_SIZES: Any = (("bridge-sharp", {}), ("five-side", {"size": 110450}))
 
 
 def _measure() -> dict[str, Any]:

@@ -69,11 +69,11 @@ class Parameter:
     name: str
     type: type
     default: Any
-    low: float | None
-    high: float | None
-    choices: tuple[str, ...] | None
-    unit: str
-    help: str
+    low: float | None = None
+    high: float | None = None
+    choices: tuple[str, ...] | None = None
+    unit: str = ""
+    help: str = ""
     no_limit: str = ""
     suggestions: tuple[str, ...] = ()
     sets: bool = False
@@ -86,7 +86,7 @@ class Parameter:
     def check(self, value: Any) -> Any:
         """Return `value` as this parameter's type, or raise `ParameterError` saying what was expected.
 
-        >>> Parameter("rho", float, 0.5, 0, 1, None, "", "").check(2)
+        >>> Parameter("rho", float, 0.5, low=0, high=1).check(2)
         Traceback (most recent call last):
         hexmend.errors.ParameterError: rho = 2 is out of range: expected a number from 0 to 1
         """
@@ -188,28 +188,9 @@ def _shown(value: object) -> str:
     return " ".join(repr(value).split())[:80]
 
 
-def parameter(
-    default: Any,
-    *,
-    low: float | None = None,
-    high: float | None = None,
-    choices: tuple[str, ...] | None = None,
-    unit: str = "",
-    help: str,
-    no_limit: str = "",
-    suggestions: tuple[str, ...] = (),
-    sets: bool = False,
-    automatic: str = "",
-    percent_of: str = "",
-    titles: tuple[str, ...] = (),
-    advanced: bool = False,
-    label: str = "",
-) -> Any:
+def parameter(default: Any, **declaration: Any) -> Any:
     """Declare a dataclass field as a parameter; its type is the field's annotation, the rest as in `Parameter`."""
-    own = {"low": low, "high": high, "choices": choices, "unit": unit, "help": help, "no_limit": no_limit}
-    own |= {"suggestions": suggestions, "automatic": automatic, "percent_of": percent_of, "sets": sets}
-    own |= {"titles": titles, "advanced": advanced, "label": label}
-    return dataclasses.field(default=default, metadata={"parameter": own})
+    return dataclasses.field(default=default, metadata={"parameter": declaration})
 
 
 def declared(kind: type | Any) -> tuple[Parameter, ...]:

@@ -26,6 +26,23 @@ def is_dumb() -> bool:
     return os.environ.get("TERM", "").lower() in ("dumb", "unknown")
 
 
+def shows_colours() -> bool:
+    """Return True if standard output is printed in colours.
+
+    NO_COLOR switches colours off; FORCE_COLOR switches them on for any output; else a terminal that is not dumb has
+    them.
+    """
+    if os.environ.get("NO_COLOR"):
+        return False
+    return bool(os.environ.get("FORCE_COLOR")) or (sys.stdout.isatty() and not is_dumb())
+
+
+def redraws_lines() -> bool:
+    """Return True if standard error can show a line that changes in place."""
+    isatty = getattr(sys.stderr, "isatty", None)  # a program without a console has no standard error
+    return isatty is not None and (isatty() or bool(os.environ.get("FORCE_COLOR"))) and not is_dumb()
+
+
 def printable(text: str) -> str:
     r"""Replace what is not printable in a text, such as the codes that steer a terminal, and newlines by spaces.
 

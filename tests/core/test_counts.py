@@ -1,6 +1,5 @@
 """Sentences with a count: none, one and several things are each in the right number."""
 
-import dataclasses
 import re
 
 import numpy as np
@@ -9,20 +8,11 @@ import pytest
 from hexmend.advice import advise
 from hexmend.boundary import SurfaceChange
 from hexmend.doctor import examine
-from hexmend.errors import MeshError
-from hexmend.gallery import make
-from hexmend.layers import find_layers, layer_report
-from hexmend.mesh.element_target import Target
-from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
-from hexmend.mesh.rules.flat_sets import normal_of_set
 from hexmend.run import smooth
-from hexmend.run.interface_messages import describe_interfaces, interface_message
 from hexmend.smoothers.mend.messages import freed_message, omission_message
-from hexmend.target import given_lengths
 from tests.core.grids import grid
-from tests.core.layers.stacks import stack
 
 #: A number 1 before a plural, or another one before a singular; "0 of 1 hexes" too.
 _THINGS = "node|hexe?|corner|face|edge|iteration|layer|part|material|cell|time"
@@ -96,37 +86,3 @@ def test_runs_on_small_meshes(n):
                 *(s.text for s in advice.suggestions),
             ):
                 checked(text)
-
-
-@pytest.mark.parametrize("n", [1, 2, 3])
-def test_interfaces_of_few_nodes(n):
-    mesh = grid(2, n, 2)
-    mesh = mesh.replace(hex_data={"material": (mesh.points[mesh.hexes].mean(axis=1)[:, 0] > 1).astype(int)})
-    checked(describe_interfaces(mesh))
-    moved = mesh.points + 0.1 * (mesh.materials.interface_nodes & ~mesh.topology.boundary)[:, None]
-    for after in (mesh, mesh.with_points(moved)):
-        checked(interface_message(mesh, after, {}))
-
-
-def test_layers_on_one_face():
-    mesh = stack()
-    layers = find_layers(mesh)
-    (wall,) = layers.walls
-    for faces, depth in ((1, 1), (1, 3), (2, 1)):
-        few = dataclasses.replace(wall, hexes=wall.hexes[:faces, :depth], faces=wall.faces[:faces, :depth])
-        (report,) = layer_report(dataclasses.replace(layers, walls=(few,)), mesh, mesh, given_lengths(mesh))
-        checked(report.sentence)
-
-
-def test_errors_of_meshes():
-    mesh = make("cube", size=8)
-    for count in range(3):
-        with pytest.raises(MeshError) as error:
-            normal_of_set(mesh.replace(node_sets={"few": np.arange(count)}), "few")
-        checked(str(error.value))
-    with pytest.raises(MeshError) as error:
-        mesh.with_element_target(Target(np.ones((1, 3))))
-    checked(str(error.value))
-    with pytest.raises(MeshError) as error:
-        grid(1).with_linear_motion(LinearMotion.in_planes([99], [0, 0, 1]))
-    checked(str(error.value))

@@ -90,7 +90,11 @@ def with_entry_points(site):
     write_distribution(site, "\n".join(groups), modules)
 
 
-@pytest.fixture(scope="module", params=[with_files, with_entry_points], ids=["files", "entry-points"])
+@pytest.fixture(
+    scope="module",
+    params=[pytest.param(with_files, marks=pytest.mark.slow), with_entry_points],
+    ids=["files", "entry-points"],
+)
 def site(request, tmp_path_factory):
     """A folder from which Hexmend is run with all examples."""
     path = tmp_path_factory.mktemp("site")

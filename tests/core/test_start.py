@@ -14,7 +14,6 @@ HEAVY = {
     "matplotlib": "0.3 s",
     "meshlane": "0.1 s",
     "h5py": "0.2 s", "netCDF4": "", "lz4": "",
-    "rich": "0.1 s",
     "importlib.metadata": "0.04 s",
     "tomllib": "", "tomli_w": "",
     "numba": "", "llvmlite": "",
@@ -51,7 +50,16 @@ def folder(tmp_path_factory):
     return path
 
 
-@pytest.mark.parametrize("words", [[], ["--boundary", "slide"], ["--set", "goal=scaled-jacobian"]])
+@pytest.mark.parametrize(
+    "words",
+    [
+        [],
+        *(
+            pytest.param(more, marks=pytest.mark.slow)
+            for more in (["--boundary", "slide"], ["--set", "goal=scaled-jacobian"])
+        ),
+    ],
+)
 def test_a_tangled_mesh_is_mended_without_scipy(folder, tmp_path, words):
     said, modules = program("smooth", str(folder / "tangled.vtk"), "-o", str(tmp_path / "out.vtk"), *words)
     assert "no hex is invalid" in said

@@ -6,9 +6,8 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QWidget
@@ -16,7 +15,7 @@ from PySide6.QtWidgets import QWidget
 from hexmend_app.canvas.camera_animation import CameraAnimation
 from hexmend_app.canvas.render_widget import RenderWidget
 from hexmend_app.canvas.view_keys import move_of
-from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.camera_pose import CameraPose, Vector
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 from hexmend_app.scene.views.panes import Panes
@@ -25,7 +24,7 @@ from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
-    from vtkmodules.vtkRenderingCore import vtkCamera
+    pass
 
 #: Time without changes after which the fine frame is drawn, in milliseconds.
 _REST = 300
@@ -81,7 +80,7 @@ class CameraView(QWidget):
         """Fit the shown hexes into the view."""
         self._move_camera(self.panes.camera_controller.fit)
 
-    def look_along(self, direction: str) -> None:
+    def look_along(self, direction: str | Vector) -> None:
         """Show the mesh from a direction: +x, -x, ..., iso."""
         self._move_camera(partial(self.panes.camera_controller.look_along, direction))
 
@@ -94,8 +93,8 @@ class CameraView(QWidget):
     def pose_history(self) -> PoseHistoryData:
         """History of camera poses."""
         before, after, remembered = self.camera_animation.pose_history()
-        poses = (tuple(replace(pose, axis=self.up) for pose in poses) for poses in (before, after))
-        return PoseHistoryData(*poses, None if remembered is None else replace(remembered, axis=self.up))
+        earlier, later = (tuple(replace(pose, axis=self.up) for pose in poses) for poses in (before, after))
+        return PoseHistoryData(earlier, later, None if remembered is None else replace(remembered, axis=self.up))
 
     def set_pose(self, pose: CameraPose, pose_history: PoseHistoryData | None = None) -> None:
         """Set the camera pose and, if given, the history of poses."""
@@ -145,10 +144,6 @@ class CameraView(QWidget):
         mesh = self.viewport.frame.mesh
         self.camera_animation.fly(self.panes.camera_controller.flight_to(mesh.points[mesh.hexes[list(hexes)]]))
 
-    def fly_around(self, place: np.ndarray) -> None:
-        """Fly to a pose in which a point, (3,) float64, is the centre of the view and of rotation."""
-        self.camera_animation.fly(self.panes.camera_controller.flight_around(place))
-
     def _on_flight_frame(self) -> None:
         self.panes.camera_controller.reset_depth()
         self.turning()
@@ -175,10 +170,6 @@ class CameraView(QWidget):
         self._rest.stop()
         self.panes.turning()
 
-    def stay_coarse(self) -> None:
-        """Cancel the scheduled fine frame because more changes follow."""
-        self._rest.stop()
-
     def rest(self) -> None:
         """Schedule a fine frame."""
         self._rest.start()
@@ -194,13 +185,9 @@ class CameraView(QWidget):
         self.camera_animation.stop()
         self.interactor.release_graphics()
 
-    def camera_move(self, event: QKeyEvent) -> Callable[[vtkCamera], None] | None:
-        """Return the camera movement of a key that is pressed in the view; None for an unbound key."""
-        return move_of(event, self.panes.camera_controller.up)
-
     def on_key(self, event: QKeyEvent) -> None:
         """Move the camera if the key is bound to a movement."""
-        move = self.camera_move(event)
+        move = move_of(event, self.panes.camera_controller.up)
         if move is not None:
             self._move_camera(partial(move, self.viewport.camera))
 
@@ -218,7 +205,7 @@ class _Keys(QObject):
         self._view = view
         view.interactor.installEventFilter(self)
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+    def eventFilter(self, watched: QObject, event: Any) -> bool:
         """Handle all keys except Tab."""
         if event.type() == QEvent.Type.KeyPress and event.key() not in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             self._view.on_key(event)

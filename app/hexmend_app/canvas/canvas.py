@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
@@ -32,7 +32,7 @@ from hexmend_app.state.mesh.inspection import NodeDetails
 from hexmend_app.state.node_step import NodeStep
 from hexmend_app.state.view.side_views import Wipe
 from hexmend_app.theme.palette import BLUE, THEME
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import on_theme_change
 
 if TYPE_CHECKING:
@@ -82,12 +82,10 @@ class Canvas(CameraView):
         self.box = BoxWidget(self.panes.pane, self.box_dragged.emit)
         self.sphere = SphereWidget(self.panes.pane, self.sphere_dragged.emit)
         self._handle_widgets = self.plane, self.box, self.sphere
-        layout = on_grid(QVBoxLayout(self))
-        layout.setContentsMargins(_RING, _RING, _RING, _RING)
         self.frame = ViewFrame(self.interactor)
         self._legend = ViewLegend(self.interactor, self.panes, self.frame)
         self.colour_bar = self._legend.colour_bar
-        layout.addLayout(self.frame, 1)
+        fill(QVBoxLayout(self), (self.frame, 1), margins=(_RING, _RING, _RING, _RING))
         self._handles = False, 0
         self._measuring = False
         self._selected: tuple[int | None, bool] = (None, False)
@@ -128,7 +126,7 @@ class Canvas(CameraView):
         self._legend.show_colours()
         self.changed()
         if live:
-            self.stay_coarse()
+            self._rest.stop()  # more changes follow
 
     def clear(self) -> None:
         """Draw no mesh."""
@@ -208,7 +206,7 @@ class Canvas(CameraView):
         self.turning()
         self.draw_soon()
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+    def eventFilter(self, watched: QObject, event: Any) -> bool:
         """Redraw on changes of focus; open the context menu for the menu key."""
         kind = event.type()
         if kind == QEvent.Type.KeyPress and event.key() == Qt.Key.Key_Menu:
@@ -275,7 +273,7 @@ class Canvas(CameraView):
         """Make the picked point the centre of rotation."""
         hit = self._pick(place)
         if hit is not None:
-            self.fly_around(hit.place)
+            self.camera_animation.fly(self.panes.camera_controller.flight_around(hit.place))
 
     def _request_menu(self, place: QPointF) -> None:
         self.menu_requested.emit(self._at(place), self.interactor.mapToGlobal(place.toPoint()))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
@@ -14,6 +15,7 @@ from hexmend_app.canvas.name_list import NameList
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
 from hexmend_app.scene.colour.colouring import end_label
 from hexmend_app.scene.colour.ticks import ticks_with_ends
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import INVALID_INSIDE, INVERTED, LINE, MUTED, TEXT, set_help, smaller, tabular
 from hexmend_app.translation import tr
 
@@ -52,12 +54,9 @@ class ColourBar(QFrame):
         self._names = NameList()
         self._names.hide()
         self.swatches: list[SwatchButton] = []
-        self._layout = QVBoxLayout(self)
-        self._layout.setContentsMargins(8, 8, 8, 4)
-        self._layout.setSpacing(4)
-        self._layout.addWidget(self._title)
-        self._layout.addWidget(self._gradient, 1)
-        self._layout.addWidget(self._names, 1)
+        self._layout = fill(
+            QVBoxLayout(self), self._title, (self._gradient, 1), (self._names, 1), margins=(8, 8, 8, 4), spacing=4
+        )
         self.set_special([("inverted", 0, INVERTED), ("invalid inside", 0, INVALID_INSIDE)])
 
     def set_table(self, table: np.ndarray) -> None:
@@ -98,7 +97,7 @@ class ColourBar(QFrame):
         """Return the tick values for a gradient with a height in pixels."""
         return self._gradient.ticks(length)
 
-    def set_special(self, special_colours: Sequence[tuple[str, int, object]]) -> None:
+    def set_special(self, special_colours: Sequence[tuple[str, int, Any]]) -> None:
         """Set the special colours: name, number of hexes, colour as name or (red, green, blue) bytes."""
         while len(self.swatches) < len(special_colours):
             swatch = SwatchButton()
@@ -194,8 +193,8 @@ class _Gradient(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint gradient, ticks and numbers from a cached pixmap; called with every frame of the view below."""
-        key = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.beyond)
-        key += (self.font().key(), str(LINE), str(MUTED), str(TEXT))
+        scale = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.beyond)
+        key = (*scale, self.font().key(), str(LINE), str(MUTED), str(TEXT))
         if key != self._key:
             self._key, self._drawn = key, self._draw()
         QPainter(self).drawPixmap(0, 0, self._drawn)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer, Signal
+from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QWidget
 
 #: Maximum movement of the mouse during a click, in pixels; more is a drag.
@@ -43,7 +46,7 @@ class Pointer(QObject):
         self._double = False
         view.installEventFilter(self)
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+    def eventFilter(self, watched: QObject, event: Any) -> bool:
         """Observe the mouse buttons; VTK receives all events too."""
         kind = event.type()
         if kind == QEvent.Type.MouseButtonPress:
@@ -55,11 +58,11 @@ class Pointer(QObject):
             self._release(event)
         return super().eventFilter(watched, event)
 
-    def _press(self, event: QEvent) -> None:
+    def _press(self, event: QMouseEvent) -> None:
         self._down, self._double = (event.button(), event.position()), False
         self.pressed.emit()
 
-    def _release(self, event: QEvent) -> None:
+    def _release(self, event: QMouseEvent) -> None:
         down, self._down = self._down, None
         if down is None or down[0] != event.button():
             return
@@ -75,5 +78,5 @@ class Pointer(QObject):
             QTimer.singleShot(0, self, lambda: self.menu_requested_at.emit(place))
 
 
-def _with_ctrl(event: QEvent) -> bool:
+def _with_ctrl(event: QMouseEvent) -> bool:
     return bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)

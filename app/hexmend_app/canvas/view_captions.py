@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from hexmend_app.theme.palette import Role
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import MUTED, WORSE, icon, set_help, smaller, tabular, tint
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import MUTED, WORSE, bold, set_help, smaller, tabular, tint, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -77,9 +77,7 @@ class CaptionRow(QWidget):
     def __init__(self, over: QWidget):
         super().__init__(over)
         self.setAutoFillBackground(True)
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(0)
+        self._row = fill(QHBoxLayout(self), margins=(0, 0, 0, 0), spacing=0)
         self._shown: list[tuple] = []
         self._parts: list[_Entry] = []
         self.hide()
@@ -107,16 +105,10 @@ class CaptionRow(QWidget):
     def _part(self, caption: Caption, number: int) -> _Entry:
         part = _Entry(caption)
         if number:
-            cross = QToolButton()
-            cross.setIcon(icon("close", MUTED))
+            cross = tool_button("close", MUTED)
             cross.setIconSize(QSize(_CROSS, _CROSS))
-            cross.setAutoRaise(True)
-            cross.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            set_help(
-                cross,
-                tr("Close the view of {name}", name=caption.name),
-                tr("Close the view of {name}", name=caption.name),
-            )
+            help = tr("Close the view of {name}", name=caption.name)
+            set_help(cross, help, help)
             cross.clicked.connect(lambda: self.closed.emit(number))
             part.layout().addWidget(cross)
         return part
@@ -135,9 +127,7 @@ class WipeRow(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        row = on_grid(QHBoxLayout(self))
-        row.setContentsMargins(8, 0, 8, 0)
-        self._sides, self._figures = [], []
+        self._sides, self._figures = list[ComboBox](), list[ElidingLabel]()
         for side in ("left", "right"):
             box, label = ComboBox(), _figures()
             set_help(
@@ -149,8 +139,7 @@ class WipeRow(QWidget):
             self._sides.append(box)
             self._figures.append(label)
         (left, right), (left_figures, right_figures) = self._sides, self._figures
-        for part, stretch in ((left, 0), (left_figures, 1), (right_figures, 1), (right, 0)):
-            row.addWidget(part, stretch)
+        fill(QHBoxLayout(self), left, (left_figures, 1), (right_figures, 1), right, margins=(8, 0, 8, 0))
         self.setFixedHeight(caption_height(self) + 4)
         right_figures.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.hide()
@@ -171,19 +160,12 @@ class _Entry(QWidget):
 
     def __init__(self, caption: Caption):
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(8, 0, 4, 0)
-        row.setSpacing(4)
-        if caption.colour is not None:
-            row.addWidget(Swatch(caption.colour))
         name = ElidingLabel(caption.name)
-        font = name.font()
-        font.setBold(True)
-        name.setFont(font)
-        row.addWidget(name)
+        name.setFont(bold(name.font()))
+        swatches = [] if caption.colour is None else [Swatch(caption.colour)]
         self._figures = _figures()
         self._figures.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-        row.addWidget(self._figures, 1)
+        fill(QHBoxLayout(self), *swatches, name, (self._figures, 1), margins=(8, 0, 4, 0), spacing=4)
         self.setFixedHeight(caption_height(self))
 
     def set_figures(self, caption: Caption) -> None:

@@ -27,38 +27,30 @@ class ViewFrame(QVBoxLayout):
     -------
     view_closed(int)
         The user closed a view; number 1 is the view next to the first.
-    wipe_chosen(left, right), wipe_moved(share), wipe_stepped(step)
-        The user selected the views of the wipe, or moved its edge to a position or by a step.
     """
 
     view_closed = Signal(int)
-    wipe_chosen = Signal(int, int)
-    wipe_moved = Signal(float)
-    wipe_stepped = Signal(int)
 
     def __init__(self, view: QWidget):
         super().__init__()
         self.setSpacing(0)
         self.captions: Sequence[Caption] = ()
         self._wipe: Wipe | None = None
-        self._rows, self._wipe_row = [CaptionRow(view) for _ in range(_MAX_ROWS)], WipeRow()
-        self._edge = WipeHandle(view)
+        self._rows, self.wipe_row = [CaptionRow(view) for _ in range(_MAX_ROWS)], WipeRow()
+        self.edge = WipeHandle(view)
         self._strip = QWidget(view)  # behind the legend, to the right of several views
         self._strip.setAutoFillBackground(True)
         self._strip.hide()
         self._view, self._legend_width = view, 0
-        self.addWidget(self._wipe_row)
+        self.addWidget(self.wipe_row)
         self.addWidget(view, 1)
         for row in self._rows:
             row.closed.connect(self.view_closed)
-        self._wipe_row.chosen.connect(self.wipe_chosen)
-        self._edge.moved.connect(self.wipe_moved)
-        self._edge.stepped.connect(self.wipe_stepped)
 
     @property
     def clickable(self) -> dict[QWidget, Callable[[], QRect]]:
         """Widgets over the view that can be clicked or dragged, each with the area that must stay free."""
-        return {row: row.rect for row in self._rows} | {self._edge: self._edge.knob}
+        return {row: row.rect for row in self._rows} | {self.edge: self.edge.knob}
 
     def set_captions(self, captions: Sequence[Caption], wipe: Wipe | None) -> None:
         """Set the captions of the views, or of the sides of a wipe."""
@@ -68,7 +60,7 @@ class ViewFrame(QVBoxLayout):
         for i, row in enumerate(self._rows):
             row.set_captions(side_by_side[i * n_columns : (i + 1) * n_columns], i * n_columns)
         self.fit()
-        self._wipe_row.set_captions(captions, (wipe.left, wipe.right) if wipe is not None else None)
+        self.wipe_row.set_captions(captions, (wipe.left, wipe.right) if wipe is not None else None)
 
     def change_captions(self, captions: Sequence[Caption]) -> None:
         """Set the captions of the same views, or of the same wipe."""
@@ -82,9 +74,9 @@ class ViewFrame(QVBoxLayout):
 
     def set_wipe(self, wipe: Wipe | None) -> None:
         """Show the edge of the wipe at a position, or hide it."""
-        self._edge.setVisible(wipe is not None)
+        self.edge.setVisible(wipe is not None)
         if wipe is not None:
-            self._edge.set_share(wipe.at)
+            self.edge.set_share(wipe.at)
 
     def fit(self) -> None:
         """Place the captions for the current size of the view."""

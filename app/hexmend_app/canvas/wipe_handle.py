@@ -105,7 +105,7 @@ class WipeHandle(QWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Move by a step for an arrow key."""
-        step = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(event.key())
+        step = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(Qt.Key(event.key()))
         if step is None:
             super().keyPressEvent(event)
         else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Collection, Mapping
+from typing import Any
 
 from hexmend.cli.arguments.options import add_settings
 from hexmend.cli.arguments.run_arguments import given_limits, method_settings, stopping_criteria
@@ -72,7 +73,7 @@ def method_words(args: argparse.Namespace) -> list[str]:
     return ["--methods", args.methods or DEFAULT_METHOD, *_words({name: getattr(args, name) for name in known})]
 
 
-def _words(values: Mapping[str, object]) -> list[str]:
+def _words(values: Mapping[str, Any]) -> list[str]:
     result: list[str] = []
     for name, value in values.items():
         option = f"--{name.replace('_', '-')}"

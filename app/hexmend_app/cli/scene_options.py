@@ -42,7 +42,7 @@ def accept_negative_values(parser: argparse.ArgumentParser) -> None:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options to a parser."""
-    text = "x, y, z or nx,ny,nz, and :position from 0 to 1 through the mesh (x:0.5); repeat for more planes"
+    text = "x, y, z or nx,ny,nz, and :position from 0 to 1 through the mesh (x:0.5)"
     parser.add_argument("--clip", metavar="PLANE", action="append", default=[], help=text)
     parser.add_argument("--flip", action="store_true", help="hide the other side of each plane")
     for name, _, text in _VALUES:
@@ -52,10 +52,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--structure",
         metavar="NAMES",
-        help="draw layers: irregular, boundary or sharp edges, fixed, free or locked nodes, kinds of boundary nodes, "
-        "others (cells that are not hexes), or an additional layer; separate several by commas",
+        help="draw layers, with commas between them: irregular, boundary, sharp, fixed, free, locked, kinds, others, "
+        "or an additional layer",
     )
-    text = "another key of a scene file, as in page.margin=5 or cut.sphere='{ radius = 2 }'; repeat for more keys"
+    text = "another key of a scene file, as in page.margin=5 or cut.sphere='{ radius = 2 }'"
     parser.add_argument("--key", metavar="TABLE.KEY=VALUE", action="append", default=[], help=text)
 
 
@@ -96,7 +96,9 @@ def _given(args: argparse.Namespace) -> list[tuple[str, Any]]:
     given: list[tuple[str, Any]] = []
     if args.clip:
         planes = [parse_plane(text) for text in args.clip]
-        given.append(("cut.planes", [_other_side(plane) for plane in planes] if args.flip else planes))
+        if args.flip:
+            planes = [Plane(plane.flipped().normal, 1 - plane.position) for plane in planes]
+        given.append(("cut.planes", planes))
     options = vars(args)
     for name, path, _ in _VALUES:
         if text := options[name.replace("-", "_")]:
@@ -118,10 +120,6 @@ def parse_plane(text: str) -> Plane:
     if not 0 <= share <= 1:
         raise invalid_value("--clip", text, "a position from 0 to 1, as in x:0.5")
     return Plane(normal, share)
-
-
-def _other_side(plane: Plane) -> Plane:
-    return Plane(tuple(-c for c in plane.normal), 1 - plane.position)
 
 
 def _parse_structure(text: str) -> Structure:

@@ -11,7 +11,6 @@ import math
 import typing
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import Any, NamedTuple, Self
 
 from hexmend.errors import ParameterError
@@ -27,7 +26,7 @@ KeyPath = tuple[str | int, ...]
 
 
 #: Values of keys that are not written.
-_EMPTY = (None, "", (), {}, frozenset())
+_EMPTY: tuple[Any, ...] = (None, "", (), {}, frozenset())
 
 
 class _Place(NamedTuple):
@@ -63,7 +62,7 @@ class ConfigTable:
 
     def _set(self, values: Mapping[str, Any]) -> None:
         """Check and convert values by field, and set them."""
-        for option in options_of(type(self)):
+        for option in options_of(type(self)):  # type: ignore[arg-type]  # mypy takes no class as hashable
             if option.field in values:
                 value = _TABLES.decode(values[option.field], option.kind, _Place((option.name,), option))
                 object.__setattr__(self, option.field, value)
@@ -78,7 +77,7 @@ class ConfigTable:
         TypeError
             If a field does not exist.
         """
-        fields = [option.field for option in options_of(type(self))]
+        fields = [option.field for option in options_of(type(self))]  # type: ignore[arg-type]
         if unknown := values.keys() - set(fields):
             raise TypeError(f"{type(self).__name__} has no fields {', '.join(sorted(unknown))}")
         copy = object.__new__(type(self))
@@ -124,8 +123,8 @@ class _TableConversion(Conversion):
 
     def _encode_table(self, value: Any, kind: type) -> dict[str, Any]:
         values = value.to_keys() if hasattr(kind, "from_keys") else vars(value)
-        entries = {option.name: (values[option.field], option.kind) for option in options_of(type(value))}
-        return {name: self.encode(*entry) for name, entry in entries.items() if entry[0] not in _EMPTY}
+        options = options_of(type(value))  # type: ignore[arg-type]
+        return {o.name: self.encode(values[o.field], o.kind) for o in options if values[o.field] not in _EMPTY}
 
     def _decode_union(self, data: Any, kinds: tuple[Any, ...], where: _Place) -> Any:
         return self.decode(data, _with_shape(data, kinds), where)
@@ -151,12 +150,12 @@ class _TableConversion(Conversion):
         except (ParameterError, ValueError) as error:
             raise OptionError(f"{table}: {error}") from None
 
-    def _decode_enum(self, data: Any, kind: type[StrEnum], where: _Place) -> Any:
+    def _decode_enum(self, data: Any, kind: Any, where: _Place) -> Any:
         if data not in list(kind):
             raise OptionError.of(where.path, data, f"is unknown: expected {', '.join(kind)}")
         return kind(data)
 
-    def _decode_entries(self, data: Any, kind: Any, where: _Place) -> list[Any]:
+    def _decode_entries(self, data: Any, kind: Any, where: _Place) -> Collection[Any]:
         if not isinstance(data, list | tuple | frozenset):
             raise OptionError.of(where.path, data, "is not a list: expected a list such as [1, 2]")
         count = fixed_length(kind)

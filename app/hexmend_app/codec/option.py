@@ -42,7 +42,7 @@ def option(default: Any = None, **bounds: Any) -> Any:
 
 
 @cache
-def options_of(kind: type) -> tuple[Option, ...]:
+def options_of(kind: Any) -> tuple[Option, ...]:
     """Return the declarations of the keys of a table or another dataclass, in order.
 
     They are its fields, unless it has a method `keys` that declares others, which `to_keys` and `from_keys` convert.

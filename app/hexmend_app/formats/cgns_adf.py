@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -61,7 +62,7 @@ def content(path: Path) -> Content:
     return Content(np.concatenate(points), tuple(blocks), node_data, field_data=fields, notes=tuple(notes))
 
 
-def _leaves(data: object, name: str = "") -> list[tuple[str, object]]:
+def _leaves(data: Any, name: str = "") -> list[tuple[str, Any]]:
     """Return names and grids of the leaves of a multi-block dataset."""
     if not data.IsA("vtkMultiBlockDataSet"):
         return [(name, data)]
@@ -74,7 +75,7 @@ def _leaves(data: object, name: str = "") -> list[tuple[str, object]]:
     return leaves
 
 
-def _blocks(zone: object, points: np.ndarray) -> list[Block]:
+def _blocks(zone: Any, points: np.ndarray) -> list[Block]:
     """Return the cells of a grid as one block for each cell type."""
     data = _arrays(zone.GetCellData())
     if zone.IsA("vtkStructuredGrid"):
@@ -93,7 +94,7 @@ def _blocks(zone: object, points: np.ndarray) -> list[Block]:
     return blocks
 
 
-def _arrays(data: object) -> dict[str, np.ndarray]:
+def _arrays(data: Any) -> dict[str, np.ndarray]:
     """Return the numeric arrays of point or cell data by name, without those that VTK adds."""
     arrays = [data.GetArray(k) for k in range(data.GetNumberOfArrays())]
     return {a.GetName(): _array(a) for a in arrays if a is not None and not a.GetName().startswith("vtk")}

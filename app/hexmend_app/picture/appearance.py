@@ -125,7 +125,7 @@ class Measurement(ConfigTable):
     Parameters
     ----------
     points : tuple of Vector
-        At most three points in the unit of the mesh: two have a distance, three also an angle at the second.
+        Up to three points: two have a distance, three also an angle at the second.
     """
 
     points: tuple[Vector, ...] = option((), most=3)

@@ -23,15 +23,15 @@ class Camera(ConfigTable):
     Parameters
     ----------
     from_ : str or Vector, optional
-        View direction: iso, +x, -x, +y, -y, +z, -z, or a vector [x, y, z]; by default iso.
+        View direction: iso (default), +x, -x, +y, -y, +z, -z, or a vector.
     up : str
         Vertical axis: x, y or z.
     parallel : bool
         Parallel projection instead of perspective.
     position, focal, view_up : Vector, optional
-        Exact pose: position of the camera, its focal point, and the up vector of the picture.
+        Exact pose: position of the camera, focal point, and up vector of the picture.
     scale : float, optional
-        Exact pose: half the height of the picture in parallel projection, in the unit of the mesh.
+        Exact pose: half the height of the picture in parallel projection.
     """
 
     from_: str | Vector | None = option()

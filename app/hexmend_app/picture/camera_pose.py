@@ -57,6 +57,6 @@ class CameraPose:
         return (
             self.parallel == other.parallel
             and abs(self.scale - other.scale) <= _TOLERANCE * max(self.scale, other.scale)
-            and max(map(np.linalg.norm, shifts)) <= _TOLERANCE * unit
+            and bool(max(map(np.linalg.norm, shifts)) <= _TOLERANCE * unit)
             and bool(np.linalg.norm(np.subtract(self.up, other.up)) <= _TOLERANCE)
         )

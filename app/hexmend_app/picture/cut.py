@@ -50,23 +50,21 @@ class Cut(ConfigTable):
     Parameters
     ----------
     planes : tuple of Plane
-        Planes, for example { normal = [1, 0, 0], position = 0.5 }, or with a point instead of a position.
+        Planes, such as { normal = [1, 0, 0], position = 0.5 }; what lies beyond any of them is hidden.
     box : Box, optional
-        Box, for example { low = [0, 0, 0], high = [1, 1, 1] }, whose outside is hidden.
+        Box whose outside is hidden.
     slab : Slab, optional
-        Slab between two planes, for example { normal = [1, 0, 0], position = 0.5, thickness = 0.1 }, whose outside is
-        hidden.
+        Slab between two planes, whose outside is hidden.
     sphere : Sphere, optional
-        Sphere, for example { centre = [0, 0, 0], radius = 1 }; hexes whose centre lies outside are hidden.
+        Sphere; hexes whose centre lies outside are hidden.
     depth : Depth, optional
-        Depths of hexes below the boundary, for example { low = 2, high = 3, unit = "layers" }; other hexes are hidden.
+        Depths of the shown hexes below the boundary.
     style : CutStyle
-        crinkle shows hexes at the cut whole, smooth cuts them, which requires planes, a box or a slab.
+        crinkle shows hexes at the cut whole, smooth cuts them: with planes, a box or a slab.
     notch : bool
         Hide only what lies beyond all planes, which removes a corner; for another shape, hide its inside.
     hexes : str
-        Hexes that a cut by whole hexes has left, as ranges of numbers from 0, for example "0-120, 130"; by default
-        the hexes whose centre is not cut away.
+        Hexes that a crinkle cut leaves, such as "0-120, 130"; by default those whose centre is not cut away.
     """
 
     planes: tuple[Plane, ...] = option((), most=_MAX_PLANES)
@@ -81,7 +79,8 @@ class Cut(ConfigTable):
     @classmethod
     def at(cls, normal: Sequence[float], point: Sequence[float], style: CutStyle = CutStyle.CRINKLE) -> Cut:
         """Return the cut by a single plane."""
-        return cls((Plane(tuple(map(float, normal)), point=tuple(map(float, point))),), style=style)
+        normal, point = (tuple(np.asarray(vector, float).tolist()) for vector in (normal, point))
+        return cls((Plane(normal, point=point),), style=style)
 
     def check(self) -> None:
         """Raise `ParameterError` for several shapes, one that cannot be cut smoothly, and invalid hexes."""
@@ -165,11 +164,9 @@ class Cut(ConfigTable):
             )
         if self.absolute:
             return self
-        shapes = {"planes": tuple(plane.on(mesh) for plane in self.planes)}
-        for kind in (CutKind.BOX, CutKind.SLAB, CutKind.SPHERE):
-            shape = getattr(self, kind)
-            shapes[kind] = None if shape is None else shape.on(mesh)
-        return replace(self, **shapes)
+        shapes = {kind: getattr(self, kind) for kind in (CutKind.BOX, CutKind.SLAB, CutKind.SPHERE)}
+        placed = {kind: None if shape is None else shape.on(mesh) for kind, shape in shapes.items()}
+        return replace(self, planes=tuple(plane.on(mesh) for plane in self.planes), **placed)
 
     def with_plane(self, at: int, plane: Plane) -> Cut:
         """Return a copy in which the plane with the index `at` is replaced; it lists no hexes."""

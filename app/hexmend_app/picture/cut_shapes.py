@@ -31,11 +31,11 @@ class Plane(ConfigTable):
     Parameters
     ----------
     normal : Vector
-        Normal of the plane, of any length; it is normalised.
+        Normal of the plane, of any length.
     position : float, optional
-        Position along the normal, from 0 at one end of the mesh to 1 at the other; by default 0.5.
+        Position along the normal, as a fraction of the extent of the mesh; by default 0.5.
     point : Vector, optional
-        Point of the plane, in the unit of the mesh, instead of a position.
+        Point of the plane, instead of a position.
     """
 
     normal: Vector = option((1.0, 0.0, 0.0))
@@ -69,7 +69,8 @@ class Plane(ConfigTable):
 
     def flipped(self) -> Plane:
         """Return the plane with the opposite normal."""
-        return dataclasses.replace(self, normal=tuple(-c for c in self.normal))
+        x, y, z = self.normal
+        return dataclasses.replace(self, normal=(-x, -y, -z))
 
     def snapped(self, degrees: float = SNAP) -> Plane:
         """Return the plane with its normal along an axis if they differ by at most `degrees`; else the plane itself."""
@@ -86,10 +87,12 @@ class Box(ConfigTable):
 
     Parameters
     ----------
-    low, high : Vector
-        Lowest and highest corner, in the unit of the mesh.
+    low : Vector
+        Lowest corner.
+    high : Vector
+        Highest corner.
     shares : bool
-        Corners are fractions of the bounding box of the mesh, from 0 to 1, instead of coordinates.
+        Corners are fractions of the bounding box of the mesh.
     """
 
     low: Vector = option((0.0, 0.0, 0.0))
@@ -134,14 +137,13 @@ class Slab(ConfigTable):
     Parameters
     ----------
     normal : Vector
-        Normal of the planes, of any length; it is normalised.
+        Normal of the planes, of any length.
     position : float, optional
-        Position of the middle along the normal, from 0 at one end of the mesh to 1 at the other; by default 0.5.
+        Position of the middle along the normal, as a fraction of the extent of the mesh; by default 0.5.
     point : Vector, optional
-        Point halfway between the planes, in the unit of the mesh, instead of a position.
+        Point halfway between the planes, instead of a position.
     thickness : float
-        Distance of the planes: with a point in the unit of the mesh, otherwise as a fraction of the extent of the mesh
-        along the normal.
+        Distance of the planes: with a point a length, otherwise a fraction of the extent of the mesh.
     """
 
     normal: Vector = option((1.0, 0.0, 0.0))
@@ -177,10 +179,9 @@ class Slab(ConfigTable):
         """Return the two planes; their normals point outwards or `inwards`. The slab has a point."""
         normal, point = np.array(self.normal), np.array(self.point)
         outwards = -1.0 if inwards else 1.0
-        return tuple(
-            Plane(tuple(sign * outwards * normal), point=tuple((point + sign * 0.5 * self.thickness * normal).tolist()))
-            for sign in (-1.0, 1.0)
-        )
+        half = 0.5 * self.thickness * normal
+        low, high = tuple((point - half).tolist()), tuple((point + half).tolist())
+        return Plane(tuple(-outwards * normal), point=low), Plane(tuple(outwards * normal), point=high)
 
 
 @dataclass(frozen=True)
@@ -190,12 +191,11 @@ class Sphere(ConfigTable):
     Parameters
     ----------
     centre : Vector
-        Centre, in the unit of the mesh.
+        Centre of the sphere.
     radius : float
-        Radius, in the unit of the mesh.
+        Radius of the sphere.
     shares : bool
-        The centre is in fractions of the bounding box of the mesh, from 0 to 1, and the radius is a fraction of its
-        diagonal.
+        The centre is in fractions of the bounding box of the mesh, the radius a fraction of its diagonal.
     """
 
     centre: Vector = option((0.0, 0.0, 0.0))
@@ -240,8 +240,7 @@ class Depth(ConfigTable):
     low, high : float
         Least and greatest depth.
     unit : DepthUnit
-        layers counts layers of hexes, from 1 at the boundary; edges measures the distance of the centre of a hex from
-        the boundary in mean edge lengths.
+        layers: from 1 at the boundary; edges: distance of a hex's centre from the boundary in mean edge lengths.
     """
 
     low: float = option(1.0, low=0)
@@ -261,7 +260,7 @@ class Depth(ConfigTable):
 def _normalised(normal: Vector) -> Vector:
     """Return a vector with length 1; one that has it, up to rounding, stays: copies of a plane are identical."""
     length = math.hypot(*normal)
-    return normal if abs(length - 1) < _ROUNDING else tuple(c / length for c in normal)
+    return normal if abs(length - 1) < _ROUNDING else tuple((np.array(normal) / length).tolist())
 
 
 def _check_place(name: str, normal: Vector, position: float | None, point: Vector | None) -> None:

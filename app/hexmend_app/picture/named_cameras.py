@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -56,7 +55,7 @@ def merged(mine: Mapping[str, Camera], others: Mapping[str, Camera]) -> dict[str
     return cameras
 
 
-def cameras_of(path: str | os.PathLike[str]) -> dict[str, Camera]:
+def cameras_of(path: str | Path) -> dict[str, Camera]:
     """Return the named cameras of a session file.
 
     Raises

@@ -61,8 +61,7 @@ class LineStyle(ConfigTable):
     Parameters
     ----------
     edges : float, optional
-        Width of the edges of hexes, to which all other widths are proportional; 0 omits edges. By default the width
-        depends on the size of the page.
+        Width of the edges of hexes, to which other widths are proportional; 0 omits edges; by default by the page.
     """
 
     edges: float | None = option(low=0, high=20, unit="pt")
@@ -80,7 +79,7 @@ class ColourBarStyle(ConfigTable):
     Parameters
     ----------
     place : TextPlace
-        below, right or none.
+        Position of the bar.
     ticks : int or tuple of float
         Maximum number of values at the bar, or the values.
     title : str
@@ -108,7 +107,7 @@ class AxesStyle(ConfigTable):
     show : bool
         Draw the axes.
     place : Corner
-        lower left, lower right, upper left or upper right.
+        Corner of the axes.
     """
 
     show: bool = option(True)
@@ -126,19 +125,19 @@ class Page(ConfigTable):
     pixels : tuple of 2 int, optional
         Width and height in pixels, instead of millimetres.
     dpi : float, optional
-        Pixels per inch; by default 300 for pages in mm, and the value for a width of 170 mm for pages in pixels.
+        Pixels per inch; by default 300, or for pages in pixels as for a width of 170 mm.
     background : str
         white, transparent or #rrggbb.
     margin : float
         Margin on all sides.
     columns : int, optional
-        Number of panels in a row; by default it depends on the number of panels.
+        Number of panels in a row; by default by their number.
     crop : bool
-        Crop empty margins around the mesh, which makes the page smaller.
+        Crop empty margins around the mesh.
     captions : Captions
-        names, letters or none; a single panel has a caption only if it is specified.
+        Captions of panels; a single panel has one only if it is specified.
     figures : bool
-        Add the smallest q and the number of inverted hexes to captions if several meshes are shown.
+        Add q min and the number of inverted hexes to the captions of several meshes.
     font_size : float, optional
         Size of all texts; by default 8 pt.
     shading : bool

@@ -33,7 +33,7 @@ def texts(path: str | os.PathLike[str], keywords: Collection[str]) -> dict[str, 
     FileError
         If the file cannot be read or is damaged, or a text is too large.
     """
-    path, found = Path(path), {}
+    path, found = Path(path), dict[str, str]()
     try:
         with open(path, "rb") as file:
             size = file.seek(0, os.SEEK_END)

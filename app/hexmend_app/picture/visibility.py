@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from hexmend.errors import ParameterError
@@ -23,7 +24,7 @@ class Isolate(ConfigTable):
     hexes : tuple of int
         Hex numbers, from 0.
     rings : int
-        Number of rings of hexes around them; each ring adds the hexes that share a node.
+        Rings of hexes around them; each adds the hexes that share a node.
     """
 
     hexes: tuple[int, ...] = option((), low=0, high=_MAX_NUMBER)
@@ -37,7 +38,7 @@ class Show(ConfigTable):
     Parameters
     ----------
     quality : tuple of 2 floats, optional
-        Smallest and largest value of the metric of shown hexes; -inf and inf for no bound.
+        Smallest and largest value of shown hexes; -inf and inf for no bound.
     metric : str
         Metric of the range.
     inverted : bool
@@ -45,15 +46,15 @@ class Show(ConfigTable):
     peel : int
         Number of layers of hexes to hide, from the boundary inwards.
     isolate : Isolate, optional
-        Show only these hexes and their neighbours, for example { hexes = [12, 15], rings = 1 }.
+        Show only these hexes and their neighbours.
     hidden : frozenset of int
-        Hexes that are hidden individually, by number from 0.
+        Numbers of hexes that are hidden individually.
     shrink : float
         Fraction by which each hex is shrunk.
     outline : bool
         Draw sharp edges, and the outline of the whole mesh while part of it is hidden.
     marked : frozenset of int
-        Hexes whose edges are marked, by number from 0; in saved pictures, the selected hex.
+        Numbers of hexes whose edges are marked; in saved pictures, the selected hex.
     """
 
     quality: tuple[float, float] | None = option(open_ended=True)
@@ -99,7 +100,7 @@ class Show(ConfigTable):
             raise ParameterError(f"[show] names hex {self.largest_hex:,}: expected one of the mesh, below {hexes:,}")
 
 
-def known_metric(name: str, known: object) -> None:
+def known_metric(name: str, known: Collection[str]) -> None:
     """Raise `ParameterError` if a metric is unknown."""
     if name not in known:
         raise ParameterError(f"metric = {name!r} is unknown: expected one of {', '.join(known)}")

@@ -30,9 +30,10 @@ def opposite(camera: Camera) -> Camera:
     (-1.0, -0.0, -0.0)
     """
     if camera.pose is None:
-        return replace(camera, from_=tuple(-part for part in direction_of(camera.direction, camera.up)))
-    position = tuple(2 * focal - place for focal, place in zip(camera.focal, camera.position, strict=True))
-    return replace(camera, position=position)
+        x, y, z = direction_of(camera.direction, camera.up)
+        return replace(camera, from_=(-x, -y, -z))
+    x, y, z = (2 * focal - place for focal, place in zip(camera.focal, camera.position, strict=True))
+    return replace(camera, position=(x, y, z))
 
 
 def seen_from(camera: Camera) -> str:

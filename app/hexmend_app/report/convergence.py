@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from hexmend.report.charts import ChartStyle, add_legend
+from hexmend_app.report.charts import ChartStyle, add_legend
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -111,7 +111,7 @@ class Convergence:
 def _draw(axes: Axes, chart: DrawnChart, style: ChartStyle) -> None:
     named = []
     for curve in chart.curves:
-        line = {"linestyle": curve.dash, "linewidth": 1.8 if curve.strong else 1.0}
+        line: dict[str, Any] = {"linestyle": curve.dash, "linewidth": 1.8 if curve.strong else 1.0}
         name = style.name(curve.label) + (f" {curve.part}" if curve.part else "")
         named.append((axes.plot(curve.x, curve.y, color=curve.colour, **line)[0], name))
     known = [y for curve in chart.curves for y in curve.y if math.isfinite(y)]
@@ -122,7 +122,7 @@ def _draw(axes: Axes, chart: DrawnChart, style: ChartStyle) -> None:
         else:
             axes.set_yscale("symlog", linthresh=10 ** math.floor(math.log10(least)))
     elif chart.whole:
-        axes.yaxis.get_major_locator().set_params(integer=True)
+        axes.locator_params(axis="y", integer=True)
     axes.set_ylabel(chart.title)
     axes.grid(alpha=0.3)
     add_legend(axes, named)

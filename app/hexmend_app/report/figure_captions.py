@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from hexmend.report import write_text
+from hexmend.report.documents import write_text
 from hexmend.report.markdown import escape
 from hexmend.terminal_text import printable
 from hexmend_app.report.figure_set import Figure

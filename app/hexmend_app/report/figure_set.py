@@ -8,7 +8,8 @@ from math import ceil, sqrt
 from pathlib import Path
 
 from hexmend.errors import ParameterError
-from hexmend.report import comparison_rows, comparison_table, write_documents
+from hexmend.report.comparison import comparison_rows, comparison_table
+from hexmend.report.documents import write_documents
 from hexmend.report.tables import Table
 from hexmend_app.picture import Colours, Cut, PicturePanel, Plane, Scene, TextPlace
 from hexmend_app.picture.appearance import Traces

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from hexmend.report.charts import ChartStyle, add_legend
+from hexmend_app.report.charts import ChartStyle, add_legend
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -105,7 +105,7 @@ def _draw(axes: Axes, outline: Outline, top: float, style: ChartStyle) -> tuple[
         axes.stairs(outline.heights, edges, color=outline.colour, fill=True, alpha=0.35)
     line = axes.stairs(outline.heights, edges, color=outline.colour, linewidth=width)
     for left, right, height in outline.bars:
-        fill = {"facecolor": (outline.colour, 0.35 if outline.filled else 0.0)}
+        fill: dict[str, Any] = {"facecolor": (outline.colour, 0.35 if outline.filled else 0.0)}
         end = _BROKEN * top if height > top else height
         axes.bar(left, end, right - left, align="edge", edgecolor=outline.colour, linewidth=width, **fill)
         if height > top:
@@ -119,5 +119,5 @@ def _break(axes: Axes, left: float, right: float, top: float, number: str, colou
     for wide, of in ((5.0, colour), (3.4, "white")):
         heights = [top * (0.90 if k % 2 else 0.93) for k in range(9)]
         axes.plot(places, heights, color=of, linewidth=wide, zorder=5, solid_capstyle="butt")
-    above = {"xytext": (0, 3), "textcoords": "offset points", "ha": "center", "fontsize": "small"}
+    above: dict[str, Any] = {"xytext": (0, 3), "textcoords": "offset points", "ha": "center", "fontsize": "small"}
     axes.annotate(number, ((left + right) / 2, _BROKEN * top), color=colour, **above)

@@ -303,7 +303,7 @@ def _value(value: object) -> str:
 
 
 def _origin(case: Case) -> str:
-    pairs = {}
+    pairs: dict[str, str] = {}
     if case.source is not None:
         pairs |= {
             "file": printable(case.source.path),

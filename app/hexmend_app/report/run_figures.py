@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.iteration.figures import HISTORY, objective_changes
-from hexmend.report.charts import COLOURS, ChartStyle, write_chart
+from hexmend_app.report.charts import COLOURS, ChartStyle, write_chart
 from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend_app.report.histogram import Histogram, Outline
 

@@ -174,7 +174,7 @@ def _metric(
 def _range(metric: Metric, values: Sequence[np.ndarray], figures: Sequence[ElementQuality]) -> tuple[float, float]:
     """Return the range of the metric or, if that is infinite, the range of most values of valid hexes."""
     if np.isfinite(metric.full_range).all():
-        return tuple(map(float, metric.full_range))
+        return float(metric.full_range[0]), float(metric.full_range[1])
     merged = np.concatenate(values)
     valid = merged[np.isfinite(merged) & ~np.concatenate([one.invalid for one in figures])]
     low, high = np.quantile(valid, _ENDS).tolist() if valid.size else (0.0, 1.0)

@@ -59,7 +59,7 @@ def worst_table(name: str, mesh: Mesh, figures: ElementQuality, locked: Locked) 
             format_count(int(hex)),
             format_quality(figures.q[hex]),
             format_quality(figures.scaled_jacobian[hex]),
-            ", ".join(_number(part) for part in mesh.points[mesh.hexes[hex]].mean(axis=0)),
+            ", ".join(f"{part:.5g}" for part in mesh.points[mesh.hexes[hex]].mean(axis=0)),
             reason(mesh, figures, locked, int(hex)),
         ]
         for hex in order
@@ -87,7 +87,3 @@ def _corners(mesh: Mesh, hex: int) -> str:
     nodes = ", ".join(str(int(mesh.hexes[hex][corner])) for corner in corners)
     noun = "at node" if corners.size == 1 else "at nodes"
     return f"{noun} {nodes} by fixed nodes, σ = {sigma[corners].min():.3g}"
-
-
-def _number(value: float) -> str:
-    return f"{value:.5g}"

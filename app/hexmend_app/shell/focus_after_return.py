@@ -37,7 +37,7 @@ class FocusAfterReturn(QObject):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Move the focus on a Return that the field has acted on and passed on."""
-        if event.type() == QEvent.Type.KeyPress and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+        if event.type() == QEvent.Type.KeyPress and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):  # type: ignore[attr-defined]
             view = self._view()
             if view is not None and isinstance(QApplication.focusWidget(), (QLineEdit, QAbstractSpinBox)):
                 if watched is not self._window:

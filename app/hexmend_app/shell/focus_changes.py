@@ -27,8 +27,8 @@ def follow_focus(receiver: FollowsFocus) -> None:
     def tell(before: QWidget | None, now: QWidget | None) -> None:
         found = alive()
         if found is None or not isValid(found):
-            QApplication.instance().focusChanged.disconnect(tell)
+            QApplication.instance().focusChanged.disconnect(tell)  # type: ignore[attr-defined]
         else:
             found.focus_moved(now)
 
-    QApplication.instance().focusChanged.connect(tell)
+    QApplication.instance().focusChanged.connect(tell)  # type: ignore[attr-defined]

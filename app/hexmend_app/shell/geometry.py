@@ -14,11 +14,6 @@ def restore_geometry(window: QMainWindow) -> None:
     window.restoreGeometry(settings.GEOMETRY.get())  # no effect without a saved geometry
 
 
-def save_geometry(window: QMainWindow) -> None:
-    """Save the geometry of a window for the next start."""
-    settings.GEOMETRY.set(window.saveGeometry())
-
-
 def lay_out_status_bar(bar: QStatusBar, main: QWidget, *parts: QWidget) -> None:
     """Fill a status bar: its main part takes the width that the parts on its right leave."""
     bar.setSizeGripEnabled(False)

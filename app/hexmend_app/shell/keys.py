@@ -37,10 +37,14 @@ def name_of(action: Action) -> str:
 
 
 def as_markdown(actions: Iterable[Action]) -> str:
-    """Return the page `docs/reference/keys.md`."""
-    lines = ["# Mouse and keys", "", "Written by `make docs` from what the features declare.", ""]
+    """Return the page `docs/reference/keys.md`: the actions that have a key."""
+    lines = [
+        "# Mouse and keys",
+        "",
+        "The command palette (`Ctrl+Shift+P`) lists all actions, also those without a key.",
+        "",
+    ]
     for title, rows in tables(actions):
-        lines += [f"## {title}", "", "| action | keys | |", "|---|---|---|"]
-        lines += [f"| {name} | {keys and f'`{keys}`'} | {help} |" for name, keys, help in rows]
-        lines.append("")
+        if keyed := [f"| {name} | `{keys}` |" for name, keys, _ in rows if keys]:
+            lines += [f"## {title}", "", "| action | keys |", "|---|---|", *keyed, ""]
     return "\n".join(lines)

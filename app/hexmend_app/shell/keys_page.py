@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QDialog, QLineEdit, QTextBrowser, QVBoxLayout, QWi
 from hexmend_app.feature import Action
 from hexmend_app.shell.keys import tables
 from hexmend_app.theme.palette import MUTED
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import on_theme_change, set_help
 from hexmend_app.translation import tr
 
@@ -28,9 +28,7 @@ class KeysPage(QDialog):
         set_help(self._field, tr("Filter"), tr("Show only the entries whose name, keys or help contain these words."))
         self._page = QTextBrowser()
         set_help(self._page, tr("Mouse and keys"), "")
-        layout = on_grid(QVBoxLayout(self))
-        layout.addWidget(self._field)
-        layout.addWidget(self._page)
+        fill(QVBoxLayout(self), self._field, self._page)
         self._field.textChanged.connect(self._fill)
         on_theme_change(self, self._fill)
         self.resize(640, 620)

@@ -38,7 +38,8 @@ class LetterKeys(QObject):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Pass a typed letter on to the window."""
-        if event.type() == QEvent.Type.KeyPress and _types(event) and not _takes_text(watched):
+        takes_text = isinstance(watched, QComboBox) and watched.isEditable()
+        if event.type() == QEvent.Type.KeyPress and _types(event) and not takes_text:  # type: ignore[arg-type]
             event.ignore()
             return True
         return super().eventFilter(watched, event)
@@ -48,7 +49,3 @@ def _types(event: QKeyEvent) -> bool:
     """Return True if a key event types a letter; the space bar opens lists and marks rows."""
     text = event.text()
     return bool(text.strip()) and text.isprintable() and not event.modifiers() & ~_TYPING
-
-
-def _takes_text(widget: QObject) -> bool:
-    return isinstance(widget, QComboBox) and widget.isEditable()

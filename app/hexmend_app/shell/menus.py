@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
@@ -21,8 +21,6 @@ class Menus:
     window : QMainWindow
     actions : sequence of Action
         Sorted by feature.
-    before : callable
-        Called before each action that does more than move the camera.
 
     Attributes
     ----------
@@ -30,22 +28,22 @@ class Menus:
         By id, sorted by menu.
     """
 
-    def __init__(self, window: QMainWindow, actions: Sequence[Action], before: Callable[[], object]):
-        self._window, self._before = window, before
+    def __init__(self, window: QMainWindow, actions: Sequence[Action]):
+        self._window = window
         self._declared: dict[str, Action] = {}
         self.actions: dict[str, QAction] = {}
         self._bar = QToolBar(tr("Tools"))
         self._bar.setObjectName("toolbar")
         self._bar.setIconSize(QSize(16, 16))
         self._menus = _menus(window)
-        for menu in ("", *MENUS):
-            self._fill(menu, [action for action in actions if action.menu == menu])
+        for path in ("", *MENUS):
+            self._fill(path, [action for action in actions if action.menu == path])
         for name, menu in self._menus.items():
             menu.menuAction().setVisible(not menu.isEmpty())
             if "/" in name and menu.isEmpty():
                 menu.deleteLater()
-        for menu in (window.menuBar(), *self._menus.values()):
-            _assign_mnemonics([action for action in menu.actions() if not action.isSeparator()])
+        for bar in (window.menuBar(), *self._menus.values()):
+            _assign_mnemonics([action for action in bar.actions() if not action.isSeparator()])
         if self._bar.actions() and self._bar.actions()[-1].isSeparator():
             self._bar.removeAction(self._bar.actions()[-1])
         self._bar.setMinimumWidth(self._bar.sizeHint().width())  # otherwise Qt hides buttons that fit
@@ -82,8 +80,6 @@ class Menus:
         _show_face(action, ActionFace(declared.tool, declared.icon, declared.help))
         action.setProperty("within", tr(declared.menu.rpartition("/")[2]) if "/" in declared.menu else "")
         action.setCheckable(declared.checked is not None)
-        if not declared.moves_camera:
-            action.triggered.connect(lambda checked=False: self._before())
         handle = declared.handle
         if declared.checked is not None:
             action.triggered.connect(handle)  # `refresh` would emit `toggled` too

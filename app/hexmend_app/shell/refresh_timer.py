@@ -31,10 +31,6 @@ class RefreshTimer(QObject):
         if not self._timer.isActive():
             self._timer.start()
 
-    def refresh_all(self) -> None:
-        """Request a refresh of everything in the next turn of the event loop."""
-        self.refresh(iteration_only=False)
-
     def stop(self) -> None:
         """Cancel a pending refresh."""
         self._timer.stop()

@@ -21,7 +21,7 @@ from hexmend_app.shell.features import (
     in_order,
 )
 from hexmend_app.shell.focus_after_return import FocusAfterReturn
-from hexmend_app.shell.geometry import lay_out_status_bar, restore_geometry, save_geometry
+from hexmend_app.shell.geometry import lay_out_status_bar, restore_geometry
 from hexmend_app.shell.letter_keys import LetterKeys
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.shell.panels.hex_counts import HexCounts
@@ -121,7 +121,7 @@ class Window(QMainWindow):
         self.docks.add([panel for panel in panels if panel.place is not PanelPlace.EMPTY])
         in_menu_order = sorted(self.features.values(), key=lambda feature: feature.menu_order)
         actions = declared(in_menu_order, lambda feature: feature.actions())
-        self._menus = Menus(self, [*actions, *declare_actions(self, panels)], self.session.run.view.skip_easing)
+        self._menus = Menus(self, [*actions, *declare_actions(self, panels)])
         call_each(self.features.values(), lambda feature: feature.actions_ready())
         if self.canvas is not None:
             for feature in added:
@@ -229,7 +229,7 @@ class Window(QMainWindow):
 
     def refresh_soon(self) -> None:
         """Request a refresh of everything, once, in the next turn of the event loop."""
-        self._timer.refresh_all()
+        self._timer.refresh(iteration_only=False)
 
     def refresh(self) -> None:
         """Show the current state of the session."""
@@ -273,7 +273,7 @@ class Window(QMainWindow):
         if not self.may_leave():
             event.ignore()
             return
-        save_geometry(self)
+        settings.GEOMETRY.set(self.saveGeometry())
         if self._menus is not None:  # otherwise the panels have not been added yet
             settings.PANELS.set(self.docks.state())
         self.docks.set_hidden(True)  # floating panels are windows of their own

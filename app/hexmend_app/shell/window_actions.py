@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QPoint, Qt
 
@@ -14,35 +15,10 @@ from hexmend_app.shell.palette.palette_entries import choice_entries, command_en
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
-    from PySide6.QtGui import QAction
-
-    from hexmend_app.shell.menus import Menus
     from hexmend_app.shell.panels.docks import Docks
-    from hexmend_app.state.session.session import Session
 
 
-class ActionWindow(Protocol):
-    """QMainWindow on which these actions operate."""
-
-    docks: Docks
-    menus: Menus
-    session: Session
-    window_actions: dict[str, QAction]
-
-    def refresh(self) -> None:
-        """Show the current state of the session."""
-
-    def close(self) -> bool:
-        """Close the window; return False if it stays open."""
-
-    def width(self) -> int:
-        """Return the width in pixels."""
-
-    def mapToGlobal(self, point: QPoint) -> QPoint:
-        """Convert a position in the window to one on the screen."""
-
-
-def declare_actions(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
+def declare_actions(window: Any, panels: Sequence[Panel]) -> list[Action]:
     """Return the actions of the window, including one for each of the `panels` of all features."""
     return [*_panel_actions(window.docks, panels), *_layout_actions(window.docks), *_program_actions(window, panels)]
 
@@ -58,7 +34,7 @@ def _panel_actions(docks: Docks, panels: Sequence[Panel]) -> list[Action]:
             part=0 if by_id[id].place is not PanelPlace.BELOW else 3,
             help=by_id[id].help,
             handle=lambda on, id=id: docks.show_panel(id) if on else docks.close_panel(id),
-            checked=lambda id=id: docks.is_open(id),
+            checked=partial(docks.is_open, id),
             needs_mesh=False,
         )
         for id in docks.ids()
@@ -106,7 +82,7 @@ def _layout_actions(docks: Docks) -> list[Action]:
     ]
 
 
-def _program_actions(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
+def _program_actions(window: Any, panels: Sequence[Panel]) -> list[Action]:
     """Return the actions command palette, keys and quit."""
     return [
         Action(
@@ -142,7 +118,7 @@ def _program_actions(window: ActionWindow, panels: Sequence[Panel]) -> list[Acti
     ]
 
 
-def _show_palette(window: ActionWindow, panels: Sequence[Panel]) -> None:
+def _show_palette(window: Any, panels: Sequence[Panel]) -> None:
     window.refresh()
     actions = {id: action for id, action in window.window_actions.items() if id != "commands"}
     entries = [
@@ -156,7 +132,7 @@ def _show_palette(window: ActionWindow, panels: Sequence[Panel]) -> None:
     palette.open()
 
 
-def _show_keys(window: ActionWindow) -> None:
+def _show_keys(window: Any) -> None:
     page = KeysPage(window.menus.declared(), window)
     page.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     page.show()

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from PySide6.QtWidgets import QLayout
+from PySide6.QtWidgets import QBoxLayout, QLayout, QWidget
 
 Layout = TypeVar("Layout", bound=QLayout)
+Box = TypeVar("Box", bound=QBoxLayout)
+
+#: Part of a row or column: a widget or layout, with its stretch if it has one; empty pixels; or None for an
+#: empty stretch.
+Part = QWidget | QLayout | tuple[QWidget | QLayout, int] | int | None
 
 #: Pixels between the widgets of a layout, and around those of a widget and of a window.
 GAP, MARGIN, WINDOW_MARGIN = 8, 8, 12
@@ -25,4 +30,39 @@ def on_grid(layout: Layout) -> Layout:
         return layout
     margin = WINDOW_MARGIN if layout.parentWidget().isWindow() else MARGIN
     layout.setContentsMargins(margin, margin, margin, margin)
+    return layout
+
+
+def clear(layout: QLayout) -> None:
+    """Remove and delete the widgets of a layout."""
+    while (item := layout.takeAt(0)) is not None:
+        item.widget().hide()
+        item.widget().deleteLater()
+
+
+def fill(layout: Box, *parts: Part, margins: tuple[int, int, int, int] | None = None, spacing: int | None = GAP) -> Box:
+    """Add parts to a new row or column and return it.
+
+    Parameters
+    ----------
+    layout : QBoxLayout
+    parts : sequence of Part
+    margins : tuple of int, optional
+        Left, top, right and bottom margin in pixels; by default those of `on_grid`.
+    spacing : int, optional
+        Pixels between the parts; None for that of the layout around it.
+    """
+    on_grid(layout).setSpacing(-1 if spacing is None else spacing)
+    if margins is not None:
+        layout.setContentsMargins(*margins)
+    for part in parts:
+        item, stretch = part if isinstance(part, tuple) else (part, 0)
+        if item is None:
+            layout.addStretch()
+        elif isinstance(item, int):
+            layout.addSpacing(item)
+        elif isinstance(item, QWidget):
+            layout.addWidget(item, stretch)
+        else:
+            layout.addLayout(item, stretch)
     return layout

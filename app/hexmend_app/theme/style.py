@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtCore import QObject, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QPalette
-from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QSizePolicy, QToolTip, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QSizePolicy, QToolButton, QToolTip, QWidget
 
 from hexmend_app.theme.icons import icon
 from hexmend_app.theme.palette import (
@@ -138,6 +138,20 @@ def smaller(font: QFont) -> QFont:
     return font
 
 
+def bold(font: QFont) -> QFont:
+    """Return a bold copy of `font`."""
+    font = QFont(font)
+    font.setBold(True)
+    return font
+
+
+def labelled(text: str, widget: QWidget) -> QLabel:
+    """Return a label of `widget`, whose mnemonic moves the focus there."""
+    label = QLabel(text)
+    label.setBuddy(widget)
+    return label
+
+
 def set_help(widget: QWidget, name: str, help: str) -> None:
     """Set the accessible name of `widget`, and its help, which is its tooltip and its text for Shift+F1.
 
@@ -153,6 +167,24 @@ def set_help(widget: QWidget, name: str, help: str) -> None:
         widget.setToolTip(tip)
     if widget.whatsThis() != tip:
         widget.setWhatsThis(tip)
+
+
+def tool_button(icon_name: str, role: Role = TEXT) -> QToolButton:
+    """Return a flat button with an icon, which Tab reaches."""
+    button = QToolButton()
+    button.setIcon(icon(icon_name, role))
+    button.setAutoRaise(True)
+    button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    return button
+
+
+def cross_button() -> QToolButton:
+    """Return a small button with a cross, which closes or removes something."""
+    button = tool_button("close", MUTED)
+    set_variant(button, "small")
+    button.setIconSize(QSize(11, 11))
+    button.setFixedSize(16, 16)
+    return button
 
 
 def narrow(button: QAbstractButton) -> None:
@@ -173,6 +205,12 @@ def note(text: str = "", colour: Role = MUTED, parent: QWidget | None = None) ->
     policy.setHeightForWidth(True)
     label.setSizePolicy(policy)
     return label
+
+
+def show_text(label: QLabel, text: str) -> None:
+    """Set the text of a label, which is hidden while it has none."""
+    label.setText(text)
+    label.setVisible(bool(text))
 
 
 def tint(widget: QWidget, colour: Role) -> None:

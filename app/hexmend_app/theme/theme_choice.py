@@ -40,7 +40,7 @@ def choose(choice: ThemeChoice) -> None:
 
 def apply_theme() -> None:
     """Apply the stored choice; window frames, which the desktop draws, follow if the platform supports it."""
-    app, choice = QApplication.instance(), chosen()
-    app.styleHints().setColorScheme(_SCHEMES[choice])
-    scheme = app.styleHints().colorScheme() if choice is ThemeChoice.DESKTOP else _SCHEMES[choice]
-    apply_style(app, scheme == Qt.ColorScheme.Dark)
+    hints, choice = QApplication.styleHints(), chosen()
+    hints.setColorScheme(_SCHEMES[choice])
+    scheme = hints.colorScheme() if choice is ThemeChoice.DESKTOP else _SCHEMES[choice]
+    apply_style(QApplication.instance(), scheme == Qt.ColorScheme.Dark)  # type: ignore[arg-type]

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QProgressBar, QPushButton, QWidget
 
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -33,13 +33,10 @@ class Busy(QFrame):
         self._cancel = QPushButton()
         self._cancel.setFixedHeight(self._text.fontMetrics().height() + 4)
         self._cancel.clicked.connect(lambda: self._end())
-        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end(self._escape_owner))
         self._escape_owner = ""
+        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end(self._escape_owner))
         self._tasks: dict[str, tuple[str, str, str, Callable[[], object], float | None]] = {}  # by owner
-        layout = on_grid(QHBoxLayout(self))
-        layout.setContentsMargins(8, 4, 8, 4)
-        for part in (self._text, self._bar, self._cancel):
-            layout.addWidget(part)
+        fill(QHBoxLayout(self), self._text, self._bar, self._cancel, margins=(8, 4, 8, 4))
         self.hide()
 
     def show_work(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from typing import Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -37,7 +37,7 @@ class IncrementalTask(QObject):
     def __init__(self, busy: Busy, owner: str, help: str, parent: QObject | None = None):
         super().__init__(parent)
         self._busy, self._owner, self._help = busy, owner, help
-        self._iterator: Iterator[Any] | None = None
+        self._iterator: Generator[Any] | None = None
         self._items: list[Any] = []
         self._describe: Callable[[int], str] = str
         self._timer = QTimer(self, interval=0)
@@ -48,7 +48,7 @@ class IncrementalTask(QObject):
         """Return True while steps are left."""
         return self._iterator is not None
 
-    def begin(self, iterator: Iterator[Any], describe: Callable[[int], str]) -> None:
+    def begin(self, iterator: Generator[Any], describe: Callable[[int], str]) -> None:
         """Cancel the current task and start another.
 
         Parameters

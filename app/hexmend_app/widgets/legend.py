@@ -7,6 +7,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from hexmend_app.theme.palette import Role
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import note
 
 
@@ -31,12 +32,8 @@ class Swatch(QWidget):
 def legend_entry(text: str, colour: Role | str) -> QWidget:
     """Return a widget with a swatch and a text."""
     entry = QWidget()
-    layout = QHBoxLayout(entry)
-    layout.setContentsMargins(0, 0, 8, 0)
-    layout.setSpacing(4)
     label = note(text)
     label.setWordWrap(False)
     label.setSizePolicy(entry.sizePolicy())
-    layout.addWidget(Swatch(colour))
-    layout.addWidget(label)
+    fill(QHBoxLayout(entry), Swatch(colour), label, margins=(0, 0, 8, 0), spacing=4)
     return entry

@@ -10,8 +10,8 @@ from PySide6.QtGui import QAccessible, QAccessibleEvent, QGuiApplication, QKeySe
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QToolButton, QWidget
 
 from hexmend_app.theme.palette import AMBER, BLUE, WORSE
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import icon, on_theme_change, set_help, set_variant
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import bold, icon, on_theme_change, set_help, set_variant, tool_button
 from hexmend_app.translation import tr
 
 #: Maximum number of letters of a text that are shown, and of messages that are stored.
@@ -79,23 +79,15 @@ class MessageBar(QFrame):
                 Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
             )
             label.setMinimumWidth(80)
-        font = self.title.font()
-        font.setBold(True)
-        self.title.setFont(font)
+        self.title.setFont(bold(self.title.font()))
         self._next = QToolButton()
         self._next.setAutoRaise(True)
         self._next.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(self._next, tr("Next message"), tr("Show the next message."))
         self._next.clicked.connect(self._show_next)
-        self._copy, self._dismiss = QToolButton(), QToolButton()
-        for button, icon_name, slot in (
-            (self._copy, "content-copy", self._copy_message),
-            (self._dismiss, "close", self.dismiss),
-        ):
-            button.setIcon(icon(icon_name))
-            button.setAutoRaise(True)
-            button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            button.clicked.connect(slot)
+        self._copy, self._dismiss = tool_button("content-copy"), tool_button("close")
+        self._copy.clicked.connect(self._copy_message)
+        self._dismiss.clicked.connect(self.dismiss)
         set_help(self._copy, tr("Copy message"), tr("Copy the whole message to the clipboard."))
         self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, self.dismiss)
         self._escape.setEnabled(False)
@@ -116,8 +108,7 @@ class MessageBar(QFrame):
         layout.addWidget(self.title, 0, 1)
         layout.addLayout(buttons, 0, 2, Qt.AlignmentFlag.AlignTop)
         layout.addWidget(self.text, 1, 1, 1, 2)
-        self._choices = on_grid(QHBoxLayout())
-        self._choices.addStretch()
+        self._choices = fill(QHBoxLayout(), None)
         layout.addLayout(self._choices, 2, 1, 1, 2)
         self.hide()
         on_theme_change(self, self._paint)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QMouseEvent
@@ -75,7 +76,8 @@ class Overlay(QObject):
 
     def move_to(self, place: tuple[float, float]) -> None:
         """Move the widget to a position, limited to [0, 1]."""
-        self._place = tuple(min(max(share, 0.0), 1.0) for share in place)
+        x, y = place
+        self._place = min(max(x, 0.0), 1.0), min(max(y, 0.0), 1.0)
         self.fit()
 
     def stay_home(self, on: bool) -> None:
@@ -145,7 +147,7 @@ class Overlay(QObject):
         free = self._over.size() - size - QSize(2 * MARGIN, 2 * MARGIN)
         return max(free.width(), 0), max(free.height(), 0)
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+    def eventFilter(self, watched: QObject, event: Any) -> bool:
         """Update the geometry with that of the other widgets, and handle the mouse."""
         kind = event.type()
         if (
@@ -193,10 +195,9 @@ class Overlay(QObject):
     def _drag(self, at: QPointF) -> None:
         corner = self._over.mapFromGlobal(at).toPoint() - self._grip - QPoint(MARGIN, MARGIN)
         free = self._free(self._widget.size())
-        position = corner.x(), corner.y()
-        self.move_to(
-            tuple(old if space == 0 else x / space for x, space, old in zip(position, free, self._place, strict=True))
-        )
+        axes = zip((corner.x(), corner.y()), free, self._place, strict=True)
+        x, y = (old if space == 0 else at / space for at, space, old in axes)
+        self.move_to((x, y))
 
     def _store(self) -> None:
         if self._place == self._home:

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from superqt import QCollapsible
 
 from hexmend_app.theme.palette import MUTED
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, set_help, set_variant
 
 # QWIDGETSIZE_MAX of Qt, which PySide6 does not provide.
@@ -32,9 +32,7 @@ class Section(QCollapsible):
         self.layout().setContentsMargins(0, 0, 0, 0)
         self.layout().setSpacing(4)
         inside = QWidget()
-        inner = on_grid(QVBoxLayout(inside))
-        inner.setContentsMargins(0, 4, 0, 8)
-        inner.addWidget(content)
+        fill(QVBoxLayout(inside), content, margins=(0, 4, 0, 8))
         inside.setMaximumHeight(0)
         self.setContent(inside)
         button = self.toggleButton()

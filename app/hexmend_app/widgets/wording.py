@@ -18,8 +18,8 @@ _SUBSCRIPT = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 def name_in_words(name: str) -> str:
     """Return a declared name as a label.
 
-    >>> name_in_words("first_step"), name_in_words("c1"), name_in_words("delta"), name_in_words("p")
-    ('First step', 'c₁', 'Delta (δ)', 'p')
+    >>> name_in_words("initial_step"), name_in_words("c1"), name_in_words("delta"), name_in_words("p")
+    ('Initial step', 'c₁', 'Delta (δ)', 'p')
     """
     if re.fullmatch(r"[a-z]\d*", name):
         return name.translate(_SUBSCRIPT)

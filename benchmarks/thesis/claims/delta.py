@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from benchmarks.thesis.claims.claim import Finding, claim, tally
 from benchmarks.thesis.claims.queries import (
@@ -65,7 +66,7 @@ def large_delta_local(results: Sequence[ExperimentResult]) -> Finding:
 @claim("4.2.1", "On a mesh without inverted hexes delta has no effect.")
 def delta_idle(results: Sequence[ExperimentResult]) -> Finding:
     """4.2.1 of Tables 4.1 and 4.2: judged by the runs of two deltas from one valid start, which must be equal."""
-    cases, known = [], {}
+    cases, known = [], dict[Any, Any]()
     for result in results:
         valid = result.experiment.start == INITIAL and result.start.inverted == 0
         for row in optimiser_runs(result) if valid else ():

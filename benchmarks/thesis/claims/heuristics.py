@@ -140,12 +140,12 @@ def getme_typically(results: Sequence[ExperimentResult]) -> Finding:
             found[key] = raises, times >= _ORDER, least[0] < least[1] and norms[0] < norms[1], details
     if not found:
         return None, "Laplacian smoothing, GETMe and an optimiser that converges were not all run on a mesh."
-    *counts, details = zip(*found.values(), strict=True)
+    *counts, lines = zip(*found.values(), strict=True)
     higher, fast, between = map(sum, counts)
     figures = (
         f"Of {len(found)} meshes GETMe raises both on {higher}, is {_ORDER:g} times faster on {fast} and ends between "
         f"the two on {between}. Seconds of the fastest optimiser over those of GETMe, q min of laplacian and getme (by "
-        f"which it is above), q norm of getme and that optimiser (by which it is below): {'. '.join(details)}."
+        f"which it is above), q norm of getme and that optimiser (by which it is below): {'. '.join(lines)}."
     )
     return min(higher, fast, between) > len(found) / 2, figures
 

@@ -101,7 +101,7 @@ def _arrivals(trial: TrialResult, method: str, key: str) -> dict[Any, Point]:
     return {value: point for value, point in runs.items() if point is not None}
 
 
-def _first(trial: TrialResult, runs: Iterable[Variant], key: Callable[[Point], float]) -> tuple[Variant, Point] | None:
+def _first(trial: TrialResult, runs: Iterable[Variant], key: Callable[[Point], Any]) -> tuple[Variant, Point] | None:
     """Return the run of the smallest key of its arrival, with the arrival; None if no run arrived."""
     arrived = [(run, point) for run in runs if (point := _arrival(trial, run)) is not None]
     return min(arrived, key=lambda pair: key(pair[1]), default=None)

@@ -173,7 +173,7 @@ def _record(points: list[Point], hexes: int, run: Run) -> None:
     counts = [run.last.diagnostics.get(key) for key in ("energy_evaluations", "derivative_evaluations")]
     before = points[-1].evaluations if points else 0.0
     evaluations = None if None in counts else before + sum(counts) / hexes
-    row = run.history[-1]
+    row: Mapping[str, Any] = run.history[-1]
     points.append(Point(row["iteration"], row["seconds"], row["objective"], evaluations))
 
 
@@ -183,5 +183,5 @@ def outlooks(entries: Sequence[Mapping[str, Any]]) -> tuple[Outlook, ...]:
     for entry in entries:
         vary = {name: tuple(values) for name, values in entry["vary"].items()}
         lists = {key: tuple(entry.get(key, ())) for key in ("methods", "additional")}
-        found.append(Outlook(**entry | lists | {"vary": vary}))
+        found.append(Outlook(**{**entry, **lists, "vary": vary}))
     return tuple(found)

@@ -8,8 +8,8 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import NamedTuple, Protocol
 
-from hexmend.cli.process.terminal import redraws_lines
 from hexmend.signal_guard import uninterrupted
+from hexmend.terminal_text import redraws_lines
 
 
 class Command(Protocol):

@@ -33,8 +33,8 @@ class StoppingCriteria(Parametrised):
         low=0,
         high=1,
         unit="mean edge length",
-        help="Converged when no node moves further than this in an iteration (A.1), unless the method has other steps "
-        "to make or the objective of an optimiser still falls by more than a thousandth.",
+        help="Converged when no node moves further in an iteration (A.1) and the objective of an optimiser falls by "
+        "less than a thousandth.",
     )
     move: str = parameter(
         "length",

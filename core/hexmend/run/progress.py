@@ -9,12 +9,14 @@ from contextlib import suppress
 from html import escape
 from importlib import import_module
 from time import monotonic
-from typing import Any, Protocol, TypeAlias
+from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
 from hexmend.errors import ParameterError
 from hexmend.iteration import Iteration
 from hexmend.run.run import Run
-from hexmend.terminal_text import in_notebook, is_dumb
+from hexmend.terminal_text import in_notebook, redraws_lines
+
+T = TypeVar("T", contravariant=True)
 
 #: Values of the argument `progress`: None shows a bar where somebody watches, True shows progress anywhere, False
 #: nothing; a function is called with each iteration in place of a bar.
@@ -25,12 +27,15 @@ BAR_DELAY, BAR_INTERVAL, LINE_INTERVAL = 0.4, 0.1, 4.0
 
 _BAR_WIDTH = 20
 
+#: Codes that empty the line of a terminal.
+_CLEAR = "\r\x1b[2K"
 
-class ProgressDisplay(Protocol):
-    """Display of the progress of one run."""
 
-    def show(self, run: Run) -> None:
-        """Show the newest iteration of a run."""
+class ProgressDisplay(Protocol[T]):
+    """Display of the progress of one run, or of other work."""
+
+    def show(self, state: T) -> None:
+        """Show the newest state, such as a run after an iteration."""
 
     def close(self) -> None:
         """Remove what changes in place."""
@@ -42,7 +47,7 @@ class CallingDisplay:
     def __init__(self, function: Callable[[Iteration], Any] | None = None):
         self._function = function
 
-    def show(self, run: Run) -> None:
+    def show(self, run: Any) -> None:
         if self._function is not None:
             self._function(run.last)
 
@@ -50,29 +55,29 @@ class CallingDisplay:
         pass
 
 
-class TimedDisplay:
+class TimedDisplay(Generic[T]):
     """Writes a text after some seconds and then at intervals.
 
     Parameters
     ----------
     write : callable
-        Writes the state of a run.
+        Writes a state.
     erase : callable
         Removes what is written.
     delay, interval : float
         Seconds until the first text, and between two.
     """
 
-    def __init__(self, write: Callable[[Run], None], erase: Callable[[], None], delay: float, interval: float):
+    def __init__(self, write: Callable[[T], None], erase: Callable[[], None], delay: float, interval: float):
         self._write, self._erase, self._interval = write, erase, interval
         self._due, self._written = monotonic() + delay, False
 
-    def show(self, run: Run) -> None:
+    def show(self, state: T) -> None:
         if monotonic() < self._due:
             return
+        self._written = True  # before it is written: a signal may come in the middle
         with suppress(OSError, ValueError):  # the terminal has gone, or its stream is closed
-            self._write(run)
-            self._written = True
+            self._write(state)
         self._due = monotonic() + self._interval
 
     def close(self) -> None:
@@ -81,7 +86,7 @@ class TimedDisplay:
                 self._erase()
 
 
-def progress_display(option: ProgressOption) -> ProgressDisplay:
+def progress_display(option: ProgressOption) -> ProgressDisplay[Run]:
     """Make the display for a value of the argument `progress`; see `ProgressOption`.
 
     Raises
@@ -98,10 +103,35 @@ def progress_display(option: ProgressOption) -> ProgressDisplay:
     if in_notebook():
         bar = _NotebookBar()
         return TimedDisplay(bar.write, bar.erase, BAR_DELAY, 2 * BAR_INTERVAL)
-    if _is_terminal():
-        return TimedDisplay(_write_bar, _erase_bar, BAR_DELAY, BAR_INTERVAL)
-    if option:
-        return TimedDisplay(_write_line, lambda: None, LINE_INTERVAL, LINE_INTERVAL)
+    return line_display(describe_run, _share, plain=bool(option))
+
+
+def line_display(
+    text: Callable[[T], str], share: Callable[[T], float], *, delay: float | None = None, plain: bool = False
+) -> ProgressDisplay[T]:
+    """Make a line on standard error that changes in place and vanishes at the end.
+
+    Parameters
+    ----------
+    text, share : callable
+        Text of a state, and the share of the work that is done, from 0 to 1.
+    delay : float, optional
+        Seconds until the line appears; `BAR_DELAY` by default.
+    plain : bool
+        Where no line can change in place, print the text every few seconds; else nothing is shown there.
+    """
+
+    def write_bar(state: T) -> None:
+        done = round(_BAR_WIDTH * share(state))
+        line = f"[{'#' * done}{'.' * (_BAR_WIDTH - done)}] {text(state)}"
+        _write(f"{_CLEAR}{line[: shutil.get_terminal_size().columns - 1]}")
+
+    if redraws_lines():
+        return TimedDisplay(write_bar, lambda: _write(_CLEAR), BAR_DELAY if delay is None else delay, BAR_INTERVAL)
+    if plain:
+        return TimedDisplay(
+            lambda state: _write(f"{text(state)}\n"), lambda: None, delay=LINE_INTERVAL, interval=LINE_INTERVAL
+        )
     return CallingDisplay()
 
 
@@ -128,27 +158,8 @@ def _share(run: Run) -> float:
     return min(1.0, run.last.number / max(run.max_iterations, 1))
 
 
-def _is_terminal() -> bool:
-    """Return True if standard error is a terminal on which a line can change in place."""
-    isatty = getattr(sys.stderr, "isatty", None)  # a program without a console has no standard error
-    return isatty is not None and bool(isatty()) and not is_dumb()
-
-
-def _write_bar(run: Run) -> None:
-    done = round(_BAR_WIDTH * _share(run))
-    text = f"[{'#' * done}{'.' * (_BAR_WIDTH - done)}] {describe_run(run)}"
-    width = shutil.get_terminal_size().columns - 1
-    sys.stderr.write(f"\r{text[:width]:{width}}")
-    sys.stderr.flush()
-
-
-def _erase_bar() -> None:
-    sys.stderr.write(f"\r{' ' * (shutil.get_terminal_size().columns - 1)}\r")
-    sys.stderr.flush()
-
-
-def _write_line(run: Run) -> None:
-    sys.stderr.write(f"{describe_run(run)}\n")
+def _write(text: str) -> None:
+    sys.stderr.write(text)
     sys.stderr.flush()
 
 

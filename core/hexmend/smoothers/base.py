@@ -252,7 +252,7 @@ def _check_texts(cls: type, *names: str) -> None:
 
 
 def method(cls: S) -> S:
-    """Class decorator: register a smoother under its name.
+    """Register a smoother under its name: class decorator.
 
     Raises
     ------

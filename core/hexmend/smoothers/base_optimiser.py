@@ -25,7 +25,7 @@ class ObjectiveSmoother(TargetedSmoother):
         1.0,
         low=0,
         high=1,
-        help="Subtracted from a hex's mean η before the power: 1 as in (B.20); 0 as in chapter 4, for a higher mean.",
+        help="Subtracted from a hex's mean η before the power: 1 as in (B.20), 0 as in chapter 4.",
         advanced=True,
     )
 
@@ -68,15 +68,14 @@ class Optimiser(ObjectiveSmoother):
         1e-4, low=0, high=0.5, help="Fraction c₁ of the slope required of a step (Armijo, A.5).", advanced=True
     )
     max_backtracks: int = parameter(
-        100, low=1, high=500, help="Backtracks of a step after which the method gives up.", advanced=True
+        100, low=1, high=500, help="Backtracks after which a step is given up.", advanced=True
     )
 
     surface_weight: float = parameter(
         0.0,
         low=0,
         high=1e6,
-        help="Weight of the shape of the boundary's quads in the objective, of a quad relative to a hex, where the "
-        "boundary slides (5.2.1): 0 leaves them out.",
+        help="Weight of the shape of a sliding boundary's quads in the objective, relative to a hex (5.2.1).",
         advanced=True,
     )
 

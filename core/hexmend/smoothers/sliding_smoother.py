@@ -50,8 +50,7 @@ class SlidingSmoother(Smoother):
         high=10,
         unit="mean edge length",
         help="Largest distance between boundary and surface: with 0 nodes slide only where the surface is flat; "
-        "with unlimited, faces between sliding nodes may cut across curved parts by any distance; auto: 0.3; in mend "
-        "as large as untangling needs, at most 1.",
+        "auto: 0.3, in mend up to 1 if untangling needs it.",
         no_limit=UNLIMITED,
         automatic=AUTO,
         percent_of="diagonal",

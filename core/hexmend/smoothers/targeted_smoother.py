@@ -21,8 +21,8 @@ class TargetedSmoother(SlidingSmoother):
     target: str = parameter(
         AUTO,
         suggestions=(AUTO, *SPECIFICATIONS),
-        help="Target of the hexes: cubes, the given shape, size or both, or lengths from data of the "
-        "file or a formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
+        help="Target of the hexes: cubes, the given shape, size or both, or lengths from data or a formula in x, y, z; "
+        "auto: ideal, or given-shape with layers.",
     )
     size_weight: float = parameter(
         SIZE_WEIGHT,
@@ -35,8 +35,8 @@ class TargetedSmoother(SlidingSmoother):
         "auto",
         suggestions=KEEP_LAYERS,
         sets=True,
-        help="Boundary layers: keep their heights, or leave them free; auto: keep them unless a target is named. Names "
-        "of sets: keep the layers on these walls, whether or not their heights grow.",
+        help="Boundary layers: keep their heights, leave them free, or keep those on the walls given by sets; "
+        "auto: keep them unless a target is named.",
     )
 
     @property

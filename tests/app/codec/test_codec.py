@@ -7,7 +7,8 @@ import pytest
 
 from hexmend.errors import ParameterError
 from hexmend.run import StoppingCriteria
-from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter
+from hexmend_app.codec.codec import Codec, TypeAdapter
+from hexmend_app.codec.conversion import DecodeError
 from hexmend_app.picture.appearance import Arrows, Look, Since, Structure, Traces
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut, CutStyle

@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from hexmend.errors import ParameterError
-from hexmend.report.charts import ChartStyle, chart_png, write_chart
+from hexmend_app.report.charts import ChartStyle, chart_png, write_chart
 from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend_app.report.histogram import Histogram, Outline
 from hexmend_app.report.run_figures import write_convergence, write_distributions

@@ -81,7 +81,7 @@ def test_following_a_suggestion_helps(which):
     assert follow_all(make(name, **parameters)), "nothing was suggested at all"
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 8))])
 def test_following_a_suggestion_helps_on_a_mesh_that_differs_in_its_last_bits(seed):
     name, parameters = MESHES["five-side, tangled"]
     mesh = make(name, **parameters)
@@ -91,6 +91,7 @@ def test_following_a_suggestion_helps_on_a_mesh_that_differs_in_its_last_bits(se
     assert follow_all(near, few)  # which of them are offered depends on the last bits
 
 
+@pytest.mark.slow
 def test_hexes_left_inverted_by_mend_at_fixed_nodes_are_told_to_slide():
     mesh, rng = grid(4), np.random.default_rng(7)
     lower = np.flatnonzero(mesh.points[mesh.hexes].mean(axis=1)[:, 2] < mesh.points[:, 2].mean())
@@ -129,6 +130,7 @@ def follow_all(mesh, runs=RUNS):
     return seen
 
 
+@pytest.mark.slow
 def test_every_kind_of_suggestion_is_made_somewhere():
     bridge, tangled = make("bridge-sharp", size=864), make("bridge-sharp", size=864, scramble=0.4)
     lifted = smooth(bridge, Recipe.of("mend", "getme-sequential")).mesh
@@ -180,6 +182,7 @@ def test_a_pin_that_holds_hexes_inverted_is_named_and_unpinning_helps():
     assert followed(mesh, result, first).after.inverted == 0
 
 
+@pytest.mark.slow
 def test_a_pinned_node_of_higher_order_that_holds_hexes_inverted_is_named():
     """The midpoint of an edge of the tangled node: its corners stay because it does."""
     mesh, _, middle = quadratic_tangle()
@@ -190,6 +193,7 @@ def test_a_pinned_node_of_higher_order_that_holds_hexes_inverted_is_named():
     assert followed(mesh, result, first).after.inverted == 0
 
 
+@pytest.mark.slow
 def test_a_pin_is_not_named_where_a_rule_fixes_the_node_as_well():
     mesh, node, _ = quadratic_tangle()
     mesh = mesh.replace(node_sets={"some": np.array([node])}).with_rules(fix=("some",))

@@ -17,46 +17,6 @@ def band_of(shift=0.0, size=1.0, target=True):
     return mesh, Band(mesh.points, faces, mesh.points, surface, size)
 
 
-def test_distances_at_first_are_those_from_samples_of_the_surface_to_the_boundary():
-    mesh, band = band_of(0.25)
-    far, nodes, weights = band.initial_surface_deviation
-    samples = band.target_samples
-    boundary = SkinSurface(mesh.points, mesh.topology.boundary_faces)
-    assert far.shape == (len(samples),)
-    np.testing.assert_allclose(far, boundary.distances(samples), atol=1e-12)
-    assert far.max() == pytest.approx(0.25)
-    places = np.einsum("sk,ski->si", weights, mesh.points[nodes])
-    np.testing.assert_allclose(np.linalg.norm(samples - places, axis=1), far, atol=1e-12)
-
-
-def test_a_finer_surface_has_fewer_samples_of_which_none_is_far_from_one_that_is_as_far_from_the_boundary():
-    mesh, band = band_of(0.25)
-    every, kept = band.target.samples(), band.target_samples
-    boundary = SkinSurface(mesh.points, mesh.topology.boundary_faces)
-    assert len(kept) < 0.6 * len(every)
-    far, far_kept = boundary.distances(every), boundary.distances(kept)
-    for x, distance in zip(every, far, strict=True):
-        near = np.linalg.norm(kept - x, axis=1) < 0.5 * np.sqrt(3)  # edges of the boundary have length 1
-        assert far_kept[near].max() >= distance >= far_kept[near].min()
-
-
-@pytest.mark.parametrize("shift", [0.0, 0.25])
-def test_samples_beyond_a_limit_are_found_and_no_others(shift):
-    mesh, band = band_of(shift)
-    every = np.arange(len(band.samples))
-    far = band.target.distances(mesh.points[band.samples].mean(axis=1))
-    for limit in (1e-3, 0.1, 0.2499, 0.2501):
-        off = band.boundary_deviation(mesh.points, every, limit)
-        np.testing.assert_array_equal(off.indices, np.flatnonzero(far > limit))
-        np.testing.assert_allclose(off.distances, far[off.indices], atol=1e-12)
-        lengths = np.linalg.norm(off.directions, axis=1)
-        np.testing.assert_allclose(lengths, (off.distances > 0).astype(float), atol=1e-12)
-        assert off.weights.shape == off.nodes.shape == (len(off.indices), 4)
-        behind = band.surface_deviation(mesh.points, limit=limit)
-        at_first = band.initial_surface_deviation[0]
-        np.testing.assert_array_equal(behind.indices, np.flatnonzero(at_first > limit))
-
-
 @pytest.mark.parametrize(("shift", "left"), [(0.3, True), (0.2, False)])
 def test_nodes_have_left_the_band_where_they_are_further_than_its_tolerance_and_than_at_first(shift, left):
     mesh, band = band_of(size=0.25)
@@ -128,30 +88,3 @@ def test_the_tolerance_is_no_smaller_than_the_rounding_of_the_size_of_the_bounda
     assert band_of(size=0.5)[1].max_deviation == 0.5
     nothing = Band(mesh.points, np.empty((0, 4), np.int32), mesh.points, None, 0.0)
     assert nothing.max_deviation == 0
-
-
-@pytest.mark.parametrize("target", [False, True])
-def test_distances_of_some_samples_are_those_of_a_search_and_those_at_first_where_nothing_moved(target):
-    mesh, band = band_of(0.1, 0.15, target)
-    random, points = np.random.default_rng(4), mesh.points.copy()
-    moved = np.flatnonzero(mesh.topology.boundary)[::5]
-    points[moved] += random.uniform(-0.2, 0.2, (moved.size, 3))
-    first, count = band.initial_surface_deviation, len(band.target_samples)
-    some = np.flatnonzero(random.random(count) < 0.7)
-    into = np.full(count, -1.0), np.full((count, 3), -1.0), np.full((count, 4), -1, np.int32), np.full((count, 4), -1.0)
-    band.find_surface_distances(points, some, into)
-    for array in into:
-        assert (array[np.setdiff1d(np.arange(count), some)] == -1).all()
-    distances, directions, nodes, weights = (array[some] for array in into)
-    skin = SkinSurface(points, mesh.topology.boundary_faces)
-    np.testing.assert_allclose(distances, skin.distances(band.target_samples[some]), atol=1e-12)
-    away = band.target_samples[some] - np.einsum("sk,ski->si", weights, points[nodes])
-    np.testing.assert_allclose(distances[:, None] * directions, away, atol=1e-12)
-    found = band.surface_deviation(points, some, limit=-1.0)
-    at = np.searchsorted(some, found.indices)
-    np.testing.assert_array_equal(nodes[at], found.nodes)
-    np.testing.assert_allclose(weights[at], found.weights, atol=1e-15)
-    others = np.setdiff1d(np.arange(some.size), at)
-    assert others.size > 0
-    np.testing.assert_array_equal(nodes[others], first.nodes[some[others]])
-    np.testing.assert_array_equal(distances[others], first.distances[some[others]])

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from benchmarks.mend.surfaces import refined
 from hexmend import kernels
-from hexmend.boundary import ClosestPointTrees, PartitionedSurface, SlidingBoundary, boundary_of
+from hexmend.boundary import ClosestPointTrees, PartitionedSurface, boundary_of
 from hexmend.boundary.closest_point import ClosestPointCache
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
-from tests.core.boundary.solids import ball, cylinder, slid
+from tests.core.boundary.solids import ball, cylinder
 from tests.core.curved_shell import curved_shell
 from tests.core.grids import grid
 
@@ -104,17 +104,6 @@ def test_places_at_equal_distances_of_several_pieces(name):
         assert_same(trees, kept, middle + scale * (places - middle), group)
 
 
-@pytest.mark.parametrize("name", ["creases", "concave", "thin"])
-def test_points_that_creep_across_a_medial_surface(name):
-    # They pass from the pieces of one wall to those of another, which are as near halfway.
-    trees, random = made(name), np.random.default_rng(1)
-    begin, end = trees.points[random.integers(0, len(trees.points), (2, 50))]
-    group = np.zeros(50, np.int64)
-    kept = ClosestPointCache(trees, group)
-    for t in np.linspace(0, 1, 201):
-        assert_same(trees, kept, (1 - t) * begin + t * end, group)
-
-
 def test_threads_share_a_cache():
     trees, random = made("creases"), np.random.default_rng(3)
     group, slots = np.zeros(3, np.int64), np.tile(np.arange(3, dtype=np.int32), 2000)
@@ -141,15 +130,3 @@ def test_a_place_that_is_nowhere_is_refused_and_the_next_is_found():
     with pytest.raises(MeshError, match="there are 1 places: expected one for each of 2 slots"):
         kept.closest(x[:1])
     assert len(ClosestPointCache(trees, group[:0]).closest(x[:0]).pieces) == 0
-
-
-def test_sliding_nodes_are_projected_as_by_a_search_whatever_was_projected_before():
-    mesh = cylinder()
-    sliding = SlidingBoundary(mesh)
-    group = sliding.surface.group_of(sliding.nodes)
-    for seed, amplitude in enumerate((0.3, 0.001, 0.001, 0.02, 0.3, 0.0)):
-        x = slid(mesh, amplitude, seed).points[sliding.nodes]
-        searched = sliding.surface.trees.closest(x, group).points
-        np.testing.assert_array_equal(sliding.project(x), searched)
-        some = slice(seed, None, 3)
-        np.testing.assert_array_equal(sliding.project(x[some], sliding.nodes[some]), searched[some])

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import boundary_of
-from hexmend.boundary.sliding import curved_faces
 from hexmend.boundary.sliding.curved_faces import surface_of_boundary
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES
@@ -48,15 +47,3 @@ def test_points_of_curved_edges_and_faces_lie_on_their_curves_and_patches():
         found = [surface.trees.closest(places, np.full(33, k)).points for k in range(18)]
         near = np.array([np.linalg.norm(one - places, axis=1).max() for one in found]) < 1e-3
         assert (np.count_nonzero(near[:6]), np.count_nonzero(near[6:])) == counts
-
-
-@pytest.mark.parametrize(("limit", "divisions"), [(10**6, 8), (500, 3), (1, 2)])
-def test_one_bent_edge_divides_many_faces_less_often(limit, divisions, monkeypatch):
-    monkeypatch.setattr(curved_faces, "_MAX_QUADS", limit)
-    mesh = with_mid_nodes(grid(3), False)
-    points = mesh.points.copy()
-    points[mesh.mid_nodes[0, 0]] -= [0, 0.1, 0.1]  # an edge of the cube
-    boundary = boundary_of(mesh)
-    surface = surface_of_boundary(mesh, points, boundary)
-    pieces = 4 * len(boundary.faces) * divisions**2 + len(boundary.segments) * divisions
-    assert len(surface.trees.pieces) == pieces

@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SkinSurface
-from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
 
 
@@ -49,28 +47,3 @@ def test_samples_at_a_spacing_leave_out_midpoints_of_shorter_edges_and_of_faces_
     np.testing.assert_allclose(
         skin.with_points(x / 4).samples(2.0), np.concatenate([x, middles[0][:1], middles[1]]) / 4
     )
-
-
-@pytest.mark.parametrize("moves", [(0.0, 1e-3, 0.3, 0.3, 1e-3), (0.5, 0.0, 0.5)])
-def test_points_known_from_before_do_not_change_which_are_beyond_their_limits(moves):
-    rng = np.random.default_rng(3)
-    mesh = ball(4)
-    skin = SkinSurface(mesh.points, mesh.topology.boundary_faces)
-    x = skin.samples() + rng.normal(scale=0.05, size=skin.samples().shape)
-    limits = rng.uniform(0.01, 0.2, len(x))
-    near, some = NearPoints(np.zeros(len(x), np.int32)), rng.permutation(len(x))[:50]
-    for seed, amplitude in enumerate(moves):
-        moved = skin.with_points(slid(mesh, amplitude, seed).points)
-        far = moved.distances(x) > limits
-        assert 0 < np.count_nonzero(far) < len(x)
-        np.testing.assert_array_equal(moved.beyond(x[some], near, limits[some], some), far[some])
-        np.testing.assert_array_equal(moved.beyond(x, near, limits), far)
-        np.testing.assert_array_equal(moved.beyond(x, near, limits), far)
-
-
-def test_a_sample_that_is_nowhere_is_beyond_its_limit_before_and_after_one_is_known(skin):
-    x, near = skin.samples()[:3].copy(), NearPoints(np.zeros(3, np.int32))
-    for first in (x[0].copy(), np.full(3, np.nan), x[0].copy()):
-        x[0] = first
-        expected = [not np.isfinite(first).all(), False, False]
-        np.testing.assert_array_equal(skin.beyond(x, near, np.full(3, 1e-6)), expected)

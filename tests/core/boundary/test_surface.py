@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 from hexmend import kernels
 from hexmend.boundary import ClosestPointTrees, NodeClass, PartitionedSurface, boundary_of, classify
-from hexmend.boundary.closest_point import triangulate
 from hexmend.errors import MeshError
 from tests.core.boundary.solids import ball, cylinder, project, wavy
 from tests.core.grids import grid
@@ -214,37 +213,3 @@ def test_curve_nodes_slide_on_patches_where_a_surface_has_no_curve():
     radius = np.linalg.norm(project(surface, mesh.points[nodes], nodes)[0], axis=1)
     assert radius.min() > 0.95
     assert radius.max() <= 1 + 1e-14
-
-
-@given(st.integers(0, 2**32 - 1))
-def test_a_known_piece_shortens_the_search_and_changes_no_place(seed):
-    random, mesh = np.random.default_rng(seed), wavy(ball(3), 0.1)
-    vertices, triangles, face = triangulate(mesh.points, mesh.topology.boundary_faces)
-    trees = ClosestPointTrees(vertices, triangles, face % 3)
-    x, group = random.normal(size=(40, 3)), random.integers(0, 3, 40)
-    found = trees.closest(x, group)
-    of_group = [np.flatnonzero(face[trees.order] % 3 == g) for g in range(3)]
-    known = np.array([random.choice(of_group[g]) if random.random() < 0.8 else -1 for g in group], dtype=np.int32)
-    again = trees.closest(x, group, known=known)
-    np.testing.assert_allclose(again.points, found.points, atol=1e-12)
-    np.testing.assert_array_equal(again.pieces, found.pieces)
-    assert (known != found.pieces).any()  # and is not written to
-
-
-@pytest.mark.parametrize("solid", [ball(4), cylinder(16, 3)], ids=["one patch", "three patches"])
-def test_trees_that_are_built_already_serve_a_surface_of_one_patch_and_change_nothing(solid):
-    faces = solid.topology.boundary_faces
-    boundary = classify(solid.points, faces, 60.0)
-    vertices, triangles, _ = triangulate(solid.points, faces)
-    whole = ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
-    given, own = PartitionedSurface(solid.points, boundary, whole), PartitionedSurface(solid.points, boundary)
-    assert (given.trees is whole) == (boundary.n_patches == 1)
-    x = np.random.default_rng(2).normal(size=(200, 3))
-    patch = np.arange(200) % boundary.n_patches
-    found, expected = given.trees.closest(x, patch), own.trees.closest(x, patch)
-    np.testing.assert_array_equal(found.points, expected.points)
-    np.testing.assert_array_equal(found.pieces, expected.pieces)
-    np.testing.assert_array_equal(given.directions(found), own.directions(expected))
-    both = given.with_union(np.ones(boundary.n_patches, bool)), own.with_union(np.ones(boundary.n_patches, bool))
-    last = np.full(200, boundary.n_patches + boundary.n_curves)
-    np.testing.assert_array_equal(*(one.trees.closest(x, last).points for one in both))

@@ -14,13 +14,6 @@ SUMMARY = [
 ]  # fmt: skip
 
 
-@pytest.fixture
-def mesh(tmp_path):
-    path = tmp_path / "mesh.vtu"
-    io.write(path, gallery.make("cube", size=125, scramble=0.3))
-    return path
-
-
 def said(capsys):
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 1

@@ -17,7 +17,8 @@ pty = pytest.importorskip("pty")
 #: The program, whose line does not wait, so that a small file will do.
 EAGER = (
     "import sys; from hexmend.cli.output import file_line; from hexmend.io.storage import file_progress; "
-    "file_line.DELAY = file_progress._INTERVAL = 0.0; from hexmend.cli.main import main; sys.exit(main(sys.argv[1:]))"
+    "from hexmend.run import progress; file_line.DELAY = file_progress._INTERVAL = progress.BAR_INTERVAL = 0.0; "
+    "from hexmend.cli.main import main; sys.exit(main(sys.argv[1:]))"
 )
 CLEARED = "\x1b[2K"
 
@@ -82,12 +83,14 @@ def test_a_terminal_that_has_gone_does_not_end_the_reading(monkeypatch):
     line = FileLine()
     shown = []
 
-    def gone(*_, **__):
-        shown.append(1)
+    def gone(text):
+        shown.append(text)
         raise OSError
 
-    monkeypatch.setattr("hexmend.cli.output.file_line.progress_line", gone)
-    for seconds in (0.2, 2.0, 3.0):
-        line.show(FileProgress(Path("a"), FileAction.READING, 0.1, seconds))
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr("hexmend.cli.output.file_line.DELAY", 0.0)
+    monkeypatch.setattr("sys.stderr.write", gone)
+    line.show(FileProgress(Path("a"), FileAction.READING, 0.1, 0.2))
     line.show(FileProgress(Path("a"), FileAction.READING, 1.0, 4.0, ended=True))
-    assert len(shown) == 1
+    assert len(shown) == 2

@@ -1,4 +1,4 @@
-"""The blocks that answer signals, within this process: with SIGALRM, and as on systems that have none."""
+"""The blocks that answer signals, within this process."""
 
 import os
 import signal
@@ -8,7 +8,6 @@ import time
 
 import pytest
 
-from hexmend.cli.process import interrupts, signal_timer
 from hexmend.cli.process.interrupts import ENDING, CleanExit, ExitAfterIteration, FinishWriting
 from hexmend.signal_guard import uninterrupted
 from tests.patience import PATIENCE
@@ -40,22 +39,6 @@ def handlers():
         assert signal.getsignal(number) == handler
 
 
-@pytest.fixture(params=["alarm", "no alarm"])
-def timer(request, monkeypatch):
-    """The timer of this system, or that of a system without SIGALRM: whether it is on."""
-    if request.param == "alarm":
-        return lambda: signal.getitimer(signal.ITIMER_REAL)[0] > 0
-    seconds = [0.0]
-
-    def send_later(number, delay):
-        seconds.append(delay)
-        signal_timer.send_later(number, delay)
-
-    monkeypatch.setattr(interrupts, "_ALARM", None)
-    monkeypatch.setattr(interrupts, "send_later", send_later)
-    return lambda: seconds[-1] > 0
-
-
 def send(number=signal.SIGINT):
     os.kill(os.getpid(), number)
 
@@ -67,7 +50,7 @@ def rest(seconds):
         time.sleep(0.005)
 
 
-def test_a_signal_is_raised_when_a_function_returns_that_had_to_be_finished(timer):
+def test_a_signal_is_raised_when_a_function_returns_that_had_to_be_finished():
     finished = []
 
     @uninterrupted
@@ -82,7 +65,7 @@ def test_a_signal_is_raised_when_a_function_returns_that_had_to_be_finished(time
     assert len(finished) == 1
 
 
-def test_the_grace_ends_a_block_that_is_asked_twice(timer, monkeypatch, capfd):
+def test_the_grace_ends_a_block_that_is_asked_twice(monkeypatch, capfd):
     monkeypatch.setattr(FinishWriting, "grace", 0.05)
     with pytest.raises(KeyboardInterrupt), FinishWriting():
         send()
@@ -92,10 +75,10 @@ def test_the_grace_ends_a_block_that_is_asked_twice(timer, monkeypatch, capfd):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_result_is_written_to_its_end_however_long_that_takes_after_one_signal(timer, number):
+def test_a_result_is_written_to_its_end_however_long_that_takes_after_one_signal(number):
     with FinishWriting() as writing:
         send(number)
-        assert not timer()
+        assert signal.getitimer(signal.ITIMER_REAL)[0] == 0
     assert writing.asked
 
 
@@ -110,7 +93,7 @@ def test_a_block_has_the_status_of_its_first_signal():
         assert signals.status == 128 + number
 
 
-def test_a_signal_that_waits_at_the_end_of_a_block_comes_to_the_one_around_it(timer):
+def test_a_signal_that_waits_at_the_end_of_a_block_comes_to_the_one_around_it():
     @uninterrupted
     def work():
         with CleanExit():

@@ -18,11 +18,9 @@ def send(count=1):
     for _ in range(count):
         os.kill(os.getpid(), int(os.environ["SIGNAL"]))
 from hexmend.cli.process import interrupts
-if os.environ["TIMER"] == "no alarm":
-    interrupts._ALARM = None
 {moment}
 from hexmend.cli.main import main
-from hexmend.cli.output import progress
+from hexmend.run import progress
 progress.LINE_INTERVAL = progress.BAR_DELAY = 0.0
 sys.exit(main())
 """
@@ -60,20 +58,6 @@ class Raw(io.RawIOBase):
         return os.write(2, data)
 sys.stderr = io.TextIOWrapper(io.BufferedWriter(Raw()), line_buffering=True)
 """
-#: It comes in a callback, out of which no exception gets.
-DELETES = """
-import hexmend.io as module
-class Dies:
-    def __del__(self):
-        send()
-whole = module.read
-def read(*args, **options):
-    Dies()
-    for _ in range(1000):
-        mesh = whole(*args, **options)
-    return mesh
-module.read = read
-"""
 #: It comes after the last line was printed, and when Python ends.
 ENDS = """
 import atexit, builtins
@@ -87,12 +71,9 @@ builtins.print = print
 """
 
 
-@pytest.fixture(params=["alarm", pytest.param("no alarm", marks=pytest.mark.slow)])
-def smooth(tmp_path, request):
-    """Starts the program on a mesh, with the signal at a moment; its output is `tmp_path / "out.vtu"`.
-
-    Without an alarm it runs as on a system that has no SIGALRM.
-    """
+@pytest.fixture
+def smooth(tmp_path):
+    """Starts the program on a mesh, with the signal at a moment; its output is `tmp_path / "out.vtu"`."""
     io.write(tmp_path / "mesh.vtu", gallery.make("cube", size=125, scramble=0.3))
     (tmp_path / "out.vtu").write_text("old")
 
@@ -102,9 +83,7 @@ def smooth(tmp_path, request):
         words = [tmp_path / "mesh.vtu", "-o", tmp_path / "out.vtu", "--method", "laplacian", "--tolerance", "0"]
         return subprocess.Popen(
             [sys.executable, script, "smooth", *words, "--max-iterations", str(most)],
-            env=os.environ
-            | {"SIGNAL": str(int(number)), "TERM": "xterm", "TIMER": request.param}
-            | options.pop("env", {}),
+            env=os.environ | {"SIGNAL": str(int(number)), "TERM": "xterm"} | options.pop("env", {}),
             **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, **options},
         )
 
@@ -132,17 +111,6 @@ def test_a_signal_during_an_import_is_one_line(smooth, tmp_path, name, number):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_during_an_import_of_a_command_at_work_waits_for_its_end(smooth, number):
-    rests = "import time\nfrom hexmend.cli.arguments import checks\nchecks.check_targets = lambda *_: [time.sleep(0.01) for _ in range(10_000)]\n"
-    status, said = ended(smooth(rests + IMPORTS.format(name="hexmend.mesh.fixing"), number))
-    assert (status, said) == (128 + number, ["hexmend: interrupted"])
-
-
-def test_a_signal_during_a_callback_is_one_line(smooth):
-    assert ended(smooth(DELETES)) == (130, ["hexmend: interrupted"])
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_while_progress_is_printed_loses_nothing(smooth, tmp_path, number):
     status, said = ended(smooth(WRITES, number))
     assert status == 0
@@ -152,7 +120,7 @@ def test_a_signal_while_progress_is_printed_loses_nothing(smooth, tmp_path, numb
 
 
 @pytest.mark.parametrize(("module", "kind", "name"), [
-    ("hexmend.cli.output.progress", "_Lines", "show"),
+    ("hexmend.run.progress", "TimedDisplay", "show"),
     ("hexmend.run.run", "Run", "result"),
     ("hexmend.cli.command", "CoreCommand", "run"),
 ])  # fmt: skip

@@ -45,7 +45,7 @@ def test_a_link_to_itself_cannot_be_written(words, mesh, capsys):
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names on this system")
-@pytest.mark.parametrize("words", [WRITING["smooth"], WRITING["report of a run"]])
+@pytest.mark.parametrize("words", [WRITING["smooth"], pytest.param(WRITING["report of a run"], marks=pytest.mark.slow)])
 def test_a_named_pipe_is_not_waited_for(words, mesh):
     os.mkfifo("pipe.vtu")
     done = run(shlex.join([*words, "pipe.vtu"]))

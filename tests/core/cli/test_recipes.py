@@ -19,13 +19,6 @@ SHIPPED = sorted((Path(__file__).resolve().parents[3] / "resources" / "recipes")
 
 
 @pytest.fixture
-def mesh(tmp_path):
-    path = tmp_path / "mesh.vtu"
-    io.write(path, gallery.make("cube", size=125, scramble=0.3))
-    return path
-
-
-@pytest.fixture
 def recipe(tmp_path):
     stages = [Stage(METHODS[name](), StoppingCriteria(max_iterations=3, tolerance=0)) for name in ("getme", "local-sd")]
     write_recipe(tmp_path / "two.toml", Recipe("Two", tuple(stages)))

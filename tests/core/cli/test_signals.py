@@ -1,5 +1,6 @@
 """What a signal leaves: the best iterate written, the old file whole, nothing beside them."""
 
+import json
 import os
 import signal
 import subprocess
@@ -7,15 +8,16 @@ import sys
 
 import pytest
 
-from hexmend import gallery, io
+from hexmend import io
 from hexmend.cli.main import main
+from hexmend.quality import summarise
 from tests.patience import PATIENCE
 
 #: The program, which tells of every iteration.
 TALKATIVE = """
 import signal, sys
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # who runs the tests may ignore it
-from hexmend.cli.output import progress
+from hexmend.run import progress
 from hexmend.cli.main import main
 progress.LINE_INTERVAL = 0.0
 sys.exit(main(sys.argv[1:]))
@@ -37,13 +39,6 @@ def write(path, mesh, encoding):
 object.__setattr__(FORMATS["vtu"], "write", write)
 sys.exit(main(sys.argv[1:]))
 """
-
-
-@pytest.fixture
-def mesh(tmp_path):
-    path = tmp_path / "mesh.vtu"
-    io.write(path, gallery.make("cube", size=125, scramble=0.3))
-    return path
 
 
 def signalled(program, number, at, *words, again_at=None):
@@ -68,16 +63,36 @@ def signalled(program, number, at, *words, again_at=None):
     return done.returncode, out, err
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, pytest.param(signal.SIGHUP, marks=pytest.mark.slow)])
 def test_what_a_run_reached_is_written_and_nothing_else_is_left(mesh, tmp_path, number):
-    words = ["smooth", mesh, "-o", tmp_path / "out.vtu", "--method", "laplacian"]
-    status, _, err = signalled(
-        TALKATIVE, number, "laplacian: iteration", *words, "--tolerance", "0", "--max-iterations", "1000000"
-    )
+    out, report = tmp_path / "out.vtu", tmp_path / "report.json"
+    words = ["smooth", mesh, "-o", out, "--method", "local-sd", "--json", report]
+    endless = ["--tolerance", "0", "--max-iterations", "1000000"]
+    status, said, err = signalled(TALKATIVE, number, "local-sd: iteration", *words, *endless)
     assert status == 0
     assert "Interrupted: the result so far is kept." in err
-    assert io.read(tmp_path / "out.vtu").n_hexes == 125
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["mesh.vtu", "out.vtu"]
+    assert f"Written to {out}" in said
+    answer = json.loads(report.read_text())
+    assert answer["outcome"] == "stopped"
+    assert answer["after"] == summarise(io.read(out)).to_dict()
+    assert answer["after"]["q_mean"] > answer["before"]["q_mean"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["mesh.vtu", "out.vtu", "report.json"]
+
+
+def test_a_signal_ends_compare_with_a_table_of_what_was_done(mesh, tmp_path):
+    words = ["compare", mesh, "-o", tmp_path, "--methods", "laplacian,local-sd,smart-laplacian", "--tolerance", "0"]
+    # Laplacian ends at its own limit; the second method is the one that is stopped.
+    words += ["--max-iterations", "3000"]
+    status, said, err = signalled(TALKATIVE, signal.SIGTERM, "local-sd: iteration", *words)
+    assert status == 128 + signal.SIGTERM
+    assert "Interrupted" in err
+    assert "interrupted" in said
+    record = json.loads((tmp_path / "comparison.json").read_text())
+    assert record["interrupted"]
+    assert [(row["method"], row["outcome"]) for row in record["rows"]] == [
+        ("laplacian", "max-iterations"),
+        ("local-sd", "stopped"),
+    ]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGHUP, marks=pytest.mark.slow)])
@@ -91,6 +106,7 @@ def test_an_end_while_writing_leaves_the_old_file_whole(mesh, tmp_path, number):
     assert [path.name for path in tmp_path.iterdir()] == ["mesh.vtu"]
 
 
+@pytest.mark.slow
 def test_a_program_that_is_killed_while_writing_leaves_the_old_file_whole(mesh):
     before = mesh.read_bytes()
     signalled(SLOW_TO_WRITE, signal.SIGKILL, "writing", "smooth", mesh, "-o", mesh, "--method", "laplacian")

@@ -71,23 +71,6 @@ def test_what_single_precision_cannot_hold_is_cut():
     assert np.isfinite(assembled.diagonal).all()
 
 
-@pytest.mark.parametrize(("parts", "made"), [(1, 1), (2, 2), (3, 3), (4, 4), (50, 4)])
-def test_parts_share_no_block_but_with_the_separators_between_them(parts, made):
-    mesh = scrambled(grid(14, 3, 3), 0.1)
-    sparsity = BlockSparsity(mesh, parts)
-    ends, slots = sparsity.bounds, np.arange(sparsity.nodes.size)
-    assert ends.size == 2 * made
-    assert ends[0] == 0
-    assert ends[-1] == sparsity.nodes.size
-    assert (np.sort(sparsity.nodes) == np.flatnonzero(mesh.free)).all()
-    place = np.searchsorted(ends, slots, side="right") - 1
-    rows = np.repeat(slots, np.diff(sparsity.row_start))
-    met = {tuple(pair) for pair in np.stack([place[rows], place[sparsity.columns]], axis=1).tolist()}
-    allowed = {(k, k) for k in range(2 * made - 1)}
-    allowed |= {(k, made + k) for k in range(made - 1)} | {(k + 1, made + k) for k in range(made - 1)}
-    assert met <= allowed
-
-
 def test_opposite_corners_have_a_block_only_where_the_energy_couples_them():
     """Inside a grid a node has 26 neighbours, 8 of which only opposite corners of hexes join."""
     energies = MeshEnergy(grid(7), ObjectiveNorm(1)), MeshEnergy(grid(7))
@@ -114,35 +97,6 @@ def test_parts_change_the_way_but_not_the_solution(seed):
     np.testing.assert_allclose(solution, np.linalg.solve(matrix, right), atol=1e-7 * np.abs(solution).max())
     assert count < 100
     np.testing.assert_allclose(assembled @ right, matrix @ right, atol=1e-11 * np.abs(matrix).max())
-
-
-@pytest.mark.parametrize("parts", [1, 3])
-def test_the_preconditioner_is_gauss_seidel_with_nothing_left_out(parts):
-    """Conjugate gradients written out, with M as a dense matrix, take as many iterations to the same solution."""
-    hessian = hessian_of(scrambled(grid(14, 3, 3), 0.15, 3), shift=0.5)
-    assembled = by_parts(hessian, parts)
-    assert assembled.sparsity.bounds.size == 2 * parts
-    matrix = assembled.matrix().toarray()
-    slots = 3 * np.repeat(assembled.order.argsort(), 3) + np.tile(np.arange(3), len(matrix) // 3)
-    a = matrix[np.ix_(slots, slots)]  # in the order of the slots
-    block = np.arange(len(a)) // 3
-    d = np.where(block[:, None] == block, a, 0)
-    u = np.where(block[:, None] < block, a, 0)
-    m = (d + u.T) @ np.linalg.inv(d) @ (d + u)
-    right = np.random.default_rng(0).normal(size=len(a))
-    x, r = np.zeros_like(right), right[slots].copy()
-    z = np.linalg.solve(m, r)
-    v, square = z.copy(), r @ z
-    goal, count = 1e-8 * square, 0
-    while square > goal:
-        alpha = square / (v @ a @ v)
-        x, r, count = x + alpha * v, r - alpha * a @ v, count + 1
-        z = np.linalg.solve(m, r)
-        before, square = square, r @ z
-        v = z + square / before * v
-    solved = assembled.solve(right, 1e-4, 500)
-    assert abs(solved.iterations - count) <= 1
-    np.testing.assert_allclose(solved.x[slots], x, atol=1e-4 * np.abs(x).max())
 
 
 @given(seeds, st.floats(-5, 1), st.sampled_from([np.float32, np.float64]))

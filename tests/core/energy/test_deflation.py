@@ -34,41 +34,6 @@ def random(matrix, seed=0):
     return np.random.default_rng(seed).normal(size=matrix.shape[0])
 
 
-@given(seeds, st.integers(1, 4))
-def test_slots_belong_to_the_nearest_centre_and_those_far_from_all_before_them_are_centres(seed, distance):
-    mesh = grid(7, 6, 5)
-    mesh = mesh.with_fixed(mesh.fixed | (np.random.default_rng(seed).uniform(size=mesh.n_nodes) < 0.1))
-    sparsity, rings = BlockSparsity(mesh), mesh.topology.rings
-    aggregate, slot = sparsity.aggregates(distance)[0], np.full(mesh.n_nodes, -1)
-    slot[sparsity.nodes] = np.arange(sparsity.nodes.size)
-    beside = [slot[rings.items[rings.start[i] : rings.start[i + 1]]] for i in sparsity.nodes]
-    steps = np.full((aggregate.size, aggregate.size), 1000)  # between slots, along edges of free nodes
-    for first in range(aggregate.size):
-        front, steps[first, first] = [first], 0
-        for i in front:
-            for j in beside[i][beside[i] >= 0]:
-                if steps[first, j] == 1000:
-                    steps[first, j] = steps[first, i] + 1
-                    front.append(j)
-    centres = []
-    for i in range(aggregate.size):
-        if steps[i, centres].min(initial=1000) > distance:
-            centres.append(i)
-    np.testing.assert_array_equal(aggregate, steps[:, centres].argmin(axis=1))
-
-
-@parts
-def test_rows_meet_the_aggregates_of_their_blocks(parts):
-    matrix = assembled(scrambled(grid(14, 3, 3), 0.15), parts)
-    _, start, columns = matrix.sparsity.aggregates(2)
-    product = matrix.matrix().toarray() @ translations(matrix.sparsity)
-    blocks = np.abs(product).reshape(len(matrix.order), 3, -1, 3).max(axis=(1, 3))
-    for node, slot in enumerate(matrix.order):
-        row = columns[start[slot] : start[slot + 1]]
-        assert (np.diff(row) > 0).all()
-        assert set(np.flatnonzero(blocks[node] > 1e-12 * blocks.max())) <= set(row)
-
-
 @parts
 @pytest.mark.parametrize("damping", [0.0, 0.3])
 @settings(max_examples=1)
@@ -81,17 +46,6 @@ def test_the_solution_is_the_same(parts, damping, seed):
     dense += damping * np.where(block[:, None] == block, dense, 0)
     solved = matrix.solve(right, 1e-10, 500, damping, deflated=True)
     np.testing.assert_allclose(solved.x, np.linalg.solve(dense, right), atol=1e-7 * np.abs(solved.x).max())
-
-
-@parts
-@pytest.mark.parametrize("iterations", [1, 5])
-def test_the_residual_has_no_part_that_the_coarse_space_can_solve(parts, iterations):
-    matrix = assembled(scrambled(grid(14, 3, 3), 0.15), parts)
-    right = random(matrix)
-    solved = matrix.solve(right, 1e-12, iterations, deflated=True)
-    assert solved.iterations == iterations
-    sums = translations(matrix.sparsity).T @ (right - matrix.matrix() @ solved.x)
-    np.testing.assert_allclose(sums, 0, atol=1e-10 * np.abs(right).sum())
 
 
 @pytest.mark.parametrize("precision", [np.float32, np.float64])

@@ -71,22 +71,6 @@ def test_the_sums_of_a_packed_matrix_are_the_same_to_the_last_bit_however_many_t
         np.testing.assert_array_equal(packed.diagonal, one.diagonal)
 
 
-@pytest.mark.parametrize("p", [1.0, 2.0])
-def test_a_translation_meets_only_the_fixed_nodes(p):
-    """Rows of nodes all of whose neighbours are free sum to 0, but for the rounding of the sum; the others are kept."""
-    mesh = scrambled(grid(6), 0.3, 2)
-    whole, packed = both(mesh, 0.1, p)
-    ones = np.tile(np.eye(3), (packed.shape[0] // 3, 1))
-    sums, exact = (np.array([matrix @ v for v in ones.T]).T.reshape(-1, 3, 3) for matrix in (packed, whole))
-    symmetric = (sums + sums.transpose(0, 2, 1)) / 2
-    size = np.abs(whole.diagonal).max()
-    np.testing.assert_allclose(symmetric, (exact + exact.transpose(0, 2, 1)) / 2, atol=2e-5 * size)
-    nodes = np.flatnonzero(mesh.free)
-    inside = np.array([mesh.free[mesh.hexes[(mesh.hexes == node).any(axis=1)]].all() for node in nodes])
-    assert inside.any()
-    assert np.abs(symmetric[inside]).max() < 1e-5 * size
-
-
 @pytest.mark.parametrize("flat", [1, pytest.param(30, marks=pytest.mark.slow)])
 def test_long_waves_have_the_curvature_of_the_exact_matrix(flat):
     """Of flat hexes: the least eigenvalue, scaled by the diagonal, is far below the rounding of a stiff block."""
@@ -108,21 +92,6 @@ def test_meshes_that_are_too_flat_for_packed_blocks_do_not_get_them(monkeypatch)
         x = energy.to_edge_units(energy.mesh.points)
         assert energy.hessian(x).assembled().packed == packed
         assert energy.sparsity.packs == packed
-
-
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_large_matrices_are_packed_unless_a_precision_is_asked_for(monkeypatch, dtype):
-    monkeypatch.setattr("hexmend.energy.sparsity._LARGE", 27)
-    energy = MeshEnergy(scrambled(grid(4), 0.1, 1))
-    hessian = energy.hessian(energy.to_edge_units(energy.mesh.points))
-    matrix = hessian.assembled()
-    assert matrix.packed
-    assert not hessian.assembled(dtype).packed
-    assert hessian.assembled(reuse=matrix) is matrix
-    assert hessian.assembled(dtype, reuse=matrix) is not matrix
-    monkeypatch.setattr("hexmend.energy.sparsity._LARGE", 28)
-    small = MeshEnergy(energy.mesh)
-    assert not small.hessian(hessian.x).assembled().packed
 
 
 def test_the_gradient_has_the_memory_of_a_packed_matrix_until_the_next_one_is_assembled(monkeypatch):

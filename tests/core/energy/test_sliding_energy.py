@@ -8,10 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.boundary import NodeClass, SlidingBoundary
-from hexmend.energy import ObjectiveNorm, SlidingEnergy, energy_of
+from hexmend.energy import ObjectiveNorm, SlidingEnergy
 from hexmend.energy.floor_barrier import FloorBarrier
 from hexmend.energy.ranks import Ranks
-from hexmend.optimise.floors.region import Region
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 
@@ -106,31 +105,6 @@ def test_values_that_are_kept_are_those_of_another_energy_only_where_it_is_the_s
             assert values[-1] == fresh.value(x.copy(), delta) == of.value(x, delta)
             np.testing.assert_array_equal(of.with_barriers(x, delta), each)
     assert len(set(values)) == len(values) // 2
-
-
-@pytest.mark.parametrize("solid", SOLIDS)
-@pytest.mark.parametrize("linear", [False, True])
-def test_a_part_moves_its_nodes_as_the_mesh_does(solid, linear):
-    there = slid(SOLIDS[solid](), 0.2, 1)
-    sliding = SlidingBoundary(SOLIDS[solid]())
-    energy = energy_of(sliding.mesh, ObjectiveNorm(1.0), sliding) if linear else SlidingEnergy(sliding)
-    mesh, x = energy.mesh, energy.to_edge_units(there.points)
-    node = int(energy.nodes[np.argmin(x[energy.nodes].sum(axis=1))])
-    region = Region(energy, np.flatnonzero((mesh.hexes == node).any(axis=1)), x)
-    part, here = region.energy, region.inside(x)
-    numbers = np.flatnonzero((region.merged(np.zeros_like(x), np.ones_like(here)) == 1).all(axis=1))
-    moved = np.isin(energy.nodes, numbers[part.nodes])
-    assert 0 < part.nodes.size == np.count_nonzero(moved) < energy.nodes.size
-    np.testing.assert_allclose(part.gradient(here), energy.gradient(x)[moved], atol=1e-12)
-    step = np.zeros((energy.nodes.size, 3))
-    step[moved] = 2 * np.random.default_rng(2).uniform(-1, 1, (part.nodes.size, 3))
-    far, near = energy.moved(x, step), part.moved(here, step[moved])
-    np.testing.assert_allclose(region.merged(x, near), far, atol=1e-12)
-    infeasible, in_part = energy.infeasible_nodes(x, far), part.infeasible_nodes(here, near)
-    marked = np.zeros(mesh.n_nodes, dtype=bool) if infeasible is None else infeasible
-    in_part = np.zeros(here.shape[0], dtype=bool) if in_part is None else in_part
-    np.testing.assert_array_equal(marked[numbers[part.nodes]], in_part[part.nodes])
-    assert in_part.any()
 
 
 def test_a_rank_without_sliding_nodes_takes_part_in_the_exchange_of_projectors():

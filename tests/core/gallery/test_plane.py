@@ -6,9 +6,9 @@ import pytest
 import hexmend as hx
 from hexmend.doctor import examine
 from hexmend.gallery import make
-from hexmend.gallery.aeroplane import FUSELAGE, HALF_BOX, PARTS, TAILPLANE, WINGS, map_onto_aeroplane
-from hexmend.gallery.plane import BOX, Plane
-from hexmend.quality import measure, summarise
+from hexmend.gallery.aeroplane import FUSELAGE, TAILPLANE, WINGS
+from hexmend.gallery.plane import BOX
+from hexmend.quality import summarise
 from hexmend.run import StoppingCriteria
 
 
@@ -74,26 +74,6 @@ def test_the_aeroplane_has_wings_a_tailplane_and_a_fin(plane):
     assert z[tail].max() > 2 * FUSELAGE.radius > z[~tail].max()
 
 
-def test_surfaces_are_where_the_parts_say():
-    side = np.array([[0.5, FUSELAGE.radius, 0.5 * FUSELAGE.radius]])
-    assert np.hypot(*map_onto_aeroplane(side)[0, 1:]) == pytest.approx(FUSELAGE.radius)
-    tip = np.array([[WINGS.leading, -WINGS.span, HALF_BOX]])
-    assert map_onto_aeroplane(tip)[0, :2] == pytest.approx([WINGS.leading + WINGS.sweep, -WINGS.span])
-    corners = np.concatenate([box for part in PARTS for box in part.boxes])
-    mirrored = map_onto_aeroplane(corners * [1, -1, 1]) * [1, -1, 1]
-    np.testing.assert_allclose(map_onto_aeroplane(corners), mirrored, atol=1e-12)
-
-
-def test_nodes_on_the_surfaces_stay_when_the_others_are_relaxed_and_displaced():
-    placed = Plane(size=2000).paved()
-    mesh = make("plane", size=2000)
-    np.testing.assert_array_equal(mesh.hexes, placed.hexes)
-    np.testing.assert_array_equal(mesh.points[mesh.fixed], placed.points[mesh.fixed])
-    relaxed = summarise(make("plane", size=2000, jitter=0))
-    assert relaxed.q_mean > summarise(placed).q_mean + 0.05
-    assert relaxed.q_mean > summarise(mesh).q_mean
-
-
 @pytest.mark.parametrize("size", [3000, pytest.param(8000, marks=pytest.mark.slow)])
 def test_local_descent_mends_all(size):
     mesh = make("plane", size=size)
@@ -104,11 +84,3 @@ def test_local_descent_mends_all(size):
     assert after.q_min > max(before.q_min, 0.35)
     assert after.q_mean > before.q_mean + 0.04
     np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
-
-
-@pytest.mark.slow
-def test_laplacian_smoothing_lowers_the_mean_and_inverts_hexes_as_in_the_thesis(plane):
-    smooth = hx.smooth(plane, "laplacian", StoppingCriteria(keep_last=True, max_iterations=300)).mesh
-    before, after = (measure(points, plane.hexes) for points in (plane.points, smooth.points))
-    assert after.q.mean() < before.q.mean() - 0.01
-    assert np.count_nonzero(after.inverted & ~before.inverted) > 1000

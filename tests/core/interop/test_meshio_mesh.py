@@ -2,38 +2,15 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
 
 import hexmend as hx
-from hexmend.errors import InstallationError, MeshError
+from hexmend.errors import MeshError
 from hexmend.mesh.cells import Cells
-from tests.core.interop.meshes import GALLERY, assert_round_trip, of_gallery, with_all_data, with_sets
 from tests.core.io.kept import middles_are_in_the_middle, with_everything
 
 meshio = pytest.importorskip("meshio")
 
 CUBE = hx.gallery.make("cube", size=27)
-
-
-@pytest.mark.parametrize(("name", "size"), GALLERY)
-def test_a_gallery_mesh_comes_back_as_it_was(name, size):
-    mesh = of_gallery(name, size)
-    other = hx.to_meshio(mesh)
-    assert len(other.cells_dict["hexahedron"]) == mesh.n_hexes
-    assert_round_trip(mesh, hx.from_meshio(other))
-
-
-@pytest.mark.parametrize("nodes", [8, 20, 27])
-def test_everything_that_comes_with_a_mesh_comes_back(nodes):
-    mesh = with_all_data(nodes)
-    back = hx.from_meshio(hx.to_meshio(mesh), as_is=True)
-    assert_round_trip(mesh, back)
-    middles_are_in_the_middle(back)
-
-
-@given(mesh=with_sets())
-def test_any_sets_and_fixed_nodes_come_back(mesh):
-    assert_round_trip(mesh, hx.from_meshio(hx.to_meshio(mesh)))
 
 
 def test_sets_are_those_of_meshio():
@@ -42,16 +19,6 @@ def test_sets_are_those_of_meshio():
     kinds = [block.type for block in other.cells]
     assert kinds == ["hexahedron", "quad", "line", "tetra", "pyramid"]
     assert [members.tolist() for members in other.cell_sets["overlapping"]] == [[2, 3], [], [], [0], []]
-
-
-def test_neither_side_changes_the_other():
-    other = hx.to_meshio(with_all_data())
-    back = hx.from_meshio(other)
-    other.points += 1
-    other.point_data["velocity"][:] = 0
-    other.cells[0].data[:] = 0
-    other.point_sets["wall"][:] = 0
-    assert_round_trip(with_all_data(), back)
 
 
 @pytest.mark.parametrize(
@@ -129,12 +96,6 @@ def test_physical_groups_of_gmsh_are_sets():
     assert {name: members.tolist() for name, members in mesh.cells[0].sets.items()} == {"wall": [0]}
 
 
-def test_hexes_wound_the_other_way_are_turned_unless_they_are_wanted_so():
-    other = hx.to_meshio(CUBE.rebuilt(hexes=CUBE.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]]))
-    assert "renumbered" in hx.from_meshio(other).notes[-1]
-    assert hx.from_meshio(other, as_is=True).quality("q").max() == 0
-
-
 @pytest.mark.parametrize(("other", "words"), [
     (blocks(("tetra", [[0, 1, 2, 3]])), "meshio mesh: holds no hexahedra, but 1 tetra cell."),
     (blocks(("VTK_LAGRANGE_HEXAHEDRON", [range(27)])), "but 1 cell of type VTK_LAGRANGE_HEXAHEDRON."),
@@ -149,10 +110,3 @@ def test_what_holds_no_hexes_is_refused(other, words):
     with pytest.raises(MeshError) as error:
         hx.from_meshio(other)
     assert words in str(error.value)
-
-
-def test_without_meshio_it_is_said_what_to_install(absent):
-    absent("meshio")
-    for call in (lambda: hx.to_meshio(CUBE), lambda: hx.from_meshio(None)):
-        with pytest.raises(InstallationError, match=r"^meshio is not installed: pip install meshio$"):
-            call()

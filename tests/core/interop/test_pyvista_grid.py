@@ -4,12 +4,10 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given
 
 import hexmend as hx
-from hexmend.errors import InstallationError, MeshError
-from tests.core.interop.meshes import GALLERY, assert_round_trip, of_gallery, with_all_data, with_sets
-from tests.core.io.kept import middles_are_in_the_middle
+from hexmend.errors import MeshError
+from tests.core.interop.meshes import assert_round_trip, with_all_data
 
 pv = pytest.importorskip("pyvista")
 
@@ -20,27 +18,6 @@ def boxes(n=2):
     """A structured grid of n cubes a side."""
     x = np.arange(n + 1.0)
     return pv.StructuredGrid(*np.meshgrid(x, x, x, indexing="ij"))
-
-
-@pytest.mark.parametrize(("name", "size"), GALLERY)
-def test_a_gallery_mesh_comes_back_as_it_was(name, size):
-    mesh = of_gallery(name, size)
-    grid = hx.to_pyvista(mesh)
-    assert (grid.n_cells, grid.n_points) == (mesh.n_hexes, mesh.n_nodes)
-    assert_round_trip(mesh, hx.from_pyvista(grid))
-
-
-@pytest.mark.parametrize("nodes", [8, 20, 27])
-def test_everything_that_comes_with_a_mesh_comes_back(nodes):
-    mesh = with_all_data(nodes)
-    back = hx.from_pyvista(hx.to_pyvista(mesh), as_is=True)
-    assert_round_trip(mesh, back)
-    middles_are_in_the_middle(back)
-
-
-@given(mesh=with_sets())
-def test_any_sets_and_fixed_nodes_come_back(mesh):
-    assert_round_trip(mesh, hx.from_pyvista(hx.to_pyvista(mesh)))
 
 
 @pytest.mark.parametrize(("nodes", "type"), [(8, 12), (20, 25), (27, 29)])
@@ -64,19 +41,6 @@ def test_sets_stay_right_in_a_part_of_the_grid():
     ids = [20, 5, 6] if np.allclose(back.points[back.hexes[0]], mesh.points[mesh.hexes[20]]) else [5, 6, 20]
     assert {(ids[hex], face) for hex, face in back.side_sets["inlet"].tolist()} == {(5, 4), (20, 1)}
     assert [ids[hex] for hex in back.hex_sets["two"]] == [20]
-
-
-def test_neither_side_changes_the_other():
-    grid = hx.to_pyvista(with_all_data())
-    back = hx.from_pyvista(grid)
-    before = back.points.copy()
-    grid.points += 1
-    grid.point_data["velocity"][:] = 0
-    np.testing.assert_array_equal(back.points, before)
-    assert back.node_data["velocity"].any()
-    mesh = hx.gallery.make("cube", size=27)
-    hx.to_pyvista(mesh).points[:] = 0
-    assert mesh.points.any()
 
 
 @pytest.mark.parametrize("grid", [
@@ -111,13 +75,6 @@ def test_cells_of_other_kinds_are_handled_as_in_a_file(tmp_path):
     assert mesh.notes == read.notes
     assert any("VTK_POLYGON" in note for note in mesh.notes)
     assert_round_trip(read.replace(notes=()), mesh)
-
-
-def test_hexes_wound_the_other_way_are_turned_unless_they_are_wanted_so():
-    grid = hx.to_pyvista(CUBE.rebuilt(hexes=CUBE.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]]))
-    assert hx.from_pyvista(grid).quality("q").min() > 0
-    assert "renumbered" in hx.from_pyvista(grid).notes[-1]
-    assert hx.from_pyvista(grid, as_is=True).quality("q").max() == 0
 
 
 def test_hidden_ghost_cells_of_a_piece_are_left_out():
@@ -168,10 +125,3 @@ def test_small_and_tall_arrays_are_kept_in_the_next_type_and_shape():
         )
     assert back.node_data["half"].dtype == np.float32
     np.testing.assert_array_equal(back.node_data["t"], tensors.reshape(n, 9))
-
-
-def test_without_pyvista_it_is_said_what_to_install(absent):
-    absent("pyvista")
-    for call in (lambda: hx.to_pyvista(CUBE), lambda: hx.from_pyvista(None)):
-        with pytest.raises(InstallationError, match=r"^pyvista is not installed: pip install pyvista$"):
-            call()

@@ -9,6 +9,7 @@ from hexmend.io import read_surface
 from hexmend.io.surfaces import SURFACE_FORMATS
 from hexmend.io.surfaces.merge_points import merge_points
 from hexmend.mesh.topology.close_pairs import LATTICE_FREE_DIRECTION
+from tests.core.io.vtk_writers import by_vtk
 
 pv = pytest.importorskip("pyvista")
 
@@ -17,22 +18,17 @@ def sphere():
     return pv.Sphere(radius=2, center=(1, 2, 3), theta_resolution=12, phi_resolution=9)
 
 
-def by_vtk(writer, path, data, **options):
-    """Write by one of VTK's own writers, with its methods called by name."""
-    writer.SetInputData(data)
-    writer.SetFileName(str(path))
-    for name, value in options.items():
-        getattr(writer, name)(*value)
-    assert writer.Write()
-
-
 def xml(mode, *, compressed, encoded=True):
     def write(path, data):
         from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
         kind = "SetCompressorTypeToZLib" if compressed else "SetCompressorTypeToNone"
-        options = {f"SetDataModeTo{mode}": (), kind: (), "SetEncodeAppendedData": (encoded,)}
-        by_vtk(vtkXMLPolyDataWriter(), path, data, **options)
+        by_vtk(
+            vtkXMLPolyDataWriter(),
+            path,
+            data,
+            {f"SetDataModeTo{mode}": None, kind: None, "SetEncodeAppendedData": encoded},
+        )
 
     return write
 
@@ -41,7 +37,7 @@ def legacy(version, kind):
     def write(path, data):
         from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
 
-        by_vtk(vtkPolyDataWriter(), path, data, SetFileVersion=(version,), **{f"SetFileTypeTo{kind}": ()})
+        by_vtk(vtkPolyDataWriter(), path, data, {"SetFileVersion": version, f"SetFileTypeTo{kind}": None})
 
     return write
 
@@ -151,56 +147,38 @@ EMPTY_PLY = (
     "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 0\nproperty list uchar int vertex_indices\nend_header\n"
 )
+STL = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+PLY, NO_VERTEX = "cannot be read as PLY", "expected vertices and faces, its header declares no vertex"
+NO_STL, NO_SURFACE, NO_AREA = "cannot be read as STL", "holds no surface", "no triangle or quad with an area"
 BAD = {
-    "empty.stl": (b"", "is empty"),
-    "no-facets.stl": (b"solid a\nendsolid a\n", "holds no surface"),
-    "junk.stl": (b"\0" * 200, "is not an STL file"),
-    "cut-short.stl": (
-        b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n",
-        "cannot be read as STL",
-    ),
-    "uneven.stl": (
-        b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nvertex 1 0 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
-        "cannot be read as STL",
-    ),
-    "bare.stl": (
-        b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex\nendloop\nendfacet\n",
-        "cannot be read as STL",
-    ),
-    "word-behind.stl": (
-        b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0vertex\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
-        "cannot be read as STL",
-    ),
-    "run-on.stl": (
-        b"solid a\nfacetnormal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
-        "cannot be read as STL",
-    ),
-    "run-together.stl": (
-        b"solid a\nfacet normal 0 0 1\nouter loop\nvertex0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
-        "cannot be read as STL",
-    ),
-    "points.obj": (b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "holds no surface"),
-    "flat.obj": (b"v 0 0 0\nv 1 0 0\nv 0 0 0\nf 1 2 3\n", "holds no surface"),
-    "collinear.obj": (b"v 0.1 0.1 5\nv 0.2 0.2 5\nv 0.7 0.7 5\nf 1 2 3\n", "no triangle or quad with an area"),
-    "collinear-quad.obj": (b"v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3 4\n", "no triangle or quad with an area"),
+    "empty.stl": ("", "is empty"),
+    "no-facets.stl": ("solid a\nendsolid a\n", NO_SURFACE),
+    "junk.stl": ("\0" * 200, "is not an STL file"),
+    "cut-short.stl": (STL[: STL.index("vertex 0 1 0")], NO_STL),
+    "uneven.stl": (STL.replace("vertex 0 0 0", "vertex 0 0").replace("vertex 1 0 0", "vertex 1 0 0 0"), NO_STL),
+    "bare.stl": (STL.replace("endloop", "vertex\nendloop"), NO_STL),
+    "word-behind.stl": (STL.replace("vertex 0 0 0", "vertex 0 0 0vertex"), NO_STL),
+    "run-on.stl": (STL.replace("facet normal", "facetnormal"), NO_STL),
+    "run-together.stl": (STL.replace("vertex 0 0 0", "vertex0 0 0"), NO_STL),
+    "points.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\n", NO_SURFACE),
+    "flat.obj": ("v 0 0 0\nv 1 0 0\nv 0 0 0\nf 1 2 3\n", NO_SURFACE),
+    "collinear.obj": ("v 0.1 0.1 5\nv 0.2 0.2 5\nv 0.7 0.7 5\nf 1 2 3\n", NO_AREA),
+    "collinear-quad.obj": ("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3 4\n", NO_AREA),
     "far.obj": (
-        TETRAHEDRON.replace("v 1 0 0", "v 1e38 0 0").encode(),
+        TETRAHEDRON.replace("v 1 0 0", "v 1e38 0 0"),
         r"area beside point 1 \(counted from 0\), which is far from the others at \[1e\+38, 0.0, 0.0\]",
     ),
-    "nan.obj": (TETRAHEDRON.replace("v 1 0 0", "v nan 0 0").encode(), "point 1 .counted from 0. is at .nan"),
-    "range.obj": (TETRAHEDRON.replace("f 1 3 2", "f 1 3 9").encode(), "uses the point 8: expected numbers from 0 to 3"),
-    "junk.ply": (b"nothing", "no head"),
-    "text-empty.ply": (EMPTY_PLY.encode(), "expected vertices and faces, its header declares no vertex"),
-    "binary-empty.ply": (
-        EMPTY_PLY.replace("ascii", "binary_little_endian").encode(),
-        "expected vertices and faces, its header declares no vertex",
-    ),
-    "short.ply": (b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n", "cannot be read as PLY"),
-    "junk.vtp": (b"nothing", "does not begin with <VTKFile"),
-    "grid.vtp": (b'<VTKFile type="UnstructuredGrid">', "expected PolyData"),
-    "cut.vtp": (b'<VTKFile type="PolyData"><PolyData><Piece', "its XML is broken"),
-    "grid.vtk": (b"# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\n", "expected POLYDATA"),
-    "part.step": (b"ISO-10303-21;", "the suffix '.step' is none of a surface"),
+    "nan.obj": (TETRAHEDRON.replace("v 1 0 0", "v nan 0 0"), "point 1 .counted from 0. is at .nan"),
+    "range.obj": (TETRAHEDRON.replace("f 1 3 2", "f 1 3 9"), "uses the point 8: expected numbers from 0 to 3"),
+    "junk.ply": ("nothing", "no head"),
+    "text-empty.ply": (EMPTY_PLY, NO_VERTEX),
+    "binary-empty.ply": (EMPTY_PLY.replace("ascii", "binary_little_endian"), NO_VERTEX),
+    "short.ply": ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n", PLY),
+    "junk.vtp": ("nothing", "does not begin with <VTKFile"),
+    "grid.vtp": ('<VTKFile type="UnstructuredGrid">', "expected PolyData"),
+    "cut.vtp": ('<VTKFile type="PolyData"><PolyData><Piece', "its XML is broken"),
+    "grid.vtk": ("# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\n", "expected POLYDATA"),
+    "part.step": ("ISO-10303-21;", "the suffix '.step' is none of a surface"),
 }
 
 
@@ -219,7 +197,7 @@ def test_tabs_and_notes_between_the_words_of_an_obj_file_are_passed_over(tmp_pat
 def test_what_is_no_surface_is_said(name, tmp_path):
     content, words = BAD[name]
     path = tmp_path / name
-    path.write_bytes(content)
+    path.write_text(content)
     with pytest.raises(FileError, match=words) as error:
         read_surface(path)
     assert str(error.value).startswith(f"{name}: ")

@@ -30,12 +30,3 @@ def test_rows_are_written_and_scaled_and_others_stay():
     rows.scale_rows(values, numbers, multiplied)
     np.testing.assert_array_equal(written, expected)
     np.testing.assert_array_equal(multiplied, scaled)
-
-
-def test_arrays_of_different_lengths_are_rejected():
-    one, two = np.zeros(1, np.int32), np.zeros((2, 3))
-    for write in (rows.put_rows, rows.scale_rows):
-        with pytest.raises(ValueError, match="a row for each of numbers is expected"):
-            write(two, one, two.copy())
-    with pytest.raises(ValueError, match="found"):
-        rows.any_marked(np.zeros(1, bool), np.zeros((2, 4), np.int32), np.empty(3, bool))

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from hexmend.gallery import make
 from hexmend.kernels import structure
-from hexmend.target import recovered_lengths, sheets
 from hexmend.target.edge_lengths import edge_numbers
 
 
@@ -74,21 +73,3 @@ def test_groups_that_name_no_edge_are_refused():
             structure.fill_along_sheets(groups, values, known)
         with pytest.raises(ValueError, match="numbers of edges"):
             structure.average_along_sheets(groups, values, np.zeros(3), np.zeros(3, dtype=np.int32))
-
-
-def test_recovered_lengths_are_those_of_plain_numpy(monkeypatch):
-    mesh = make("layered", size=2000, scramble=1.0)
-    lengths = recovered_lengths(mesh)
-
-    class Plain:
-        @staticmethod
-        def average_along_sheets(groups, values, average, count):
-            everything = np.arange(len(values)) < len(values) - 1
-            average[:], count[:] = averages(values, everything, groups)
-
-        @staticmethod
-        def fill_along_sheets(groups, values, known):
-            values[:], known[:] = filled(values, known, groups)
-
-    monkeypatch.setattr(sheets, "structure", Plain)
-    np.testing.assert_allclose(recovered_lengths(mesh.with_points(mesh.points)), lengths, rtol=1e-12)

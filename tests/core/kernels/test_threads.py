@@ -89,17 +89,6 @@ def test_by_default_there_are_as_many_as_processors_that_the_process_may_use():
     assert program(text) == "1\n"
 
 
-def test_the_program_says_plainly_what_is_wrong_with_a_number(tmp_path):
-    out = tmp_path / "cube.vtk"
-    done = subprocess.run(
-        [sys.executable, "-m", "hexmend", "gallery", "cube", "--size", "8", "-o", out],
-        env=os.environ | {"HEXMEND_THREADS": "two"}, capture_output=True, text=True,
-    )  # fmt: skip
-    assert done.returncode == 2
-    assert done.stderr == "hexmend: HEXMEND_THREADS = 'two' cannot be used: expected a whole number from 1 to 1024\n"
-    assert not out.exists()
-
-
 def test_a_number_is_chosen_for_a_thread_alone():
     most = kernels.threads()
 

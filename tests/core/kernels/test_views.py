@@ -8,10 +8,8 @@ import pytest
 
 from hexmend.boundary import SlidingBoundary
 from hexmend.kernels import laplacian, local
-from hexmend.kernels.closest_point import BoxTrees, ClosestPointCache
 from hexmend.kernels.hex_mesh import HexMesh
 from hexmend.kernels.line_search import LineSearch
-from hexmend.kernels.sliding_surface import BoundaryQuads, SlidingSurface
 from tests.core.grids import grid, scrambled
 
 
@@ -41,33 +39,6 @@ def test_a_sliding_surface_keeps_the_arrays_of_its_parts():
     gc.collect()
     laplacian.in_place(moved, ring.start, ring.items, nodes, surface)
     np.testing.assert_array_equal(moved, expected)
-
-
-def test_arrays_of_another_type_or_shape_are_refused_by_name():
-    hexes, start, corners = arrays(grid(2))
-    for wrong in ((hexes.astype(np.int64), start, corners), (hexes[:, :4], start, corners), (hexes, None, corners)):
-        with pytest.raises(TypeError, match=r"hexes.*start.*corners"):
-            HexMesh(*wrong)
-    for wrong, name in (((hexes[1:], start, corners), "corners"), ((hexes, start[:-1], corners), "start")):
-        with pytest.raises(ValueError, match=f"^{name}: "):
-            HexMesh(*wrong)
-    points, none = np.zeros((4, 3)), np.zeros((0, 4), np.int32)
-    pieces, boxes, links = np.zeros((1, 3), np.int32), np.zeros((6, 4)), np.zeros((1, 4), np.int32)
-    with pytest.raises(ValueError, match=r"^boxes: "):
-        BoxTrees(points, pieces, boxes, links[1:])
-    with pytest.raises(ValueError, match=r"^outward: "):
-        BoundaryQuads(np.zeros(1, np.int32), np.zeros(0, np.int32), none, points)
-    quads = BoundaryQuads(np.zeros(1, np.int32), np.zeros(0, np.int32), none, points[:0])
-    cache = ClosestPointCache(BoxTrees(points, pieces, boxes, links), np.zeros(1, np.int32))
-    with pytest.raises(ValueError, match=r"^quads: "):
-        SlidingSurface(np.zeros(4, np.int32), cache, quads)
-    with pytest.raises(ValueError, match=r"^roots: "):
-        ClosestPointCache(BoxTrees(points, pieces, boxes, links), np.ones(1, np.int32))
-    found = np.zeros(1, np.int32), np.zeros((1, 3)), np.zeros((1, 3))
-    with pytest.raises(ValueError, match=r"^slots: "):
-        cache.closest(np.ones(1, np.int32), points[:1], *found)
-    with pytest.raises(ValueError, match=r"^slots, x, piece, places and weights have different lengths"):
-        cache.closest(np.zeros(1, np.int32), points, *found)
 
 
 def test_a_surface_wants_tangents_and_tangents_a_surface():

@@ -79,15 +79,6 @@ def test_the_pass_over_corners_finds_what_a_table_of_faces_finds(seed):
     assert hexes_without_valid_position(mesh).tolist() == hexes
 
 
-@pytest.mark.parametrize("seed", range(20))
-def test_where_both_corners_are_positive_points_near_the_node_are_in_both(seed):
-    a, b, c, d = np.random.default_rng(seed).normal(size=(4, 3))
-    d, c = (v * np.sign(np.linalg.det([a, b, v])) for v in (d, c))
-    point = a + b + 1e-9 * c
-    for third in (c, d):
-        assert (np.linalg.solve(np.column_stack([a, b, third]), point) > 0).all()
-
-
 def test_a_run_that_leaves_such_hexes_inverted_says_that_no_position_makes_them_valid():
     mesh = around_two_faces((0, 1), (0, -1), (1, 1), (1, -1))
     points = mesh.points.copy()

@@ -120,26 +120,3 @@ def test_a_direction_that_does_not_descend_is_damped_unless_floors_hold_the_hexe
     assert find.asked == (0 if floors else 2)
     assert (taken.direction.shift, taken.direction.solver_iterations) == ((0.0, 0) if floors else (0.002, 7 + 3 + 3))
     assert energy.value(taken.x) < taken.value
-
-
-class TooLong(TruncatedNewton):
-    """Goes down by much too long steps, and by others where it is damped, once."""
-
-    left = 1
-
-    def __call__(self, value, gradient, hessian):
-        return SearchDirection(-1e3 * gradient, 7)
-
-    def damped(self, gradient, hessian):
-        self.left -= 1
-        return SearchDirection(-gradient, 3, 0.002) if self.left >= 0 else None
-
-
-def test_a_direction_along_which_only_a_short_step_descends_is_damped():
-    _, energy, x = problem(1)
-    taken = descend(energy, x, 0.0, TooLong(), LineSearch())
-    undamped = descend(energy, x, 0.0, TooLong().__call__, LineSearch())
-    assert undamped.alpha < DESCENT.short
-    assert taken.direction.shift == 0.002
-    assert taken.alpha >= DESCENT.short
-    assert energy.value(taken.x) < taken.value

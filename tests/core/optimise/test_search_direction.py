@@ -51,24 +51,6 @@ def test_the_tolerance_follows_the_square_of_what_is_left_of_the_gradient_in_any
     assert found == pytest.approx([0.5, 0.9 / 4, 0.9 / 100, 0.9 / 25])
 
 
-def test_after_a_definite_matrix_the_tolerance_may_have_another_bound():
-    lengths = [1.0, 1.0, 1.0]
-    assert tolerances(lengths, loosest=0.3, loosest_definite=0.1) == [0.3, 0.1, 0.1]
-    find, matrix = TruncatedNewton(TruncatedNewtonConfig(loosest=0.3, loosest_definite=0.1)), Matrix(needed=1e-3)
-    for _ in range(3):  # with the damping of 0.002, 0.002, and none
-        find(1.0, np.array([[1.0, 0.0, 0.0]]), matrix)
-    assert [tolerance for _, tolerance, _, _ in matrix.asked] == [0.3] * len(matrix.asked)
-
-
-def test_the_direction_is_the_solution_for_minus_the_gradient():
-    find, matrix = TruncatedNewton(TruncatedNewtonConfig(iterations=17)), Matrix()
-    gradient = np.array([[1.0, -2.0, 3.0], [4.0, 5.0, -6.0]])
-    found = find(1.0, gradient, matrix)
-    np.testing.assert_array_equal(found.vector, -gradient / 2)
-    np.testing.assert_array_equal(matrix.asked[0][0], gradient.ravel())
-    assert (matrix.asked[0][2], found.solver_iterations, found.shift) == (17, 3, 0.0)
-
-
 def test_damping_rises_until_the_curvature_is_positive_and_falls_again():
     find, matrix = TruncatedNewton(), Matrix(needed=SECOND)
     found = find(1.0, np.ones((1, 3)), matrix)
@@ -78,27 +60,6 @@ def test_damping_rises_until_the_curvature_is_positive_and_falls_again():
     for _ in range(3):
         find(1.0, np.ones((1, 3)), matrix)
     assert [damping for *_, damping in matrix.asked] == [SECOND, SECOND / CONFIG.damping_decay, 0.0]
-
-
-def test_a_direction_that_was_of_no_use_is_damped_more_and_the_next_begins_there():
-    find, matrix, gradient = TruncatedNewton(), Matrix(), np.array([[1.0, -2.0, 3.0]])
-    find(1.0, gradient, matrix)
-    dampings = [find.damped(gradient, matrix).shift for _ in range(2)]
-    assert dampings == [FIRST, SECOND]
-    np.testing.assert_array_equal(find.damped(gradient, matrix).vector, -gradient / 2)
-    find(1.0, gradient, matrix)
-    assert matrix.asked[-1][-1] == CONFIG.damping_growth * SECOND
-
-
-def test_a_matrix_that_has_lent_its_memory_is_assembled_again():
-    find, matrix = TruncatedNewton(), Matrix()
-    find(1.0, np.ones((1, 3)), matrix)
-    assert matrix.assemblies == 1
-    find.damped(np.ones((1, 3)), matrix)
-    assert matrix.assemblies == 1
-    matrix.has_lent_memory = True
-    assert find.damped(np.ones((1, 3)), matrix).shift == SECOND
-    assert matrix.assemblies == 2
 
 
 class Shifted:

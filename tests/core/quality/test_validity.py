@@ -1,11 +1,10 @@
 """Validity of hexes, against subdivision in whole numbers of any length, and what must not change it."""
 
-from itertools import permutations, product
+from itertools import product
 
 import numpy as np
 import pytest
 
-from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.quality import corner_determinants, measure
 from hexmend.quality.validity import Validity, certify, jacobian_bounds, least_jacobian
@@ -124,17 +123,6 @@ def test_the_least_jacobian_is_that_of_the_worst_hex():
     assert least_jacobian(*separate([UNIT_CUBE @ [[3, 0, 0], [1, 2, 0], [0, 1, 1]]])) == pytest.approx(1)
 
 
-def rotations():
-    """Permutations of the corners of a hex that turn it, (24, 8)."""
-    found = []
-    for axes, signs in product(permutations(range(3)), product((-1, 1), repeat=3)):
-        turn = np.eye(3, dtype=int)[list(axes)] * np.array(signs)[:, None]
-        if np.linalg.det(turn) > 0:
-            turned = ((2 * CORNERS - 1) @ turn + 1) // 2
-            found.append([int(np.flatnonzero((corner == CORNERS).all(axis=1))[0]) for corner in turned])
-    return found
-
-
 @pytest.mark.parametrize("factor", [2.0**-200, 2.0**-80, 0.5, 2.0**100, 2.0**200, 2.0**300])
 def test_validity_does_not_depend_on_the_unit_of_length_or_the_place(factor):
     points, hexes = separate(random_hexes(300, 12, 36))
@@ -165,46 +153,27 @@ def test_a_hex_whose_upper_face_is_turned_by_180_degrees_and_stretched_is_invali
     np.testing.assert_allclose(jacobian_bounds(points, hexes), [[least, 1]], rtol=0.01, atol=1e-7)
 
 
-def test_middles_of_edges_and_faces_do_not_show_every_invalid_hex():
-    values, _ = values_on_grid(BETWEEN[None], 2)
-    assert values.min() > 0
-    assert values_on_grid(BETWEEN[None], 32)[0].min() < -1
-    assert certify(*separate([BETWEEN]))[0] == Validity.INVALID_INSIDE
-
-
 def test_a_hex_whose_jacobian_touches_zero_is_undecided_and_counts_as_invalid():
     quality = measure(*separate([TOUCHING]))
     assert exact_validity(TOUCHING) == Validity.UNDECIDED
     assert (quality.n_inverted, quality.n_invalid, quality.n_undecided) == (0, 1, 1)
 
 
-@pytest.mark.parametrize(
-    "corners",
-    [
-        UNIT_CUBE * [1, 1, 0],
-        UNIT_CUBE * [-1, 1, 1],
-        np.zeros((8, 3)),
-        UNIT_CUBE[[0, 0, 2, 3, 4, 5, 6, 7]],
-        UNIT_CUBE[[0, 1, 2, 3, 0, 1, 2, 3]],
-        1e-110 * UNIT_CUBE,
-        1e103 * UNIT_CUBE,
-        1e200 * UNIT_CUBE,
-        1e200 * (UNIT_CUBE + 0.1 * np.random.default_rng(1).normal(size=(8, 3))),
-        1e300 * np.random.default_rng(2).normal(size=(8, 3)),
-    ],
-    ids=[
-        "flat",
-        "mirrored",
-        "point",
-        "collapsed-edge",
-        "collapsed-face",
-        "tiny",
-        "large",
-        "larger",
-        "larger-uneven",
-        "random",
-    ],
-)
+DEGENERATE = {
+    "flat": UNIT_CUBE * [1, 1, 0],
+    "mirrored": UNIT_CUBE * [-1, 1, 1],
+    "point": np.zeros((8, 3)),
+    "collapsed-edge": UNIT_CUBE[[0, 0, 2, 3, 4, 5, 6, 7]],
+    "collapsed-face": UNIT_CUBE[[0, 1, 2, 3, 0, 1, 2, 3]],
+    "tiny": 1e-110 * UNIT_CUBE,
+    "large": 1e103 * UNIT_CUBE,
+    "larger": 1e200 * UNIT_CUBE,
+    "larger-uneven": 1e200 * (UNIT_CUBE + 0.1 * np.random.default_rng(1).normal(size=(8, 3))),
+    "random": 1e300 * np.random.default_rng(2).normal(size=(8, 3)),
+}
+
+
+@pytest.mark.parametrize("corners", DEGENERATE.values(), ids=DEGENERATE)
 def test_a_degenerate_hex_counts_as_invalid(corners):
     points, hexes = separate([corners])
     assert certify(points, hexes)[0] != Validity.VALID
@@ -216,15 +185,6 @@ def test_a_degenerate_hex_counts_as_invalid(corners):
 @pytest.mark.parametrize("edge", [1e-100, 1e-60, 1e52, 1e100])
 def test_a_cube_of_any_size_whose_volume_is_a_number_is_valid(edge):
     assert certify(*separate([edge * UNIT_CUBE]))[0] == Validity.VALID
-
-
-def test_wrong_arrays_are_named():
-    points, hexes = separate([UNIT_CUBE])
-    for call in (certify, jacobian_bounds, least_jacobian):
-        with pytest.raises(MeshError, match="hexes have shape"):
-            call(points, hexes.ravel())
-        with pytest.raises(MeshError, match="hex 0"):
-            call(points, hexes + 1)
 
 
 def test_the_field_of_a_hex_is_the_determinant_at_each_point():

@@ -160,7 +160,7 @@ def test_left_handed_hexes_are_renumbered_as_in_one_process(which, tmp_path):
 
 
 @needs_mpi
-@pytest.mark.parametrize("output", ["out.vtu", "out.pvtu"])
+@pytest.mark.parametrize("output", [pytest.param("out.vtu", marks=pytest.mark.slow), "out.pvtu"])
 def test_ranks_smooth_no_left_handed_hexes_and_name_their_number(output, tmp_path):
     mesh = make("cube", size=64)
     hexes = mesh.hexes.copy()

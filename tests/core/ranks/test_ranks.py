@@ -1,11 +1,8 @@
 """Runs on several MPI ranks: the optimum is that of one process, and a rank that fails ends all."""
 
 import json
-import os
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -67,13 +64,6 @@ def reaches_the_optimum_of_one_process(given, folder, ranks, goal, tolerance, *w
 @needs_mpi
 def test_two_ranks_reach_the_optimum_of_one_process(tangled, tmp_path):
     reaches_the_optimum_of_one_process(tangled, tmp_path, 2, "shape", 1e-8)
-
-
-@needs_mpi
-@pytest.mark.slow
-@pytest.mark.parametrize("ranks", [4, 7])
-def test_more_ranks_reach_it_too(tangled, tmp_path, ranks):
-    reaches_the_optimum_of_one_process(tangled, tmp_path, ranks, "shape", 1e-8)
 
 
 @needs_mpi
@@ -142,23 +132,6 @@ def test_a_boundary_slides_on_a_curved_surface_of_a_file_as_in_one_process(tangl
 
 @needs_mpi
 @pytest.mark.slow
-def test_rank_0_goes_on_alone_where_untangling_leaves_hexes_unsound(tmp_path):
-    given, out, report = (tmp_path / name for name in ("given.vtu", "out.vtu", "report.json"))
-    mesh = make("cube", size=125)
-    points, middle = mesh.points.copy(), np.array([0.4, 0.4, 1]) * mesh.points.max()
-    node = np.linalg.norm(points - middle, axis=1).argmin()
-    points[node, :2] += 1.7 * mesh.mean_edge_length
-    write(given, mesh.with_points(points))
-    run = on_ranks(2, given, "-o", out, "--boundary", "slide", "--json", report)
-    assert run.returncode == 0, run.stderr
-    assert "rank 0 raises it alone" in run.stderr
-    assert "Rank 0 continued alone for" in run.stdout
-    assert json.loads(report.read_text())["ranks"]["iterations_alone"] > 0
-    assert figures(out)[0] == 0
-
-
-@needs_mpi
-@pytest.mark.slow
 def test_targets_are_divided_too(tangled, tmp_path):
     reaches_the_optimum_of_one_process(tangled, tmp_path, 3, "shape", 1e-7, "--target", "given-shape")
 
@@ -188,30 +161,6 @@ def test_without_the_packages_the_command_names_them(tangled, tmp_path, monkeypa
     monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "2")
     assert main(["smooth", str(tangled), "-o", str(tmp_path / "out.vtu")]) == 2
     assert "pip install '.[mpi]'  in the source folder of Hexmend" in capsys.readouterr().err
-
-
-@needs_mpi
-@pytest.mark.slow
-def test_a_rank_that_is_killed_ends_all_and_a_run_goes_on_from_the_checkpoint(tmp_path):
-    given, out, checkpoint = (tmp_path / name for name in ("given.vtu", "out.vtu", "out.checkpoint.vtu"))
-    write(given, make("five-side", size=60_000, scramble=0.3))
-    words = given, "-o", out, "--goal", "shape", "--checkpoint", "1e-4"
-    with subprocess.Popen(
-        command(2, *words), env=ENVIRONMENT, stderr=subprocess.PIPE, text=True, start_new_session=True
-    ) as launcher:
-        while not checkpoint.exists():
-            assert launcher.poll() is None
-            time.sleep(0.02)
-        ranks = [process for process in _descendants(launcher.pid) if b"smooth" in _words_of(process)]
-        os.kill(ranks[-1], signal.SIGKILL)
-        launcher.communicate(timeout=60)
-    assert launcher.returncode != 0
-    assert not out.exists()
-    assert figures(checkpoint)[0] < figures(given)[0]
-    run = on_ranks(2, checkpoint, "-o", out, "--goal", "shape", "--checkpoint", "1e-4")
-    assert run.returncode == 0, run.stderr
-    assert figures(out)[0] == 0
-    assert not (tmp_path / "out.checkpoint.checkpoint.vtu").exists()
 
 
 def _descendants(process):
@@ -247,16 +196,6 @@ def plate_with_a_block():
     hexes = np.concatenate([hexes[:60, :, :1].reshape(-1, 8), hexes[60:].reshape(-1, 8)])
     used, index = np.unique(hexes, return_inverse=True)
     return Mesh(grid[used].astype(float), index.reshape(-1, 8))
-
-
-@needs_mpi
-@pytest.mark.slow
-def test_more_ranks_than_hexes_are_too_many(tmp_path):
-    given = tmp_path / "one.vtu"
-    write(given, make("cube", size=1))
-    run = on_ranks(2, given, "-o", tmp_path / "out.vtu")
-    assert run.returncode != 0
-    assert "2 ranks are too many for 1 hexes" in run.stderr
 
 
 @needs_mpi

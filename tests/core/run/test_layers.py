@@ -7,7 +7,7 @@ from hexmend.advice import advise
 from hexmend.gallery import make
 from hexmend.layers import find_layers, grading_message
 from hexmend.quality import measure
-from hexmend.report import record
+from hexmend.report.records import record
 from hexmend.run import Run, smooth
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS

@@ -123,7 +123,8 @@ def test_what_is_free_is_the_least_that_the_system_and_its_groups_leave(system, 
 
 @on_linux
 @pytest.mark.parametrize("words", [
-    ("smooth", "-o", "out.vtu"), ("compare", "-o", "out", "--methods", "laplacian,mend"),
+    ("smooth", "-o", "out.vtu"),
+    pytest.param(("compare", "-o", "out", "--methods", "laplacian,mend"), marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_a_run_beyond_a_limit_is_refused_before_it_begins_unless_forced(words, mesh_file, tmp_path):
     command, option, out, *rest = words

@@ -8,15 +8,12 @@ import pytest
 from hexmend.energy import ObjectiveNorm, energies
 from hexmend.gallery import make
 from hexmend.iteration import Outcome, StoppingCriteria
-from hexmend.iteration.figures import objective_changes
 from hexmend.quality import measure, objective
-from hexmend.report import comparison_rows, record_table
+from hexmend.report.comparison import comparison_rows, record_table
 from hexmend.run import iterate, smooth
-from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 from hexmend.study.compare import compare
-from hexmend_app.report.run_figures import write_convergence
 
 OPTIMISERS = [name for name, cls in METHODS.items() if issubclass(cls, ObjectiveSmoother)]
 POWERS = [ObjectiveNorm(p, offset) for p in (1.0, 2.0, 4.0) for offset in (0.0, 1.0)]
@@ -76,22 +73,6 @@ def test_a_run_goes_on_for_as_long_as_the_objective_of_its_method_falls(norm):
     assert falls == [True] * (len(falls) - 1) + [False]
 
 
-@pytest.mark.slow
-def test_stages_record_an_objective_each_and_are_not_compared(mesh, tmp_path):
-    first, second = METHODS["local-sd"](), METHODS["local-sd"](p=4.0, offset=0.0)
-    recipe = Recipe.of(
-        Stage(first, StoppingCriteria(max_iterations=4)), Stage(second, StoppingCriteria(max_iterations=4))
-    )
-    result = smooth(mesh, recipe)
-    formulas = [row["objective_formula"] for row in result.history]
-    assert formulas == ["Σ η²"] * 5 + ["Σ η⁴, offset 0"] * 4
-    assert objective_changes(result.history) == [5]
-    write_convergence(tmp_path / "a.svg", {"recipe": result.history}, title="two stages", width_mm=120)
-    assert result._repr_html_().count("<polyline") > smooth(
-        mesh, first, StoppingCriteria(max_iterations=8)
-    )._repr_html_().count("<polyline")
-
-
 def test_a_table_compares_methods_by_one_objective_and_names_it(mesh):
     methods = ["laplacian", METHODS["local-sd"](offset=0.0), METHODS["mend"](p=4.0)]
     answer = compare(mesh, methods, StoppingCriteria(max_iterations=10, keep_last=True))
@@ -105,19 +86,3 @@ def test_a_table_compares_methods_by_one_objective_and_names_it(mesh):
     assert "objective Σ η², offset 0" in [line[0] for line in table.rows]
     heuristics = record_table(compare(mesh, ["laplacian"], StoppingCriteria(max_iterations=2)).record())
     assert "objective Σ η²" in [line[0] for line in heuristics.rows]
-
-
-def test_mend_records_each_p_as_it_is_raised_and_no_objective_rises():
-    mesh, offset = make("five-side", size=200), 0.0
-    rows = smooth(
-        mesh, METHODS["mend"](goal="shape", max_p=16.0, offset=offset), StoppingCriteria(keep_last=True)
-    ).history[1:]
-    stretches = [rows[first:end] for first, end in pairwise([0, *objective_changes(rows), len(rows)])]
-    assert [one[0]["objective_formula"] for one in stretches] == [
-        ObjectiveNorm(p, offset).formula for p in (2, 4, 8, 16)
-    ]
-    for one in stretches:
-        values = [row["objective"] for row in one]
-        assert len(values) > 1
-        assert values[-1] < values[0]
-        assert all(later <= before * (1 + 1e-12) for before, later in pairwise(values))

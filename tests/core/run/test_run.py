@@ -11,7 +11,7 @@ from hexmend.gallery import make
 from hexmend.iteration import Outcome, Step
 from hexmend.iteration.figures import HISTORY
 from hexmend.quality import measure, summarise
-from hexmend.report import record, to_json, write_history, write_json
+from hexmend.report.records import record, to_json, write_history, write_json
 from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.smoothers import METHODS, Smoother
 from tests.core.grids import grid, scrambled

@@ -6,7 +6,7 @@ import pytest
 from hexmend.gallery import make
 from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
-from hexmend.report import record, to_json
+from hexmend.report.records import record, to_json
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS

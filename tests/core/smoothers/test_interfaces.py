@@ -137,9 +137,3 @@ def test_a_node_freed_from_an_interface_leaves_its_neighbours_sliding_on_it(name
     assert (after[[middle, *ring]] != mesh.points[[middle, *ring]]).any(axis=1).all()
     wave = 0.5 + 0.06 * np.sin(2 * np.pi * after[ring, 1]) * np.sin(2 * np.pi * after[ring, 2])
     assert np.abs(after[ring, 0] - wave).max() < 0.1 * mesh.mean_edge_length
-
-
-def test_an_interface_that_is_freed_as_a_whole_has_no_faces():
-    mesh = bumpy().with_rules(free="low")
-    assert len(SlidingBoundary(mesh).boundary.faces) == len(mesh.topology.boundary_faces)
-    assert len(SlidingBoundary(mesh).surface.trees.pieces) < len(SlidingBoundary(bumpy()).surface.trees.pieces)

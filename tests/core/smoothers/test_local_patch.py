@@ -114,22 +114,6 @@ def test_a_step_is_newtons_for_the_nodes_of_the_patch(seed, size, p):
     np.testing.assert_allclose(move, alpha * step, atol=1e-8 * np.abs(step).max() + 1e-12)
 
 
-@pytest.mark.parametrize("overlap", [0, 1])
-def test_large_systems_are_solved_by_conjugate_gradients_as_well(overlap):
-    mesh = scrambled(grid(9), 0.1, 3)
-    patches, smoother = partition_patches(mesh, 216, overlap), LocalPatch()
-    assert 3 * patches.nodes[0].size > 600
-    small, used, unit = part(mesh, patches, 0)
-    energy = MeshEnergy(small)
-    x = small.points / energy.unit
-    gradient, hessian = energy.gradient(x).ravel(), energy.hessian(x).assembled(np.float64).matrix()
-    points, (energies, derivatives) = swept(mesh, patches, 0, smoother, 0.0)
-    alpha = smoother.backtrack_factor ** (energies // derivatives - 1)
-    step = ((points[used] - mesh.points[used])[small.free] / unit / energy.unit / alpha).ravel()
-    best = gradient @ np.linalg.solve(hessian.toarray(), -gradient) / 2  # of the quadratic model
-    assert gradient @ step + step @ (hessian @ step) / 2 == pytest.approx(best, rel=0.01)
-
-
 @given(st.integers(0, 2**32 - 1), SIZES, OVERLAPS, st.sampled_from([1.0, 2.0, 5.0]), st.sampled_from([0.2, 0.7, 1.5]))
 def test_no_patch_raises_its_energy_nor_moves_a_node_of_others(seed, size, overlap, p, amplitude):
     mesh = scrambled(grid(4), amplitude, seed)

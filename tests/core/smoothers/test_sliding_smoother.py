@@ -13,7 +13,7 @@ from hexmend import io, kernels
 from hexmend.boundary import NodeClass, SlidingBoundary, surface_change
 from hexmend.cli.main import main
 from hexmend.quality import measure
-from hexmend.report import record
+from hexmend.report.records import record
 from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS

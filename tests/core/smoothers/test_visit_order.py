@@ -15,7 +15,6 @@ from hexmend.smoothers import METHODS
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend.smoothers.visit_order import ORDERS, VisitOrder
-from hexmend_app.state.node_step import Sweep
 from tests.core.grids import grid, scrambled
 
 LOCAL = [name for name, method in METHODS.items() if issubclass(method, LocalDescent)]
@@ -134,14 +133,3 @@ def test_laplacian_in_place_keeps_the_order(order):
         for i in sequence(points.copy(), sweep):
             points[i] = points[mesh.topology.rings[i]].mean(axis=0)
     np.testing.assert_allclose(after(mesh, Laplacian(order=order), 2), points, rtol=1e-13)
-
-
-@pytest.mark.parametrize(("order", "done"), list(zip(sorted(ORDERS), itertools.cycle([0, 5, 26, 27]))))
-def test_the_node_debugger_follows_the_order(order, done):
-    mesh = scrambled(grid(4), 0.4, 3)
-    smoother = METHODS["local-nr"](order=order)
-    sweep = Sweep(mesh, smoother)
-    visited = [step.node for step in itertools.islice(sweep, done)]
-    assert visited == ORDERS[order](mesh)(mesh.points, 0)[:done].tolist()
-    sweep.finish()
-    np.testing.assert_array_equal(sweep.points, after(mesh, smoother))

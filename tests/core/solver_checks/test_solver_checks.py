@@ -11,7 +11,7 @@ from hexmend.gallery import GALLERY, make
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.validity import least_jacobian
-from hexmend.report import to_json
+from hexmend.report.records import to_json
 from hexmend.solver_checks import SOLVERS, Level, check_mesh
 from tests.core.grids import grid
 from tests.core.quality.test_solver_metrics import second_order

@@ -124,7 +124,8 @@ def test_a_method_that_fails_has_a_row_and_the_others_are_run(mesh, monkeypatch)
 
 def test_settings_reach_the_methods_that_declare_them():
     laplacian, descent, newton = parse_methods(
-        ["laplacian", "local-sd", "local-nr", "local-sd"], {"local-nr.delta": "0.2", "delta": "0.1", "max-backtracks": "7"}
+        ["laplacian", "local-sd", "local-nr", "local-sd"],
+        {"local-nr.delta": "0.2", "delta": "0.1", "max-backtracks": "7"},
     )
     assert (laplacian.name, descent.name, newton.name) == ("laplacian", "local-sd", "local-nr")
     assert (descent.delta, newton.delta) == (0.1, 0.2)

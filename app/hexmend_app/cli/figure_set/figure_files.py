@@ -8,12 +8,12 @@ import sys
 from hexmend.cli.arguments.checks import check_memory
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.process.interrupts import FinishWriting
-from hexmend.report import output_folder
-from hexmend.report.charts import WIDTHS, check_matplotlib
+from hexmend.report.documents import output_folder
 from hexmend_app.cli import run_options
 from hexmend_app.cli.numbers import invalid_value, numbers
 from hexmend_app.report import figure_set
 from hexmend_app.report.case import command_line, run_methods, source_of
+from hexmend_app.report.charts import WIDTHS, check_matplotlib
 from hexmend_app.report.figure_captions import write_captions
 from hexmend_app.report.figure_set import PARTS, Style, check_pages
 

@@ -13,7 +13,6 @@ from hexmend.cli.output.progress import Progress, show_count
 from hexmend.cli.process.interrupts import CleanExit, FinishWriting
 from hexmend.io.storage.atomic import check_writable
 from hexmend.io.storage.suffixes import suffix_for
-from hexmend.report.charts import check_matplotlib
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import Smoother
@@ -21,6 +20,7 @@ from hexmend.terminal_text import printable
 from hexmend_app.cli import run_options
 from hexmend_app.report import case, page
 from hexmend_app.report.case import command_line
+from hexmend_app.report.charts import check_matplotlib
 from hexmend_app.report.figure_set import Figure, Style, check_pages
 from hexmend_app.report.page import Chapter, write_page
 from hexmend_app.report.pdf import check_pdf, write_pdf

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from html import escape
+from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QSizePolicy, QWidget
@@ -16,7 +17,8 @@ from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.picture.quantities import MATERIAL, colour_quantity
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import better, declared_range
-from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import WORSE, labelled, note, set_help, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -48,12 +50,9 @@ class ColourPanel(QWidget):
     -------
     colours_changed(Colours)
         The user changed the colours. Limits count once entered, stepped, or left for another field.
-    shading_changed(bool)
-        The user switched ambient occlusion.
     """
 
     colours_changed = Signal(object)
-    shading_changed = Signal(bool)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -78,9 +77,9 @@ class ColourPanel(QWidget):
         self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
         set_help(self._low, tr("Minimum value"), tr("Value of the first colour; to set it, select Pinned."))
         set_help(self._high, tr("Maximum value"), tr("Value of the last colour; to set it, select Pinned."))
-        self._neutral, self._shading = QCheckBox(tr("Neutral")), QCheckBox(tr("Shading"))
+        self._neutral, self.shading = QCheckBox(tr("Neutral")), QCheckBox(tr("Shading"))
         set_help(self._neutral, tr("Neutral"), tr(NEUTRAL))
-        set_help(self._shading, tr("Shading"), tr(SHADING))
+        set_help(self.shading, tr("Shading"), tr(SHADING))
         self._problem = note(colour=WORSE)
         self._problem.hide()
         self._lay_out()
@@ -90,7 +89,6 @@ class ColourPanel(QWidget):
         self._reverse.clicked.connect(lambda on: self._change(reverse=on))
         self._range.chosen.connect(self._on_range)
         self._neutral.clicked.connect(lambda on: self._change(neutral=on))
-        self._shading.clicked.connect(self.shading_changed)
         for box in (self._low, self._high):
             box.changed.connect(lambda box=box: self._on_number(box))
             box.editingFinished.connect(self._on_numbers)
@@ -100,23 +98,14 @@ class ColourPanel(QWidget):
     def _lay_out(self) -> None:
         grid = form_grid(self)
         for row, (text, widget) in enumerate(((tr("Colours"), self._metric), (tr("Map"), self._map))):
-            label = QLabel(text)
-            label.setBuddy(widget)
-            grid.addWidget(label, row, 0)
+            grid.addWidget(labelled(text, widget), row, 0)
             grid.addWidget(widget, row, 1, 1, 1 if widget is self._map else 2)
         grid.addWidget(self._range, 2, 0, 1, 3)  # four texts need the whole width
         grid.addWidget(self._reverse, 1, 2)
         self.setTabOrder(self._map, self._reverse)
-        numbers = QHBoxLayout()
-        numbers.setSpacing(4)
-        for widget in (self._low, QLabel(tr("to")), self._high):
-            numbers.addWidget(widget, 0 if isinstance(widget, QLabel) else 1)
+        numbers = fill(QHBoxLayout(), (self._low, 1), QLabel(tr("to")), (self._high, 1), spacing=4)
         grid.addLayout(numbers, 3, 0, 1, 3)
-        options = QHBoxLayout()
-        options.setSpacing(16)
-        options.addWidget(self._neutral)
-        options.addWidget(self._shading)
-        options.addStretch()
+        options = fill(QHBoxLayout(), self._neutral, self.shading, None, spacing=16)
         grid.addLayout(options, 4, 0, 1, 3)
         grid.addWidget(self._problem, 5, 0, 1, 3)
 
@@ -124,10 +113,6 @@ class ColourPanel(QWidget):
         """Show colours; emits no signal."""
         if colours != self._colours:
             self._apply(colours)
-
-    def set_shading(self, on: bool) -> None:
-        """Show whether ambient occlusion is on; emits no signal."""
-        self._shading.setChecked(on)
 
     def colours(self) -> Colours:
         """Return the colours shown."""
@@ -178,7 +163,7 @@ class ColourPanel(QWidget):
             self._pinned[self._colours.metric] = range
             self._change(range=range)
 
-    def _change(self, **keys: object) -> None:
+    def _change(self, **keys: Any) -> None:
         colours = dataclasses.replace(self._colours, **keys)
         if colours != self._colours:
             self._apply(colours)
@@ -193,7 +178,7 @@ class ColourPanel(QWidget):
     def _show_problem(self) -> bool:
         """Show the error in the limits, if any; return True if there is one."""
         text = ""
-        if self._is_pinned:
+        if isinstance(self._colours.range, tuple):
             text = self._low.problem or self._high.problem
             if not text and not self._low.value() < self._high.value():
                 low, high = (short_number(end) for end in self._colours.range)
@@ -202,12 +187,11 @@ class ColourPanel(QWidget):
                     low=low,
                     high=high,
                 )
-        self._problem.setText(text)
-        self._problem.setVisible(bool(text))
+        show_text(self._problem, text)
         return bool(text)
 
     def _show_ends(self) -> None:
-        ends = self._colours.range if self._is_pinned else _rounded(*self._ends)
+        ends = self._colours.range if isinstance(self._colours.range, tuple) else _rounded(*self._ends)
         for box, end in zip((self._low, self._high), ends, strict=True):
             if box.value() != end or box.problem:
                 box.set_value(end)
@@ -220,7 +204,7 @@ class ColourPanel(QWidget):
         self._map.show_map(colours.map, change=colours.metric == "q-change")
         self._reverse.setChecked(colours.reverse)
         self._neutral.setChecked(colours.neutral)
-        self._range.set_value(_PINNED if self._is_pinned else colours.range.value)
+        self._range.set_value(_PINNED if isinstance(colours.range, tuple) else colours.range.value)
         for range in (Range.FULL, Range.ACCEPTABLE):
             text, help = _RANGES[range]
             ends, button = declared_range(colours.metric, range), self._range.button(range.value)
@@ -240,16 +224,16 @@ def _description(name: str) -> str:
     """Return the description of a metric as rich text."""
     metric = colour_quantity(name)
     if metric is MATERIAL:
-        lines = (f"<b>{escape(tr(metric.title))}</b>", escape(tr(metric.formula)), escape(tr(metric.meaning)))
+        lines = [f"<b>{escape(tr(metric.title))}</b>", escape(tr(metric.formula)), escape(tr(metric.meaning))]
         return f"<qt>{'<br>'.join(lines)}</qt>"
     direction = {1: tr("Higher is better."), -1: tr("Lower is better."), 0: ""}[better(name)]
     full, acceptable = _range_text(metric.full_range), _range_text(metric.acceptable)
-    lines = (
+    lines = [
         f"<b>{escape(tr(metric.title))}</b>",
         escape(tr(metric.formula)),
         tr("Full range {full}; acceptable {acceptable}.", full=full, acceptable=acceptable) + f" {direction}",
         f"<i>{escape(metric.source)}</i>",
-    )
+    ]
     return f"<qt>{'<br>'.join(lines)}</qt>"
 
 

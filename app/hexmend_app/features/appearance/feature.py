@@ -36,7 +36,7 @@ class FeatureAppearance(Feature):
         self._metric_before = view.look.colours.metric  # before the colours showed materials
         self.panel = ColourPanel()
         self.panel.colours_changed.connect(lambda colours: view.change(colours=colours))
-        self.panel.shading_changed.connect(self._shade)
+        self.panel.shading.clicked.connect(self._shade)
         view.metric_wanted.connect(self.panel.choose_metric)
 
     def actions(self) -> Sequence[Action]:
@@ -119,7 +119,7 @@ class FeatureAppearance(Feature):
     def _show_panel(self) -> None:
         self.panel.setEnabled(self.session.document.is_open)
         self.panel.set_colours(self._view.look.colours)
-        self.panel.set_shading(self._view.look.page.shading)
+        self.panel.shading.setChecked(self._view.look.page.shading)
         if self.canvas is not None and self.canvas.colouring is not None:
             self.panel.set_ends(self.canvas.colouring.low, self.canvas.colouring.high)
 

@@ -62,7 +62,7 @@ def _swatch(name: str) -> QIcon:
     height, width, _ = colours.shape
     pixmap = QPixmap.fromImage(QImage(colours.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888))
     pixmap = pixmap.scaled(
-        4 * _SWATCH, Qt.AspectRatioMode.IgnoreAspectRatio, Qt.TransformationMode.SmoothTransformation
+        _SWATCH * 4, Qt.AspectRatioMode.IgnoreAspectRatio, Qt.TransformationMode.SmoothTransformation
     )
     painter = QPainter(pixmap)
     painter.setPen(QColor(str(LINE)))

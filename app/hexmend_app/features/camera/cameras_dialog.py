@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
 
 from hexmend.errors import ParameterError
 from hexmend_app.state.view.saved_cameras import SavedCameras
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import WORSE, note, set_help, show_text
 from hexmend_app.translation import tr
 
 _NAME = Qt.ItemDataRole.UserRole
@@ -65,19 +65,11 @@ class CamerasDialog(QDialog):
         cameras.changed.connect(self._on_changed, Qt.ConnectionType.QueuedConnection)
 
     def _lay_out(self) -> None:
-        column = on_grid(QVBoxLayout())
-        for button in self._buttons:
-            column.addWidget(button)
-        column.addStretch()
-        row = on_grid(QHBoxLayout())
-        row.addWidget(self.list, 1)
-        row.addLayout(column)
+        column = fill(QVBoxLayout(), *self._buttons, None)
+        row = fill(QHBoxLayout(), (self.list, 1), column)
         close = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         close.rejected.connect(self.reject)
-        layout = on_grid(QVBoxLayout(self))
-        layout.addLayout(row, 1)
-        layout.addWidget(self._problem)
-        layout.addWidget(close)
+        fill(QVBoxLayout(self), (row, 1), self._problem, close)
         self._problem.hide()
         self.resize(380, 260)
 
@@ -116,12 +108,12 @@ class CamerasDialog(QDialog):
         self.list.blockSignals(True)
         item.setText(before)
         self.list.blockSignals(False)
-        self._show_problem(problem)
+        show_text(self._problem, problem)
 
     def _on_changed(self) -> None:
         """Refresh the list and keep the selected row."""
         row = self.list.currentRow()
-        self._show_problem("")
+        show_text(self._problem, "")
         self._fill()
         self.list.setCurrentRow(min(max(row, 0), self.list.count() - 1))
 
@@ -140,7 +132,3 @@ class CamerasDialog(QDialog):
     def _enable(self) -> None:
         for button in self._buttons:
             button.setEnabled(bool(self._name))
-
-    def _show_problem(self, problem: str) -> None:
-        self._problem.setText(problem)
-        self._problem.setVisible(bool(problem))

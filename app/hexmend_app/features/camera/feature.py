@@ -12,6 +12,7 @@ from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
 from hexmend_app.features.camera.cameras_dialog import CamerasDialog
 from hexmend_app.features.camera.cameras_menu import CamerasMenu
 from hexmend_app.picture import Camera, camera_from, camera_text
+from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.state.view.camera_request import CameraData, PoseHistoryData
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_camera_name
@@ -58,14 +59,13 @@ class FeatureCamera(Feature):
                 icon="arrow-expand-all",
                 help=tr("Fit the visible mesh to the view."),
                 tool=tr("Fit"),
-                moves_camera=True,
                 handle=lambda: self.canvas.fit(),
                 enabled=self._ready,
                 in_view=True,
             ),
             *self._directions(),
             self._move("face", tr("Face cutting pl&ane"), "Shift+C", tr("Look along the normal of the plane."),
-                       self._face, lambda: self._plane is not None, in_view=True),
+                       lambda: self.canvas.face(self._plane), lambda: self._plane is not None, in_view=True),
             self._move("roll_left", tr("Roll &left"), "Shift+[", tr("Rotate the view by {angle}° counter-clockwise.",
                        angle=_ROLL), lambda: self.canvas.roll(_ROLL)),
             self._move("roll_right", tr("Roll ri&ght"), "Shift+]", tr("Rotate the view by {angle}° clockwise.",
@@ -86,7 +86,6 @@ class FeatureCamera(Feature):
                     enabled=self._ready,
                     checked=lambda axis=axis: self.canvas is not None and self.canvas.up == axis,
                     exclusive=True,
-                    moves_camera=True,
                 )
                 for axis in "xyz"
             ),
@@ -104,7 +103,6 @@ class FeatureCamera(Feature):
                 handle=lambda on: self.canvas.set_parallel(on),
                 enabled=self._ready,
                 checked=lambda: self.canvas is not None and self.canvas.parallel,
-                moves_camera=True,
             ),
         )  # fmt: skip
 
@@ -121,7 +119,6 @@ class FeatureCamera(Feature):
                 if name == "iso"
                 else tr("Look at the mesh from {direction}.", direction=name.replace("-", "−")),
                 tool=tr(tool),
-                moves_camera=True,
                 handle=lambda name=name: self.canvas.look_along(name),
                 enabled=self._ready,
             )
@@ -195,7 +192,6 @@ class FeatureCamera(Feature):
             handle=handle,
             enabled=lambda: self._ready() and enabled(),
             in_view=in_view,
-            moves_camera=True,
         )
 
     def copy(self) -> None:
@@ -270,15 +266,12 @@ class FeatureCamera(Feature):
         return self.canvas is not None
 
     @property
-    def _plane(self) -> object:
+    def _plane(self) -> Plane | None:
         """Selected cutting plane, or the middle of the slab; None if there is neither."""
         cut = self.session.view.look.cut
         if cut.slab is not None:
             return cut.slab.middle
         return cut.planes[self.session.view.plane_at] if cut.planes else None
-
-    def _face(self) -> None:
-        self.canvas.face(self._plane)
 
     def _fly(self, hexes: tuple[int, ...]) -> None:
         if self.canvas is not None and self.session.document.is_open:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QModelIndex, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_known
 from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import MUTED, icon, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -49,24 +50,17 @@ class ComparePanel(QWidget):
     -------
     run_requested(names)
         The user started these methods, in the order of the unsorted table.
-    cancel_requested
     view_toggled(name, on)
         The user showed or hid the mesh of a row.
     use_requested(name)
         The user replaced the mesh by the result of a row.
-    save_requested
-    wipe_toggled(bool)
-        The user switched between a wipe and views side by side.
     can_run_changed
         The value of `can_run` changed.
     """
 
     run_requested = Signal(list)
-    cancel_requested = Signal()
     view_toggled = Signal(str, bool)
     use_requested = Signal(str)
-    save_requested = Signal()
-    wipe_toggled = Signal(bool)
     can_run_changed = Signal()
 
     def __init__(self, ticks: Sequence[str] = (), parent: QWidget | None = None):
@@ -78,15 +72,17 @@ class ComparePanel(QWidget):
         self._model.ticked.connect(self._enable)
         self._run = QPushButton(icon("play"), tr("Run"))
         set_help(self._run, tr("Run comparison"), tr("Run the selected methods in turn. The mesh does not change."))
-        self._cancel = QPushButton(icon("stop"), tr("Cancel"))
-        set_help(self._cancel, tr("Cancel comparison"), tr("Stop after the current iteration and keep the results."))
-        self._wipe = QPushButton(icon("compare"), tr("Wipe"))
-        self._wipe.setCheckable(True)
-        set_help(self._wipe, tr("Wipe"), tr("Show two views in one, with an edge between them to drag (W)."))
+        self.cancel_button = QPushButton(icon("stop"), tr("Cancel"))
+        set_help(
+            self.cancel_button, tr("Cancel comparison"), tr("Stop after the current iteration and keep the results.")
+        )
+        self.wipe_button = QPushButton(icon("compare"), tr("Wipe"))
+        self.wipe_button.setCheckable(True)
+        set_help(self.wipe_button, tr("Wipe"), tr("Show two views in one, with an edge between them to drag (W)."))
         self._use = QPushButton(tr("Use result"))
         set_help(self._use, tr("Use result"), tr("Replace the mesh by the result of the selected row. Can be undone."))
-        self._save = QPushButton(icon("content-save-outline"), "")
-        set_help(self._save, tr("Save table"), tr("Save the table as CSV, Markdown, LaTeX or JSON."))
+        self.save_button = QPushButton(icon("content-save-outline"), "")
+        set_help(self.save_button, tr("Save table"), tr("Save the table as CSV, Markdown, LaTeX or JSON."))
         self._status = ElidingLabel()
         self._status.setFont(tabular(smaller(self._status.font())))
         self._status.setAccessibleName(tr("Comparison progress"))
@@ -94,10 +90,7 @@ class ComparePanel(QWidget):
         self._table = self._make_table()
         self._lay_out()
         self._run.clicked.connect(self.run)
-        self._cancel.clicked.connect(self.cancel_requested)
-        self._wipe.clicked.connect(self.wipe_toggled)
         self._use.clicked.connect(lambda: self.use_requested.emit(self._selected()))
-        self._save.clicked.connect(self.save_requested)
         self.set_status()
 
     def _make_table(self) -> QTableView:
@@ -115,19 +108,12 @@ class ComparePanel(QWidget):
         return table
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        buttons = (self._run, self._cancel, self._wipe, self._use, self._save)
+        buttons = (self._run, self.cancel_button, self.wipe_button, self._use, self.save_button)
         height = max(button.sizeHint().height() for button in buttons)  # buttons with an icon are taller
         for button in buttons:
             button.setFixedHeight(height)
-            head.addWidget(button)
-        head.insertStretch(2)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 4, 8, 4)
-        layout.setSpacing(4)
-        layout.addLayout(head)
-        layout.addWidget(self._table, 1)
-        layout.addWidget(self._status)
+        head = fill(QHBoxLayout(), *buttons[:2], None, *buttons[2:], spacing=4)
+        fill(QVBoxLayout(self), head, (self._table, 1), self._status, margins=(8, 4, 8, 4), spacing=4)
 
     def set_entries(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:
         """Show rows.
@@ -183,8 +169,8 @@ class ComparePanel(QWidget):
             Two views are shown as a wipe.
         """
         self._runnable, self._editable = runnable, editable
-        self._wipe.setEnabled(several)
-        self._wipe.setChecked(wiping)
+        self.wipe_button.setEnabled(several)
+        self.wipe_button.setChecked(wiping)
         self._enable()
 
     def set_status(self, text: str = "") -> None:
@@ -207,7 +193,7 @@ class ComparePanel(QWidget):
         rows = self._table.selectionModel().selectedRows()
         return self._model.entries[rows[0].row()].name if rows else ""
 
-    def _toggle(self, index: object) -> None:
+    def _toggle(self, index: QModelIndex) -> None:
         if index.column() != METHOD:
             view = self._model.index(index.row(), VIEW)
             if self._model.flags(view) & Qt.ItemFlag.ItemIsUserCheckable:
@@ -219,7 +205,7 @@ class ComparePanel(QWidget):
         if self._run.isEnabled() != self.can_run:
             self._run.setEnabled(self.can_run)
             self.can_run_changed.emit()
-        self._cancel.setEnabled(model.busy)
+        self.cancel_button.setEnabled(model.busy)
         has_mesh = any(one.name == name and one.has_mesh for one in model.entries)
         self._use.setEnabled(self._editable and has_mesh)
-        self._save.setEnabled(any(one.record and one.name != INITIAL for one in model.entries) and not model.busy)
+        self.save_button.setEnabled(any(one.record and one.name != INITIAL for one in model.entries) and not model.busy)

@@ -6,14 +6,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt, Signal
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.quality import REGRESSION_KEYS
-from hexmend.quantity import Quantity, format_column
+from hexmend.quantity import Quantity
 from hexmend.report.comparison import KEPT_START, LINES, label
 from hexmend.smoothers import METHODS
-from hexmend_app.theme.style import BETTER, MUTED, WORSE, tabular
+from hexmend_app.features.compare.column_format import format_column
+from hexmend_app.theme.style import BETTER, MUTED, WORSE, bold, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import with_minus
 
@@ -170,13 +171,13 @@ class ComparisonModel(QAbstractTableModel):
             self.dataChanged.emit(self.index(0, METHOD), self.index(len(self.entries) - 1, METHOD))
         self.ticked.emit()
 
-    def rowCount(self, parent: QModelIndex | None = None) -> int:
+    def rowCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
         return 0 if parent is not None and parent.isValid() else len(self.entries)
 
-    def columnCount(self, parent: QModelIndex | None = None) -> int:
+    def columnCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
         return 0 if parent is not None and parent.isValid() else _FIRST + len(LINES)
 
-    def flags(self, index: QModelIndex) -> Qt.ItemFlag:
+    def flags(self, index: QModelIndex | QPersistentModelIndex) -> Qt.ItemFlag:
         entry, selectable = self.entries[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
         if index.column() == METHOD and entry.name != INITIAL:
             return selectable | _Flag.ItemIsUserCheckable if not self.busy else selectable
@@ -185,7 +186,7 @@ class ComparisonModel(QAbstractTableModel):
             return selectable | _Flag.ItemIsUserCheckable if can_toggle else _Flag.ItemIsSelectable
         return selectable
 
-    def data(self, index: QModelIndex, role: int = _Role.DisplayRole) -> Any:
+    def data(self, index: QModelIndex | QPersistentModelIndex, role: int = _Role.DisplayRole) -> Any:
         entry, column = self.entries[index.row()], index.column()
         quantity = LINES[column - _FIRST] if column >= _FIRST else None
         if role == _Role.DisplayRole:
@@ -212,9 +213,7 @@ class ComparisonModel(QAbstractTableModel):
     def _emphasis(self, entry: ComparisonRow, quantity: Quantity, at: int, role: int) -> Any:
         is_best, texts = entry.name in self._best[at], self._texts[at]
         if role == _Role.FontRole and is_best:
-            font = tabular(QFont())
-            font.setBold(True)
-            return font
+            return bold(tabular(QFont()))
         regressed = quantity.key in {REGRESSION_KEYS.get(name, name) for name in entry.record.get("worse", ())}
         regressed = regressed and texts[entry.name] != texts.get(INITIAL)
         if role == _Role.AccessibleTextRole and (is_best or regressed):
@@ -225,7 +224,7 @@ class ComparisonModel(QAbstractTableModel):
             return colour and QBrush(QColor(str(colour)))
         return None
 
-    def setData(self, index: QModelIndex, value: Any, role: int = _Role.EditRole) -> bool:
+    def setData(self, index: QModelIndex | QPersistentModelIndex, value: Any, role: int = _Role.EditRole) -> bool:
         if role != _Role.CheckStateRole:
             return False
         on, name = Qt.CheckState(value) == Qt.CheckState.Checked, self.entries[index.row()].name

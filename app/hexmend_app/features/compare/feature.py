@@ -8,15 +8,15 @@ from typing import Any
 
 from hexmend.energy.norm import ObjectiveNorm
 from hexmend.quality import objective
-from hexmend.report import markdown, record_table, write_comparison
-from hexmend.report.charts import ChartStyle
-from hexmend.report.comparison import LINES
+from hexmend.report.comparison import LINES, record_table, write_comparison
+from hexmend.report.markdown import markdown
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import common_norm
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
+from hexmend_app.report.charts import ChartStyle
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.comparison import MethodResult
 from hexmend_app.translation import tr
@@ -41,12 +41,12 @@ class FeatureCompare(Feature):
         self._seen = ChangeTracker()
         self._style = ChartStyle()  # of the last saved table
         panel = self.panel = ComparePanel(TICKED)
-        panel.run_requested.connect(self._run)
-        panel.cancel_requested.connect(self._comparison.cancel)
+        panel.run_requested.connect(lambda names: session.run_setup.use(lambda stage: self._start(names, stage)))
+        panel.cancel_button.clicked.connect(self._comparison.cancel)
         panel.view_toggled.connect(self._toggle)
         panel.use_requested.connect(self._use)
-        panel.wipe_toggled.connect(self._views.set_wiping)
-        panel.save_requested.connect(self.ask)
+        panel.wipe_button.clicked.connect(self._views.set_wiping)
+        panel.save_button.clicked.connect(self.ask)
         panel.can_run_changed.connect(host.refresh_soon)
 
     def actions(self) -> Sequence[Action]:
@@ -160,9 +160,6 @@ class FeatureCompare(Feature):
             )
 
     # Requests of the user
-
-    def _run(self, names: list[str]) -> None:
-        self.session.run_setup.use(lambda stage: self._start(names, stage))
 
     def _start(self, names: list[str], stage: Stage) -> None:
         if self.session.editable:

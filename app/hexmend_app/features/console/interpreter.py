@@ -79,7 +79,7 @@ class Interpreter:
         """Return the names that begin with a text, such as `mesh.qu`, sorted."""
         from rlcompleter import Completer  # loads readline
 
-        completer, names = Completer(self.namespace), []
+        completer, names = Completer(self.namespace), list[str]()
         while (name := completer.complete(text, len(names))) is not None:
             names.append(name)
         return sorted({name.rstrip("(): ") for name in names})

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QColor, QFontDatabase, QKeyEvent, QTextCharFormat, QTextCursor
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
-from hexmend_app.theme.palette import MUTED, TEXT, WORSE
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.palette import MUTED, TEXT, WORSE, Role
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import BLUE, icon, set_help
 from hexmend_app.translation import tr
 
@@ -36,10 +38,10 @@ class ConsolePanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
-        self.output = QPlainTextEdit(readOnly=True, maximumBlockCount=_MAX_LINES, font=font)
+        self.output = QPlainTextEdit(readOnly=True, maximumBlockCount=_MAX_LINES)
         self.output.setUndoRedoEnabled(False)
         set_help(self.output, tr("Console output"), tr("Output and values of commands."))
-        self.input = QPlainTextEdit(font=font, tabChangesFocus=True)
+        self.input = QPlainTextEdit(tabChangesFocus=True)
         self.input.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAsNeeded)
         self.input.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         set_help(
@@ -55,26 +57,20 @@ class ConsolePanel(QWidget):
         clear = QPushButton(icon("eraser"), tr("Clear"))
         set_help(clear, tr("Clear output"), tr("Clear the output of the console."))
         clear.clicked.connect(self.output.clear)
-        self._prompt = QLabel(">>>", font=font)
-        line = on_grid(QHBoxLayout())
-        line.addWidget(self._prompt)
-        line.addWidget(self.input, 1)
-        line.addWidget(self._interrupt)
-        line.addWidget(clear)
-        column = on_grid(QVBoxLayout(self))
-        column.setContentsMargins(8, 8, 8, 8)
-        column.addWidget(self.output, 1)
-        column.addLayout(line)
+        self._prompt = QLabel(">>>")
+        self._prompt.setFont(font)
+        line = fill(QHBoxLayout(), self._prompt, (self.input, 1), self._interrupt, clear)
+        fill(QVBoxLayout(self), (self.output, 1), line, margins=(8, 8, 8, 8))
         self._history: list[str] = []
         self._at = 0
-        self.completions = lambda text: []
+        self.completions: Callable[[str], list[str]] = lambda text: []
         self.set_running(False)
         self._fit()
         self.print_text(tr(_WELCOME), MUTED)
 
     # Output
 
-    def print_text(self, text: str, colour: str = TEXT) -> None:
+    def print_text(self, text: str, colour: Role = TEXT) -> None:
         """Append text; scroll to the end if it was visible."""
         bar = self.output.verticalScrollBar()
         at_end = bar.value() == bar.maximum()
@@ -118,7 +114,7 @@ class ConsolePanel(QWidget):
         margin = round(2 * self.input.document().documentMargin()) + 2 * self.input.frameWidth()
         self.input.setFixedHeight(rows * self.input.fontMetrics().lineSpacing() + margin + 2)
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+    def eventFilter(self, watched: QObject, event: Any) -> bool:
         """Handle the keys of the input: run, complete, history, interrupt."""
         if event.type() == QEvent.Type.KeyPress:
             return self._on_key(event)

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.io.storage.suffixes import suffix_for
-from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.documents import write_csv
 from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, Chart
 from hexmend_app.features.convergence.curves import Columns, Curve, axis_title, colour_of, run_start
+from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend_app.report.convergence import DASHES, Convergence, DrawnChart, DrawnCurve
 from hexmend_app.state.mesh.run_record import RunRecord
 
@@ -19,23 +20,12 @@ from hexmend_app.state.mesh.run_record import RunRecord
 SUFFIXES = (*FIGURE_SUFFIXES, ".csv")
 
 
-def write_convergence(
-    path: str | Path,
-    title: str,
-    runs: Sequence[RunRecord],
-    charts: Sequence[str] = DEFAULT_CHARTS,
-    *,
-    by_time: bool = False,
-    log: bool = True,
-    from_zero: bool = False,
-    current: RunRecord | None = None,
-    style: ChartStyle | None = None,
-) -> None:
-    """Write the charts as SVG, PDF or PNG, or all values of all runs as CSV, by the suffix of the path.
+@dataclass(frozen=True)
+class ConvergenceExport:
+    """Charts of runs to be exported.
 
     Parameters
     ----------
-    path : path-like
     title : str
         Title of the figure.
     runs : sequence of RunRecord
@@ -50,36 +40,36 @@ def write_convergence(
         Start branches at 0 instead of where they branched off.
     current : RunRecord, optional
         Run drawn with a thick line.
-    style : ChartStyle, optional
-        Sizes, and other names of runs.
-
-    Raises
-    ------
-    HexmendError
-        If the suffix is another one or the file cannot be written; an existing file is not changed.
     """
-    style = ChartStyle() if style is None else style
-    if suffix_for(Path(path), "a chart", SUFFIXES) == ".csv":
-        write_csv(Path(path), [row for run in runs for row in _rows(run, style.names)])
-    else:
-        drawn = figure(title, runs, charts, by_time=by_time, log=log, from_zero=from_zero, current=current)
-        write_chart(Path(path), drawn.draw, style)
 
+    title: str
+    runs: Sequence[RunRecord]
+    charts: Sequence[str] = DEFAULT_CHARTS
+    by_time: bool = False
+    log: bool = True
+    from_zero: bool = False
+    current: RunRecord | None = None
 
-def figure(
-    title: str,
-    runs: Sequence[RunRecord],
-    charts: Sequence[str] = DEFAULT_CHARTS,
-    *,
-    by_time: bool = False,
-    log: bool = True,
-    from_zero: bool = False,
-    current: RunRecord | None = None,
-) -> Convergence:
-    """Return the charts as a figure; see `write_convergence` for the parameters."""
-    curves = [_curve(run, from_zero, run is current) for run in runs if run.plotted and run.rows]
-    drawn = [_drawn(CHARTS[key], curves, by_time, log) for key in charts]
-    return Convergence(drawn, title, axis_title(curves, by_time), not by_time)
+    def write(self, path: str | Path, style: ChartStyle | None = None) -> None:
+        """Write the charts as SVG, PDF or PNG, or all values of all runs as CSV, by the suffix of the path.
+
+        Raises
+        ------
+        HexmendError
+            If the suffix is another one or the file cannot be written; an existing file is not changed.
+        """
+        style = ChartStyle() if style is None else style
+        if suffix_for(Path(path), "a chart", SUFFIXES) == ".csv":
+            write_csv(Path(path), [row for run in self.runs for row in _rows(run, style.names)])
+        else:
+            write_chart(Path(path), self.figure().draw, style)
+
+    def figure(self) -> Convergence:
+        """Return the charts as a figure for print."""
+        plotted = [run for run in self.runs if run.plotted and run.rows]
+        curves = [_curve(run, self.from_zero, run is self.current) for run in plotted]
+        drawn = [_drawn(CHARTS[key], curves, self.by_time, self.log) for key in self.charts]
+        return Convergence(drawn, self.title, axis_title(curves, self.by_time), not self.by_time)
 
 
 def _curve(run: RunRecord, from_zero: bool, current: bool) -> Curve:

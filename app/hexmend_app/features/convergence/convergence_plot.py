@@ -16,7 +16,7 @@ from hexmend_app.features.convergence.curves import Curve, colour_of
 from hexmend_app.features.convergence.point_texts import reason_if_blank, titled
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.palette import TEXT
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import note, on_theme_change, set_help, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot, log_ticks
@@ -25,7 +25,7 @@ _STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine)
 _DASHES = ("—", "- -", "···")
 
 #: Largest distance of a click from a curve that selects it, in pixels; farther away the current run is selected.
-_PICK_DISTANCE = 12
+_PICK_DISTANCE = 12.0
 
 _MIN_HEIGHT = 46
 
@@ -118,11 +118,7 @@ class ConvergencePlot(QWidget):
         self._by_time = self._log = False
         self._dragged_record: RunRecord | None = None
         self.zero: float | None = None
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.title)
-        layout.addWidget(self.plot, 1)
+        fill(QVBoxLayout(self), self.title, (self.plot, 1), margins=(0, 0, 0, 0), spacing=0)
         self.view.picked.connect(self._on_picked)
         self.plot.scene().sigMouseMoved.connect(self._on_moved)
         on_theme_change(self, self._paint)
@@ -187,10 +183,6 @@ class ConvergencePlot(QWidget):
         self.marker.setVisible(x is not None)
         if x is not None:
             self.marker.setValue(x)
-
-    def set_x_range(self, low: float, high: float) -> None:
-        """Set the ends of the horizontal axis."""
-        self.plot.setXRange(low, high, padding=0)
 
     def set_bottom_axis(self, label: str | None, left_width: int) -> None:
         """Set the label of the horizontal axis, and the width of the vertical axis.

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from superqt.utils import QSignalThrottler
 
-from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
-from hexmend_app.features.convergence.chart_file import figure, write_convergence
+from hexmend_app.features.convergence.chart_file import ConvergenceExport
 from hexmend_app.features.convergence.charts import ChartSettings
 from hexmend_app.features.convergence.curves import Columns, Curve, run_start
 from hexmend_app.features.convergence.panel import ConvergencePanel
+from hexmend_app.report.charts import ChartStyle
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.translation import tr
@@ -44,11 +43,11 @@ class FeatureConvergence(Feature):
         self._throttler = QSignalThrottler(parent=panel)
         self._throttler.setTimeout(_PERIOD)
         self._throttler.triggered.connect(self._show)
-        panel.from_zero_changed.connect(self._show)
-        panel.toggled.connect(self._on_toggled)
-        panel.forget_requested.connect(timeline.delete)
+        panel.head.from_zero.toggled.connect(self._show)
+        panel.legend.toggled.connect(self._on_toggled)
+        panel.legend.forget_requested.connect(timeline.delete)
         panel.picked.connect(timeline.go_soon)
-        panel.save_requested.connect(self.ask)
+        panel.head.save.triggered.connect(self.ask)
 
     def states(self) -> Sequence[StatePart]:
         """Return the settings of the charts."""
@@ -126,26 +125,26 @@ class FeatureConvergence(Feature):
 
     def dialog(self) -> ChartDialog:
         """Return the dialog that saves the charts, with the style used last."""
-        chart, file_name = figure(**self._exported()), f"{self.host.stem}-convergence.svg"
+        chart, file_name = self._exported().figure(), f"{self.host.stem}-convergence.svg"
         return ChartDialog(chart, tr("the charts"), file_name, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts, or the values of all runs if the suffix is .csv; return True on success."""
         return self.host.try_and_report(
             tr("Charts not saved"),
-            lambda: write_convergence(path, **self._exported(), style=style),
+            lambda: self._exported().write(path, style),
             tr("Convergence saved to {path}", path=path),
         )
 
-    def _exported(self) -> dict[str, Any]:
-        """Return the arguments of `figure`."""
+    def _exported(self) -> ConvergenceExport:
+        """Return the charts that are shown."""
         settings = self.panel.head.settings()
-        return {
-            "title": self._document.name,
-            "runs": self._history.records,
-            "charts": settings.shown,
-            "by_time": settings.by_time,
-            "log": settings.logarithmic,
-            "from_zero": settings.from_zero,
-            "current": self._timeline.record,
-        }
+        return ConvergenceExport(
+            self._document.name,
+            self._history.records,
+            settings.shown,
+            settings.by_time,
+            settings.logarithmic,
+            settings.from_zero,
+            self._timeline.record,
+        )

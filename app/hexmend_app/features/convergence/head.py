@@ -7,7 +7,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
 from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, ChartSettings
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.menu_button import MenuButton
@@ -33,15 +33,10 @@ class ConvergenceHead(QWidget):
         The user selected other charts.
     axes_changed
         The user changed between iterations and seconds, or between linear and logarithmic.
-    from_zero_changed
-        The user changed the start of branches.
-    save_requested
     """
 
     charts_changed = Signal()
     axes_changed = Signal()
-    from_zero_changed = Signal()
-    save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -57,11 +52,9 @@ class ConvergenceHead(QWidget):
         self.log = self._action(tr("Logarithmic axes"), tr(_LOG), True)
         self.log.toggled.connect(self.axes_changed)
         self.from_zero = self._action(tr("Start branches at 0"), tr(_FROM_ZERO), False)
-        self.from_zero.toggled.connect(self.from_zero_changed)
         self.save = self._action(
             tr("Save…"), tr("Save the charts as SVG, PDF or PNG, or the values of all runs as CSV.")
         )
-        self.save.triggered.connect(self.save_requested)
         options = MenuButton(tr("Chart options"), tr("Logarithmic axes, start of branches, save."))
         options.setIcon(icon("dots-vertical"))
         options.menu().addActions([self.log, self.from_zero, self.save])
@@ -74,14 +67,11 @@ class ConvergenceHead(QWidget):
         )
         self.axis.setFont(smaller(self.font()))
         self.axis.chosen.connect(self.axes_changed)
-        buttons = on_grid(QHBoxLayout())
         for button in (charts, options):
             button.setFixedHeight(self.axis.sizeHint().height())
-            buttons.addWidget(button)
-        self._layout = on_grid(QBoxLayout(QBoxLayout.Direction.TopToBottom, self))
-        self._layout.setContentsMargins(0, 0, 0, 0)
-        self._layout.addLayout(buttons, 1)
-        self._layout.addWidget(self.axis)
+        buttons = fill(QHBoxLayout(), charts, options)
+        self._layout = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
+        fill(self._layout, (buttons, 1), self.axis, margins=(0, 0, 0, 0))
 
     def _action(self, text: str, help: str, on: bool | None = None) -> QAction:
         action = QAction(text, self)

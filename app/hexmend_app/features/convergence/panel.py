@@ -16,7 +16,7 @@ from hexmend_app.features.convergence.head import ConvergenceHead
 from hexmend_app.features.convergence.point_texts import describe
 from hexmend_app.features.convergence.run_legend import RunLegend
 from hexmend_app.state.mesh.history import RunRecord
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import note
 from hexmend_app.translation import tr
 from hexmend_app.widgets.scrolled import scrolled
@@ -50,18 +50,9 @@ class ConvergencePanel(QWidget):
     -------
     picked(RunRecord, number)
         The user selected an iteration.
-    toggled(RunRecord, bool), forget_requested(RunRecord)
-        The user showed, hid or deleted a run.
-    from_zero_changed
-        The user changed the start of branches.
-    save_requested
     """
 
     picked = Signal(object, int)
-    toggled = Signal(object, bool)
-    forget_requested = Signal(object)
-    from_zero_changed = Signal()
-    save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -75,34 +66,22 @@ class ConvergencePanel(QWidget):
         self.head, self.legend = ConvergenceHead(), RunLegend()
         self.head.charts_changed.connect(self._arrange)
         self.head.axes_changed.connect(self._redraw)
-        self.head.from_zero_changed.connect(self.from_zero_changed)
-        self.head.save_requested.connect(self.save_requested)
-        self.legend.toggled.connect(self.toggled)
-        self.legend.forget_requested.connect(self.forget_requested)
         self._lay_out()
         self._arrange()
         self.set_curves(())
 
     def _lay_out(self) -> None:
         stack = QWidget()
-        charts = self._charts = on_grid(QBoxLayout(QBoxLayout.Direction.TopToBottom, stack))
-        charts.setContentsMargins(0, 0, 0, 0)
-        charts.setSpacing(4)
-        for plot in self.plots.values():
-            charts.addWidget(plot, 1)
+        self._charts = QBoxLayout(QBoxLayout.Direction.TopToBottom, stack)
+        fill(self._charts, *((plot, 1) for plot in self.plots.values()), margins=(0, 0, 0, 0), spacing=4)
         self._empty = note(tr(_EMPTY))
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.plotting, self._runs = scrolled(stack), scrolled(self.legend)
-        side = on_grid(QVBoxLayout())
-        side.setContentsMargins(0, 0, 0, 0)
-        side.addWidget(self.head)
-        side.addWidget(self._runs, 1)
+        side = fill(QVBoxLayout(), self.head, (self._runs, 1), margins=(0, 0, 0, 0))
         self.side = QWidget()
         self.side.setLayout(side)
-        self._layout = on_grid(QBoxLayout(QBoxLayout.Direction.RightToLeft, self))
-        self._layout.setContentsMargins(8, 4, 8, 4)
-        for widget, stretch in ((self.side, 0), (self.plotting, 1), (self._empty, 1)):
-            self._layout.addWidget(widget, stretch)
+        self._layout = QBoxLayout(QBoxLayout.Direction.RightToLeft, self)
+        fill(self._layout, self.side, (self.plotting, 1), (self._empty, 1), margins=(8, 4, 8, 4))
 
     def minimumSizeHint(self) -> QSize:
         """Return the fixed minimum size, wide enough for the buttons in one row."""
@@ -197,7 +176,7 @@ class ConvergencePanel(QWidget):
         margin = 0.012 * (high - low)
         left_width = self.fontMetrics().horizontalAdvance("000,000")
         for plot in self.drawn:
-            plot.set_x_range(low - margin, high + margin)
+            plot.plot.setXRange(low - margin, high + margin, padding=0)
             has_axis = self.in_row or plot is self.drawn[-1]
             plot.set_bottom_axis(label if has_axis else None, left_width)
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from hexmend_app.features.convergence.curves import Curve, colour_of
 from hexmend_app.state.mesh.history import RunRecord
-from hexmend_app.theme.style import MUTED, icon, set_help, set_variant, smaller
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import cross_button, set_help, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.legend import Swatch
 from hexmend_app.widgets.wording import counted
@@ -32,10 +33,7 @@ class RunLegend(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.rows: dict[RunRecord, RunRow] = {}
-        self._layout = QVBoxLayout(self)
-        self._layout.setContentsMargins(0, 0, 0, 0)
-        self._layout.setSpacing(0)
-        self._layout.addStretch()
+        self._layout = fill(QVBoxLayout(self), None, margins=(0, 0, 0, 0), spacing=0)
 
     def set_curves(self, curves: Sequence[Curve]) -> None:
         """List these runs."""
@@ -69,18 +67,8 @@ class RunRow(QWidget):
         self.box = QCheckBox(curve.record.name)
         self.box.setFont(smaller(self.font()))
         self.box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self.cross = QToolButton()
-        set_variant(self.cross, "small")
-        self.cross.setIcon(icon("close", MUTED))
-        self.cross.setIconSize(QSize(11, 11))
-        self.cross.setFixedSize(16, 16)
-        self.cross.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addWidget(Swatch(colour_of(curve)))
-        layout.addWidget(self.box, 1)
-        layout.addWidget(self.cross)
+        self.cross = cross_button()
+        fill(QHBoxLayout(self), Swatch(colour_of(curve)), (self.box, 1), self.cross, margins=(0, 0, 0, 0), spacing=4)
 
     def show_curve(self, curve: Curve) -> None:
         """Show the current state of the run."""

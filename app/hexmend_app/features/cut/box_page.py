@@ -7,7 +7,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QLabel, QWidget
 from superqt import QRangeSlider
 
-from hexmend_app.theme.style import set_help, smaller, tabular
+from hexmend_app.theme.style import labelled, set_help, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.wording import position
@@ -44,9 +44,7 @@ class BoxPage(QWidget):
             text.setFont(tabular(smaller(text.font())))
             text.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
             text.setMinimumWidth(text.fontMetrics().horizontalAdvance("-0.000 – -0.000"))
-            label = QLabel(name)
-            label.setBuddy(slider)
-            for column, widget in enumerate((label, slider, text)):
+            for column, widget in enumerate((labelled(name, slider), slider, text)):
                 grid.addWidget(widget, axis, column)
             self._sliders.append(slider)
             self._texts.append(text)
@@ -74,7 +72,7 @@ class BoxPage(QWidget):
     def _ticks(self, axis: int) -> tuple[int, int]:
         low, high = self._bounds[:, axis]
         fractions = (self._corners[:, axis] - low) / ((high - low) or 1.0)
-        return tuple(int(tick) for tick in np.clip(np.rint(_TICKS * fractions), 0, _TICKS))
+        return tuple(np.clip(np.rint(_TICKS * fractions), 0, _TICKS).astype(int).tolist())
 
     def _refresh(self) -> None:
         for axis, slider in enumerate(self._sliders):

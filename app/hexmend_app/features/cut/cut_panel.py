@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import Signal
@@ -17,7 +18,8 @@ from hexmend_app.features.cut.plane_row import PlaneRow
 from hexmend_app.features.cut.sphere_page import SpherePage
 from hexmend_app.picture.cut import PLANE_KINDS, Cut, CutKind, CutStyle, proposed_cuts
 from hexmend_app.picture.cut_shapes import Box, Plane
-from hexmend_app.theme.style import set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import labelled, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -44,19 +46,10 @@ class CutPanel(QWidget):
         The user changed the cut; without any shape if it is off.
     plane_chosen(int)
         The user selected the plane to edit here and in the view.
-    handles_changed(bool)
-        The user showed or hid the handles of the cut in the view.
-    snap_changed(bool)
-        The user switched snapping to the axes, for planes that are rotated in the view.
-    centre_requested
-        Move the centre of the sphere to the selected hex.
     """
 
     cut_changed = Signal(object)
     plane_chosen = Signal(int)
-    handles_changed = Signal(bool)
-    snap_changed = Signal(bool)
-    centre_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -66,16 +59,15 @@ class CutPanel(QWidget):
         self._switch = QCheckBox(tr("Cut"))
         set_help(self._switch, tr("Cut"), tr("Cut the mesh open (C)."))
         self._kind = Segmented(tr("Cut by"), [(kind.value, tr(text), tr(help)) for kind, text, help in _KINDS])
-        self._handles = QCheckBox(tr("Handles"))
-        self._handles.setChecked(True)
-        set_help(self._handles, tr("Handles"), tr("Show the shape of the cut in the view to drag it."))
-        self._plane_row = PlaneRow(_MAX_PLANES)
+        self.handles_box = QCheckBox(tr("Handles"))
+        self.handles_box.setChecked(True)
+        set_help(self.handles_box, tr("Handles"), tr("Show the shape of the cut in the view to drag it."))
+        self.plane_row = PlaneRow(_MAX_PLANES)
         self._plane_page = PlanePage()
         self._box_page = BoxPage()
-        self._thickness_label = QLabel(tr("Thickness"))
         self._thickness = NumberRow([tr("Thickness")], tr("Distance of the two planes, in mesh units."), low=0.0)
-        self._thickness_label.setBuddy(self._thickness)
-        self._sphere_page, self._depth_page = SpherePage(), DepthPage()
+        self._thickness_label = labelled(tr("Thickness"), self._thickness)
+        self.sphere_page, self._depth_page = SpherePage(), DepthPage()
         self._hide_label = QLabel(tr("Hide"))
         self._hide_planes = Segmented(
             tr("Hide"),
@@ -103,18 +95,13 @@ class CutPanel(QWidget):
         self._refresh()
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.addWidget(self._switch)
-        head.addStretch()
-        head.addWidget(self._handles)
+        head = fill(QHBoxLayout(), self._switch, None, self.handles_box, spacing=None)
         grid = form_grid(self, tr("Thickness"))
         grid.addLayout(head, 0, 0, 1, 2)
-        pages = self._kind, self._plane_row, self._plane_page, self._box_page, self._sphere_page, self._depth_page
+        pages = self._kind, self.plane_row, self._plane_page, self._box_page, self.sphere_page, self._depth_page
         for row, widget in enumerate(pages, start=1):
             grid.addWidget(widget, row, 0, 1, 2)
-        hide = QHBoxLayout()
-        hide.addWidget(self._hide_planes)
-        hide.addWidget(self._hide_inside)
+        hide = fill(QHBoxLayout(), self._hide_planes, self._hide_inside, spacing=None)
         row = len(pages) + 1
         grid.addWidget(self._thickness_label, row, 0)
         grid.addWidget(self._thickness, row, 1)
@@ -125,16 +112,13 @@ class CutPanel(QWidget):
     def _connect(self) -> None:
         self._switch.clicked.connect(self._emit)
         self._kind.chosen.connect(self._emit)
-        self._handles.clicked.connect(self.handles_changed)
-        self._plane_row.snap_changed.connect(self.snap_changed)
-        self._plane_row.chosen.connect(self._on_selected)
-        self._plane_row.add_requested.connect(self._on_add)
-        self._plane_row.remove_requested.connect(self._on_remove)
+        self.plane_row.tabs.currentChanged.connect(self._on_selected)
+        self.plane_row.add_button.clicked.connect(self._on_add)
+        self.plane_row.remove_button.clicked.connect(self._on_remove)
         self._plane_page.changed.connect(self._on_plane)
         self._box_page.changed.connect(lambda low, high: self._change(CutKind.BOX, box=Box(low, high)))
         self._thickness.changed.connect(self._on_thickness)
-        self._sphere_page.changed.connect(lambda sphere: self._change(CutKind.SPHERE, sphere=sphere))
-        self._sphere_page.centre_requested.connect(self.centre_requested)
+        self.sphere_page.changed.connect(lambda sphere: self._change(CutKind.SPHERE, sphere=sphere))
         self._depth_page.changed.connect(lambda depth: self._change(CutKind.DEPTH, depth=depth))
         for choice in (self._hide_planes, self._hide_inside):
             choice.chosen.connect(lambda key: self._change(self._chosen, notch=key == "all"))
@@ -182,11 +166,11 @@ class CutPanel(QWidget):
 
     def set_handles(self, shown: bool) -> None:
         """Check or uncheck the handles; emits no signal."""
-        self._handles.setChecked(shown)
+        self.handles_box.setChecked(shown)
 
     def set_hex_selected(self, selected: bool) -> None:
         """Set whether there is a selected hex, to which the sphere can be moved."""
-        self._sphere_page.set_hex_selected(selected)
+        self.sphere_page.set_hex_selected(selected)
 
     def settings(self) -> CutPanelSettings:
         """Return the current or proposed cut of each kind."""
@@ -256,7 +240,7 @@ class CutPanel(QWidget):
             self._cuts[kind] = dataclasses.replace(self._cuts[kind], style=style)
         self._emit()
 
-    def _change(self, kind: CutKind, **keys: object) -> None:
+    def _change(self, kind: CutKind, **keys: Any) -> None:
         """Change the cut of a kind."""
         self._cuts[kind] = dataclasses.replace(self._cuts[kind], **keys)
         self._emit()
@@ -272,13 +256,13 @@ class CutPanel(QWidget):
         by_planes, several, slab = kind is CutKind.PLANES, len(planes) > 1, kind is CutKind.SLAB
         visible = {  # little while the cut is off, to save space
             self._kind: True,
-            self._handles: kind is not CutKind.DEPTH,
-            self._plane_row: by_planes,
+            self.handles_box: kind is not CutKind.DEPTH,
+            self.plane_row: by_planes,
             self._plane_page: by_planes or slab,
             self._box_page: kind is CutKind.BOX,
             self._thickness_label: slab,
             self._thickness: slab,
-            self._sphere_page: kind is CutKind.SPHERE,
+            self.sphere_page: kind is CutKind.SPHERE,
             self._depth_page: kind is CutKind.DEPTH,
             self._hide_label: several or not by_planes,
             self._hide_inside: not by_planes,
@@ -287,13 +271,13 @@ class CutPanel(QWidget):
         }
         for widget, shown in visible.items():
             widget.setVisible(on and shown)
-        self._plane_row.set_planes(len(planes), self._selected)
-        self._plane_page.set_flip(by_planes)
+        self.plane_row.set_planes(len(planes), self._selected)
+        self._plane_page.flip.setVisible(by_planes)
         self._plane_page.set_plane(cut.slab.middle if slab else planes[self._selected])
         box, sphere, depth = (self._cuts[kind] for kind in (CutKind.BOX, CutKind.SPHERE, CutKind.DEPTH))
         self._box_page.set_corners(box.box.low, box.box.high)
         self._thickness.set_values((self._cuts[CutKind.SLAB].slab.thickness,))
-        self._sphere_page.set_sphere(sphere.sphere)
+        self.sphere_page.set_sphere(sphere.sphere)
         self._depth_page.set_depth(depth.depth)
         (self._hide_planes if by_planes else self._hide_inside).set_value("all" if cut.notch else "any")
         self._cut_mode.set_value(cut.style.value)

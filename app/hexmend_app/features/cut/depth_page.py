@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QLabel, QWidget
 
 from hexmend.parameters import Parameter
 from hexmend_app.picture.cut_shapes import Depth, DepthUnit
-from hexmend_app.theme.style import set_help
+from hexmend_app.theme.style import labelled, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.number_box import NumberBox
@@ -46,13 +46,10 @@ class DepthPage(QWidget):
         for box in (self._low, self._high):
             box.setMinimumWidth(_MIN_WIDTH)
         grid = form_grid(self, tr("Thickness"))
-        label = QLabel(tr("Depth in"))
-        label.setBuddy(self._unit)
-        grid.addWidget(label, 0, 0)
+        grid.addWidget(labelled(tr("Depth in"), self._unit), 0, 0)
         grid.addWidget(self._unit, 0, 1, 1, 3)
-        between = QLabel(tr("From"))
-        between.setBuddy(self._low)
-        for column, widget in enumerate((between, self._low, QLabel(tr("to")), self._high)):
+        parts = (labelled(tr("From"), self._low), self._low, QLabel(tr("to")), self._high)
+        for column, widget in enumerate(parts):
             grid.addWidget(widget, 1, column)
         grid.setColumnStretch(3, 1)
         self._unit.chosen.connect(lambda unit: self._change(DepthUnit(unit)))

@@ -33,18 +33,18 @@ class FeatureCut(Feature):
         self.panel = CutPanel()
         self.panel.cut_changed.connect(view.set_cut)
         self.panel.plane_chosen.connect(view.choose_plane)
-        self.panel.handles_changed.connect(view.set_handles)
-        self.panel.snap_changed.connect(view.set_snap)
-        self.panel.centre_requested.connect(self._centre_sphere)
+        self.panel.handles_box.clicked.connect(view.set_handles)
+        self.panel.plane_row.snap_box.clicked.connect(view.set_snap)
+        self.panel.sphere_page.at_hex.clicked.connect(self._centre_sphere)
         self._proposed: CutPanelSettings | None = None  # by a session; shown after its mesh, which resets the proposal
         self.inside = InsidePanel()
-        self.inside.peel_changed.connect(lambda layers: view.change(show={"peel": layers}))
+        self.inside.peel.changed.connect(lambda layers: view.change(show={"peel": layers}))
         self.inside.shrink_changed.connect(lambda share: view.change(show={"shrink": share}))
-        self.inside.outline_changed.connect(lambda on: view.change(show={"outline": on}))
-        self.inside.rings_changed.connect(view.set_rings)
-        self.inside.all_requested.connect(view.end_isolation)
-        self.inside.undo_requested.connect(view.undig_last)
-        self.inside.restore_requested.connect(view.undig_all)
+        self.inside.outline.clicked.connect(lambda on: view.change(show={"outline": on}))
+        self.inside.rings.valueChanged.connect(view.set_rings)
+        self.inside.all_button.clicked.connect(view.end_isolation)
+        self.inside.undo_button.clicked.connect(view.undig_last)
+        self.inside.restore_button.clicked.connect(lambda: view.change(show={"hidden": frozenset()}))
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that cut, isolate and dig."""

@@ -7,7 +7,8 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QSpin
 
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.geometry.skin import WHOLE
-from hexmend_app.theme.style import icon, narrow, note, set_help, tabular
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import icon, labelled, narrow, note, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.slider_box import SliderBox
@@ -42,48 +43,38 @@ class InsidePanel(QWidget):
 
     Signals
     -------
-    peel_changed(int), shrink_changed(float), rings_changed(int), outline_changed(bool)
-        The user changed a setting; shrink is a fraction of the size.
-    all_requested
-        End the isolation.
-    undo_requested, restore_requested
-        Show the hex that was hidden last, or all of them.
+    shrink_changed(float)
+        The user changed by which fraction of their size hexes are shrunk.
     """
 
-    peel_changed = Signal(int)
     shrink_changed = Signal(float)
-    rings_changed = Signal(int)
-    outline_changed = Signal(bool)
-    all_requested = Signal()
-    undo_requested = Signal()
-    restore_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._peel = SliderBox(tr("Peel layers"), tr(_PEEL), 0)
+        self.peel = SliderBox(tr("Peel layers"), tr(_PEEL), 0)
         self._shrink = SliderBox(tr("Shrink hexes"), tr(_SHRINK, count=WHOLE), _MAX_SHRINK, " %")
-        width = max(self._peel.box_width(), self._shrink.box_width())
-        self._peel.set_box_width(width)
+        width = max(self.peel.box_width(), self._shrink.box_width())
+        self.peel.set_box_width(width)
         self._shrink.set_box_width(width)
-        self._rings = QSpinBox()
-        self._rings.setRange(0, _MAX_RINGS)
-        self._rings.setFont(tabular(self._rings.font()))
-        self._rings.setFixedWidth(width)
-        set_help(self._rings, tr("Rings around isolated hexes"), tr(_RINGS))
+        self.rings = QSpinBox()
+        self.rings.setRange(0, _MAX_RINGS)
+        self.rings.setFont(tabular(self.rings.font()))
+        self.rings.setFixedWidth(width)
+        set_help(self.rings, tr("Rings around isolated hexes"), tr(_RINGS))
         self.isolated = QLabel()
-        self._all = QPushButton(tr("All"))
-        narrow(self._all)
-        set_help(self._all, tr("Show all"), tr("End the isolation and show all hexes."))
+        self.all_button = QPushButton(tr("All"))
+        narrow(self.all_button)
+        set_help(self.all_button, tr("Show all"), tr("End the isolation and show all hexes."))
         self.dug = QLabel()
-        self._undo = QPushButton(icon("undo"), "")
-        set_help(self._undo, tr("Show last"), tr("Show the hex that was hidden last."))
-        self._restore = QPushButton(icon("restore"), "")
-        for button in (self._undo, self._restore):
+        self.undo_button = QPushButton(icon("undo"), "")
+        set_help(self.undo_button, tr("Show last"), tr("Show the hex that was hidden last."))
+        self.restore_button = QPushButton(icon("restore"), "")
+        for button in (self.undo_button, self.restore_button):
             button.setFixedWidth(34)
-        set_help(self._restore, tr("Show hidden"), tr("Show all hexes that were hidden."))
-        self._outline = QCheckBox(tr("Sharp edges and outline"))
+        set_help(self.restore_button, tr("Show hidden"), tr("Show all hexes that were hidden."))
+        self.outline = QCheckBox(tr("Sharp edges and outline"))
         set_help(
-            self._outline,
+            self.outline,
             tr("Sharp edges and outline"),
             tr(
                 "Draw the sharp edges of the boundary, paler where hexes are hidden, and the shading of rounded bodies."
@@ -94,66 +85,51 @@ class InsidePanel(QWidget):
         self.shown.setWordWrap(False)  # wrapping would reserve a second line
         self._cut_smoothly = False
         self._lay_out()
-
-        self._peel.changed.connect(self.peel_changed)
         self._shrink.changed.connect(lambda share: self.shrink_changed.emit(share / 100))
-        self._rings.valueChanged.connect(self.rings_changed)
-        self._all.clicked.connect(self.all_requested)
-        self._undo.clicked.connect(self.undo_requested)
-        self._restore.clicked.connect(self.restore_requested)
-        self._outline.clicked.connect(self.outline_changed)
         self.set_layers(0)
         self.set_look(Look(), 1)
         self.set_shown(0, 0)
 
     def _lay_out(self) -> None:
         grid = form_grid(self)
-        lines = QHBoxLayout(), QHBoxLayout()
-        groups = (self.isolated, self._all), (self.dug, self._undo, self._restore)
-        for line, widgets in zip(lines, groups, strict=True):
-            line.setSpacing(8)
-            for widget in widgets:
-                line.addWidget(widget, isinstance(widget, QLabel))
         for row, (text, widget) in enumerate(
-            ((tr("Peel"), self._peel), (tr("Shrink"), self._shrink), (tr("Rings"), self._rings))
+            ((tr("Peel"), self.peel), (tr("Shrink"), self._shrink), (tr("Rings"), self.rings))
         ):
-            label = QLabel(text)
-            label.setBuddy(widget)
-            grid.addWidget(label, row, 0)
+            grid.addWidget(labelled(text, widget), row, 0)
             grid.addWidget(widget, row, 1)
-        for row, line in enumerate(lines, start=3):
-            grid.addLayout(line, row, 0, 1, 2)
-        grid.addWidget(self._outline, 5, 0, 1, 2)
+        grid.addLayout(fill(QHBoxLayout(), (self.isolated, 1), self.all_button), 3, 0, 1, 2)
+        grid.addLayout(fill(QHBoxLayout(), (self.dug, 1), self.undo_button, self.restore_button), 4, 0, 1, 2)
+        grid.addWidget(self.outline, 5, 0, 1, 2)
         grid.addWidget(self.shown, 6, 0, 1, 2)
 
     def set_layers(self, layers: int) -> None:
         """Set the number of layers that can be peeled; emits no signal."""
-        self._peel.set_most(layers)
-        self._peel.set_help(tr(_PEEL) if layers else tr(_NO_LAYERS))
-        self._peel.setEnabled(layers > 0)
+        self.peel.set_most(layers)
+        self.peel.set_help(tr(_PEEL) if layers else tr(_NO_LAYERS))
+        self.peel.setEnabled(layers > 0)
 
     def set_look(self, look: Look, rings: int) -> None:
         """Show the settings of a look and the number of rings; emits no signal."""
         show, isolate = look.show, look.show.isolate
-        self._peel.set_value(show.peel)
+        self.peel.set_value(show.peel)
         self._cut_smoothly = look.cut.smooth
         self._shrink.set_value(round(100 * show.shrink))
         self._shrink.setEnabled(not self._cut_smoothly)
         self._shrink.set_help(tr(_CUT_SMOOTHLY) if self._cut_smoothly else tr(_SHRINK, count=WHOLE))
-        if self._rings.value() != rings:  # setValue would overwrite text being typed
-            with QSignalBlocker(self._rings):
-                self._rings.setValue(rings)
+        if self.rings.value() != rings:  # setValue would overwrite text being typed
+            with QSignalBlocker(self.rings):
+                self.rings.setValue(rings)
         isolated = 0 if isolate is None else len(isolate.hexes)
         self.isolated.setText(
             tr("{count} isolated", count=counted(isolated, "hex")) if isolated else tr("No hexes isolated")
         )
-        self._all.setEnabled(isolate is not None)
+        self.all_button.setEnabled(isolate is not None)
         self.dug.setText(
             tr("{count} hidden", count=counted(len(show.hidden), "hex")) if show.hidden else tr("No hexes hidden")
         )
-        for button in (self._undo, self._restore):
+        for button in (self.undo_button, self.restore_button):
             button.setEnabled(bool(show.hidden))
-        self._outline.setChecked(show.outline)
+        self.outline.setChecked(show.outline)
 
     def set_shown(self, shown: int, total: int) -> None:
         """Show the number of hexes drawn, whole or in part, out of `total`; 0 of 0 without a mesh."""

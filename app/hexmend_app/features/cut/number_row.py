@@ -8,6 +8,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from hexmend.parameters import Parameter
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help
 from hexmend_app.widgets.inputs.number_box import NumberBox
 
@@ -41,16 +42,13 @@ class NumberRow(QWidget):
         super().__init__(parent)
         self._values = tuple(1.0 for _ in names)
         self._boxes = [NumberBox(Parameter(name, float, 1.0, low, None, None, "", "")) for name in names]
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
         for at, (name, box) in enumerate(zip(names, self._boxes, strict=True)):
             set_help(box, name, help)
             box.setMinimumWidth(_MIN_WIDTH)
             if len(names) > 1:  # there is no room for the arrows
                 box.setButtonSymbols(NumberBox.ButtonSymbols.NoButtons)
             box.changed.connect(lambda at=at: self._on_changed(at))
-            row.addWidget(box, 1)
+        fill(QHBoxLayout(self), *((box, 1) for box in self._boxes), margins=(0, 0, 0, 0), spacing=4)
         self.setFocusProxy(self._boxes[0])
 
     def set_values(self, values: Sequence[float]) -> None:

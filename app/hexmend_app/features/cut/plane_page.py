@@ -9,7 +9,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QSlider, QWidget
 
 from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.theme.style import icon, labelled, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -47,9 +47,9 @@ class PlanePage(QWidget):
                 )
             ],
         )
-        self._flip = QPushButton(icon("swap-horizontal"), "")
-        self._flip.setFixedWidth(34)
-        set_help(self._flip, tr("Flip"), tr("Hide the opposite side of the plane."))
+        self.flip = QPushButton(icon("swap-horizontal"), "")
+        self.flip.setFixedWidth(34)
+        set_help(self.flip, tr("Flip"), tr("Hide the opposite side of the plane."))
         self._slider = QSlider(Qt.Orientation.Horizontal)
         self._slider.setRange(0, _TICKS)
         self._slider.setPageStep(_TICKS // 20)
@@ -65,16 +65,14 @@ class PlanePage(QWidget):
         set_help(self._value, tr("Position in mesh units"), tr("Position along the plane's normal, in mesh units."))
         grid = form_grid(self, tr("Thickness"))
         for row, (text, widget, companion) in enumerate(
-            ((tr("Axis"), self._axis, self._flip), (tr("Position"), self._slider, self._value))
+            ((tr("Axis"), self._axis, self.flip), (tr("Position"), self._slider, self._value))
         ):
-            label = QLabel(text)
-            label.setBuddy(widget)
-            for column, cell in enumerate((label, widget, companion)):
+            for column, cell in enumerate((labelled(text, widget), widget, companion)):
                 grid.addWidget(cell, row, column)
 
         self._axis.chosen.connect(self._on_axis)
         self._slider.valueChanged.connect(self._on_slider)
-        self._flip.clicked.connect(lambda: self._change(self._plane.flipped()))
+        self.flip.clicked.connect(lambda: self._change(self._plane.flipped()))
         self._refresh()
 
     def set_bounds(self, bounds: np.ndarray) -> None:
@@ -86,10 +84,6 @@ class PlanePage(QWidget):
         """Show a plane; emits no signal."""
         self._plane = plane
         self._refresh()
-
-    def set_flip(self, shown: bool) -> None:
-        """Show or hide the button that flips the plane."""
-        self._flip.setVisible(shown)
 
     def _direction(self) -> np.ndarray:
         """Return the slider's axis, (3,): the unit normal with its largest component positive."""

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QTabBar, QWidget
+from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QPushButton, QTabBar, QWidget
 
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import icon, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import icon, labelled, set_help
 from hexmend_app.translation import tr
 
 _SNAP = "Align a plane with an axis when it is rotated close to the axis."
@@ -19,61 +19,46 @@ class PlaneRow(QWidget):
     ----------
     most : int
         Largest number of planes.
-
-    Signals
-    -------
-    chosen(int)
-        The user selected the plane with this index.
-    add_requested, remove_requested
-        The user pressed the button.
-    snap_changed(bool)
-        The user switched snapping.
     """
-
-    chosen = Signal(int)
-    add_requested = Signal()
-    remove_requested = Signal()
-    snap_changed = Signal(bool)
 
     def __init__(self, most: int, parent: QWidget | None = None):
         super().__init__(parent)
         self._most = most
-        self._tabs = QTabBar()
-        self._tabs.setDrawBase(False)
-        self._tabs.setExpanding(False)
-        self._tabs.setUsesScrollButtons(False)
-        self._tabs.setElideMode(Qt.TextElideMode.ElideRight)
-        self._tabs.setMinimumWidth(64)  # its hint for one tab is twice as wide
-        set_help(self._tabs, tr("Plane"), tr("Plane that is edited here and in the view."))
-        self._add, self._remove = QPushButton(icon("plus"), ""), QPushButton(icon("minus"), "")
-        for button in (self._add, self._remove):
+        self.tabs = QTabBar()
+        self.tabs.setDrawBase(False)
+        self.tabs.setExpanding(False)
+        self.tabs.setUsesScrollButtons(False)
+        self.tabs.setElideMode(Qt.TextElideMode.ElideRight)
+        self.tabs.setMinimumWidth(64)  # its hint for one tab is twice as wide
+        set_help(self.tabs, tr("Plane"), tr("Plane that is edited here and in the view."))
+        self.add_button, self.remove_button = QPushButton(icon("plus"), ""), QPushButton(icon("minus"), "")
+        for button in (self.add_button, self.remove_button):
             button.setFixedWidth(30)
-        set_help(self._add, tr("Add plane"), tr("Add a cutting plane."))
-        set_help(self._remove, tr("Remove plane"), tr("Remove this cutting plane."))
-        self._snap = QCheckBox(tr("Snap"))
-        self._snap.setChecked(True)
-        set_help(self._snap, tr("Snap to axes"), tr(_SNAP))
-        label = QLabel(tr("Plane"))
-        label.setBuddy(self._tabs)
-        row = on_grid(QHBoxLayout(self))
-        row.setContentsMargins(0, 0, 0, 0)
-        for widget in (label, self._tabs, self._add, self._remove):
-            row.addWidget(widget)
-        row.addStretch()
-        row.addWidget(self._snap)
-        self._tabs.currentChanged.connect(self.chosen)
-        self._add.clicked.connect(self.add_requested)
-        self._remove.clicked.connect(self.remove_requested)
-        self._snap.clicked.connect(self.snap_changed)
+        set_help(self.add_button, tr("Add plane"), tr("Add a cutting plane."))
+        set_help(self.remove_button, tr("Remove plane"), tr("Remove this cutting plane."))
+        self.snap_box = QCheckBox(tr("Snap"))
+        self.snap_box.setChecked(True)
+        set_help(self.snap_box, tr("Snap to axes"), tr(_SNAP))
+        label = labelled(tr("Plane"), self.tabs)
+        fill(
+            QHBoxLayout(self),
+            label,
+            self.tabs,
+            self.add_button,
+            self.remove_button,
+            None,
+            self.snap_box,
+            margins=(0, 0, 0, 0),
+        )
         self.set_planes(1, 0)
 
     def set_planes(self, count: int, at: int) -> None:
         """Show `count` planes and select the plane with index `at`; emits no signal."""
-        with QSignalBlocker(self._tabs):
-            while self._tabs.count() < count:
-                self._tabs.addTab(str(self._tabs.count() + 1))
-            while self._tabs.count() > count:
-                self._tabs.removeTab(self._tabs.count() - 1)
-            self._tabs.setCurrentIndex(at)
-        self._add.setEnabled(count < self._most)
-        self._remove.setEnabled(count > 1)
+        with QSignalBlocker(self.tabs):
+            while self.tabs.count() < count:
+                self.tabs.addTab(str(self.tabs.count() + 1))
+            while self.tabs.count() > count:
+                self.tabs.removeTab(self.tabs.count() - 1)
+            self.tabs.setCurrentIndex(at)
+        self.add_button.setEnabled(count < self._most)
+        self.remove_button.setEnabled(count > 1)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
 from hexmend_app.features.cut.number_row import NumberRow
 from hexmend_app.picture.cut_shapes import Sphere
-from hexmend_app.theme.style import set_help
+from hexmend_app.theme.style import labelled, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 
@@ -19,12 +19,9 @@ class SpherePage(QWidget):
     -------
     changed(Sphere)
         The user changed the sphere.
-    centre_requested
-        Move the centre to the selected hex.
     """
 
     changed = Signal(object)
-    centre_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -33,21 +30,16 @@ class SpherePage(QWidget):
             [tr("Centre {axis}", axis=axis) for axis in "XYZ"], tr("Centre of the sphere, in mesh units.")
         )
         self._radius = NumberRow([tr("Radius")], tr("Radius of the sphere, in mesh units."), low=0.0)
-        self._at_hex = QPushButton(tr("Centre on hex"))
-        set_help(
-            self._at_hex, tr("Centre on hex"), tr("Move the centre to the selected hex; click a hex to select it.")
-        )
-        self._at_hex.setEnabled(False)
+        self.at_hex = QPushButton(tr("Centre on hex"))
+        set_help(self.at_hex, tr("Centre on hex"), tr("Move the centre to the selected hex; click a hex to select it."))
+        self.at_hex.setEnabled(False)
         grid = form_grid(self, tr("Thickness"))
         for row, (text, widget) in enumerate(((tr("Centre"), self._centre), (tr("Radius"), self._radius))):
-            label = QLabel(text)
-            label.setBuddy(widget)
-            grid.addWidget(label, row, 0)
-        for row, widget in enumerate((self._centre, self._radius, self._at_hex)):
-            grid.addWidget(widget, row, 1)
+            grid.addWidget(labelled(text, widget), row, 0)
+        for row, part in enumerate((self._centre, self._radius, self.at_hex)):
+            grid.addWidget(part, row, 1)
         self._centre.changed.connect(lambda centre: self._change(Sphere(centre, self._sphere.radius)))
         self._radius.changed.connect(lambda radius: self._change(Sphere(self._sphere.centre, *radius)))
-        self._at_hex.clicked.connect(self.centre_requested)
 
     def set_sphere(self, sphere: Sphere) -> None:
         """Show a sphere; emits no signal."""
@@ -57,7 +49,7 @@ class SpherePage(QWidget):
 
     def set_hex_selected(self, selected: bool) -> None:
         """Set whether there is a selected hex, to which the centre can be moved."""
-        self._at_hex.setEnabled(selected)
+        self.at_hex.setEnabled(selected)
 
     def _change(self, sphere: Sphere) -> None:
         self._sphere = sphere

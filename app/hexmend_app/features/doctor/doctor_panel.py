@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.doctor import PROBLEMS, Finding
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import clear, fill, on_grid
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.scrolled import scrolled
@@ -55,25 +55,14 @@ class DoctorPanel(QWidget):
         self._rows.setVerticalSpacing(8)
         self._repair_buttons: list[QPushButton] = []
         inside = QWidget()
-        column = on_grid(QVBoxLayout(inside))
-        column.setContentsMargins(8, 8, 8, 8)
-        head = on_grid(QHBoxLayout())
-        head.addWidget(self._head, 1)
-        head.addWidget(self._all)
-        column.addLayout(head)
-        column.addLayout(self._rows)
-        column.addStretch()
-        column.insertWidget(1, self._notes)
-        outside = on_grid(QVBoxLayout(self))
-        outside.setContentsMargins(0, 0, 0, 0)
-        outside.addWidget(scrolled(inside))
+        head = fill(QHBoxLayout(), (self._head, 1), self._all)
+        fill(QVBoxLayout(inside), head, self._notes, self._rows, None, margins=(8, 8, 8, 8))
+        fill(QVBoxLayout(self), scrolled(inside), margins=(0, 0, 0, 0))
         self.show_findings(None)
 
     def show_findings(self, findings: Sequence[Finding] | None, problem: str = "", mesh: Mesh | None = None) -> None:
         """List the findings in a mesh; None while it is being checked, with `problem` if the check failed."""
-        while (item := self._rows.takeAt(0)) is not None:
-            item.widget().hide()
-            item.widget().deleteLater()
+        clear(self._rows)
         self._repair_buttons = []
         if findings is None:
             self._head.setText(problem or tr(_CHECKING))

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
-from hexmend.report import output_folder
-from hexmend.report.charts import check_matplotlib
+from hexmend.report.documents import output_folder
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
 from hexmend.study.table_row import Row
 from hexmend_app.picture import Scene, write_scene
 from hexmend_app.report.case import Case, Version, command_line
+from hexmend_app.report.charts import check_matplotlib
 from hexmend_app.report.figure_captions import write_captions
 from hexmend_app.report.figure_set import Figure, Style, write_figures
 from hexmend_app.state.mesh.run_record import RunRecord
@@ -49,7 +50,7 @@ def draw(
     versions: Sequence[NamedVersion],
     recipes: Mapping[str, Recipe],
     file: str = "MESH",
-) -> Iterator[Figure]:
+) -> Generator[Figure]:
     """Write and yield figure by figure, then write captions and commands.
 
     Parameters
@@ -80,7 +81,7 @@ def draw(
     write_captions(folder, title, [(figure, command_line([*arguments, figure.part])) for figure in figures])
 
 
-def version_of(named: NamedVersion) -> Version:
+def version_of(named: tuple[Any, ...]) -> Version:
     """Return the version of a mesh with its measurements, and those of its run."""
     name, source, *iteration = named
     if isinstance(source, Mesh):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -29,7 +29,7 @@ class Export:
         Name of the file or folder.
     """
 
-    steps: Iterator[Figure]
+    steps: Generator[Figure]
     figures: Sequence[str]
     file: str
 

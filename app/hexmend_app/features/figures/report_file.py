@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from hexmend.io.storage.atomic import check_writable
 from hexmend.io.storage.suffixes import suffix_for
-from hexmend.report.charts import check_matplotlib
 from hexmend_app.features.figures.drawing import NamedVersion, version_of
 from hexmend_app.picture import Scene
 from hexmend_app.report.case import Case, Source
+from hexmend_app.report.charts import check_matplotlib
 from hexmend_app.report.figure_set import Figure, Style
 from hexmend_app.report.page import draw_chapter, page, write_page
 from hexmend_app.report.pdf import check_pdf, write_pdf
@@ -39,7 +39,7 @@ def prepare_report(path: Path) -> None:
 
 def draw_report(
     path: str | Path, title: str, mesh: str, scene: Scene, versions: Sequence[NamedVersion], file: str = ""
-) -> Iterator[Figure]:
+) -> Generator[Figure]:
     """Yield figure by figure, then write the report, HTML or PDF by the suffix.
 
     Parameters

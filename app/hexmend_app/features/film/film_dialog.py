@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -118,12 +118,12 @@ class FilmDialog(QDialog):
         buttons.addButton(tr("Save as…"), QDialogButtonBox.ButtonRole.AcceptRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        column = on_grid(QVBoxLayout(self))
-        column.addWidget(
-            note(tr("{count:,} iterations, with the cut, colours and arrows of the view.", count=iterations + 1))
+        fill(
+            QVBoxLayout(self),
+            note(tr("{count:,} iterations, with the cut, colours and arrows of the view.", count=iterations + 1)),
+            form,
+            buttons,
         )
-        column.addLayout(form)
-        column.addWidget(buttons)
 
     def _show_sizes(self) -> None:
         for row, width in enumerate(WIDTHS):

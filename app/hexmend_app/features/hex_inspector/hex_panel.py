@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QFont
 from PySide6.QtWidgets import (
     QCheckBox,
     QGridLayout,
@@ -21,12 +20,13 @@ from superqt import QFlowLayout
 
 from hexmend.quality import METRICS, Metric
 from hexmend_app.state.mesh.inspection import HexDetails, NodeDetails
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import (
     INVERTED_TEXT,
     MUTED,
     TEXT,
     WORSE,
+    bold,
     icon,
     note,
     set_help,
@@ -53,21 +53,12 @@ class HexPanel(QWidget):
 
     Signals
     -------
-    chosen(int)
-        The user selected this neighbour.
-    zoom_requested
-        The user asked to zoom to the hex.
-    corners_toggled(bool)
-        The user showed or hid the corner qualities in the view.
     node_chosen(int)
         The user selected this node of the hex.
     pin_toggled(int, bool)
         The user pinned or unpinned this node.
     """
 
-    chosen = Signal(int)
-    zoom_requested = Signal()
-    corners_toggled = Signal(bool)
     node_chosen = Signal(int)
     pin_toggled = Signal(int, bool)
 
@@ -81,30 +72,24 @@ class HexPanel(QWidget):
         page = QWidget()
         self._stack.addWidget(page)
         self._title = QLabel()
-        font = QFont(self._title.font())
-        font.setBold(True)
-        self._title.setFont(font)
+        self._title.setFont(bold(self._title.font()))
         self._title.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._state = QLabel()
         tint(self._state, INVERTED_TEXT)
-        self._in_view = QCheckBox(tr("Corner qualities in the view"))
+        self.corners_box = QCheckBox(tr("Corner qualities in the view"))
         set_help(
-            self._in_view, tr("Corner qualities in the view"), tr("Show q(T) at the corners of the hex in the view.")
+            self.corners_box, tr("Corner qualities in the view"), tr("Show q(T) at the corners of the hex in the view.")
         )
-        self._in_view.toggled.connect(self.corners_toggled)
-        self._zoom = QPushButton(icon("target"), tr("Zoom to hex"))
+        self.zoom_button = QPushButton(icon("target"), tr("Zoom to hex"))
         set_help(
-            self._zoom,
+            self.zoom_button,
             tr("Zoom to hex"),
             tr("Move the camera to the hex; Enter or a double-click in the list of the worst does the same."),
         )
-        self._zoom.clicked.connect(self.zoom_requested)
         self._values = {name: self._number() for name in METRICS}
         self._corners = [(LinkLabel(), self._number(), self._number()) for _ in range(8)]
-        self._neighbours = LinkLabel()
-        self._neighbours.followed.connect(self.chosen)
-        set_help(self._neighbours, tr("Neighbours"), tr("The hexes across the six faces; click one to select it."))
-        self._node: NodeDetails | None = None
+        self.neighbours = LinkLabel()
+        set_help(self.neighbours, tr("Neighbours"), tr("The hexes across the six faces; click one to select it."))
         self._about_node = QLabel()
         self._about_node.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         set_help(
@@ -118,6 +103,7 @@ class HexPanel(QWidget):
         self._pin = QCheckBox(tr("Pinned"))
         set_help(self._pin, tr("Pinned"), tr("Keep this node in place in every method, also on a sliding boundary."))
         self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
+        self._node: NodeDetails | None = None
         for corner, (node, _, _) in enumerate(self._corners):
             node.setAccessibleName(tr("Node at corner {corner}", corner=corner))
             _align_digits(node)
@@ -131,9 +117,7 @@ class HexPanel(QWidget):
         return label
 
     def _lay_out(self, page: QWidget) -> None:
-        head = on_grid(QHBoxLayout())
-        head.addWidget(self._title, 1)
-        head.addWidget(self._zoom)
+        head = fill(QHBoxLayout(), (self._title, 1), self.zoom_button)
         metrics = metrics_offered()
         rows = -(-len(metrics) // _METRIC_COLUMNS)
         values = [self._metric_grid(metrics[first : first + rows]) for first in range(0, len(metrics), rows)]
@@ -148,23 +132,20 @@ class HexPanel(QWidget):
         for row, labels in enumerate(self._corners, start=1):
             for column, label in enumerate(labels):
                 corners.addWidget(label, row, column)
-        for label in (self._state, self._neighbours, self._about_node):
+        for label in (self._state, self.neighbours, self._about_node):
             label.setWordWrap(True)
-        texts = on_grid(QVBoxLayout())
-        texts.addLayout(head)
-        for widget in (self._state, self._in_view, self._neighbours, self._about_node, self._pin):
-            texts.addWidget(widget)
+        texts = fill(QVBoxLayout(), head, self._state, self.corners_box, self.neighbours, self._about_node, self._pin)
         columns = QFlowLayout(page)
         columns.setContentsMargins(8, 8, 8, 8)
         columns.setHorizontalSpacing(20)
         columns.setVerticalSpacing(8)
         for layout in (texts, corners, *values):
             layout.setContentsMargins(0, 0, 0, 0)
-            column = QWidget()
-            column.setLayout(layout)
-            columns.addWidget(column)
+            part = QWidget()
+            part.setLayout(layout)
+            columns.addWidget(part)
             if layout is texts:
-                column.setFixedWidth(_TEXT_WIDTH)
+                part.setFixedWidth(_TEXT_WIDTH)
 
     def _metric_grid(self, metrics: Sequence[Metric]) -> QGridLayout:
         """Lay out titles and values of metrics, one below the other."""
@@ -180,11 +161,11 @@ class HexPanel(QWidget):
     @property
     def corners_in_view(self) -> bool:
         """True if the corner qualities are shown in the view."""
-        return self._in_view.isChecked()
+        return self.corners_box.isChecked()
 
     def set_corners_in_view(self, on: bool) -> None:
         """Set whether the corner qualities are shown in the view."""
-        self._in_view.setChecked(on)
+        self.corners_box.setChecked(on)
 
     def show_hex(self, details: HexDetails | None, tags: Sequence[str] = ()) -> None:
         """Show a hex and its tags; for None, the hint how to select a hex."""
@@ -209,7 +190,7 @@ class HexPanel(QWidget):
             for face, h in zip(_FACES, details.neighbours.tolist(), strict=True)
         )
         of_file = "" if details.file_id is None else tr("Number in the file: {id}", id=details.file_id) + "<br>"
-        self._neighbours.setText(of_file + tr("Neighbours: {links}", links=" &nbsp;&nbsp;".join(links)))
+        self.neighbours.setText(of_file + tr("Neighbours: {links}", links=" &nbsp;&nbsp;".join(links)))
 
     def show_node(self, details: NodeDetails | None, busy: bool = False, boundary_class: str = "") -> None:
         """Show a node of the hex; for None, a hint how to select a node.

@@ -10,7 +10,6 @@ from PySide6.QtGui import QAction, QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QTableView,
     QVBoxLayout,
@@ -22,7 +21,8 @@ from hexmend.quality import METRICS, ElementQuality
 from hexmend_app.codec.checks import check_known
 from hexmend_app.features.hex_inspector.worst_model import HEX, ID, JACOBIAN, STATE, VALUE, WorstModel
 from hexmend_app.state.mesh.worst_hexes import WorstHexes
-from hexmend_app.theme.style import icon, note, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import icon, labelled, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -51,13 +51,10 @@ class WorstList(QWidget):
         The user selected this hex.
     metric_chosen(str)
         The user chose another metric.
-    save_requested
-        The user asked to save the list.
     """
 
     chosen = Signal(int)
     metric_chosen = Signal(str)
-    save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -89,9 +86,8 @@ class WorstList(QWidget):
             tr("Show only the selected hex and its neighbours; Esc shows all hexes again."),
         )
         self._previous, self._next = ActionButton("chevron-up"), ActionButton("chevron-down")
-        self._save = QPushButton(icon("content-save-outline"), "")  # no text: the dock is narrow
-        set_help(self._save, tr("Save list"), tr("Save the list as CSV, one line per hex."))
-        self._save.clicked.connect(self.save_requested)
+        self.save_button = QPushButton(icon("content-save-outline"), "")  # no text: the dock is narrow
+        set_help(self.save_button, tr("Save list"), tr("Save the list as CSV, one line per hex."))
         self._model = WorstModel(self)
         self._table = self._make_table()
         self._text = note()
@@ -116,20 +112,10 @@ class WorstList(QWidget):
         return table
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        label = QLabel(tr("Worst by"))
-        label.setBuddy(self._metric)
-        for widget in (label, self._metric):
-            head.addWidget(widget)
-        head.addStretch()
-        for widget in (self._isolate, self._previous, self._next, self._save):
-            head.addWidget(widget)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 4, 8, 4)
-        layout.setSpacing(4)
-        layout.addLayout(head)
-        layout.addWidget(self._table, 1)
-        layout.addWidget(self._text)
+        buttons = (self._isolate, self._previous, self._next, self.save_button)
+        label = labelled(tr("Worst by"), self._metric)
+        head = fill(QHBoxLayout(), label, self._metric, None, *buttons, spacing=4)
+        fill(QVBoxLayout(self), head, (self._table, 1), self._text, margins=(8, 4, 8, 4), spacing=4)
 
     def settings(self) -> WorstListSettings:
         """Return the current settings."""
@@ -191,7 +177,7 @@ class WorstList(QWidget):
             self._refresh()
 
     def _selected_row(self) -> int | None:
-        rows = np.flatnonzero(self._model.hexes == self._selected) if self._selected is not None else ()
+        rows = np.flatnonzero(self._model.hexes == self._selected) if self._selected is not None else np.empty(0)
         return int(rows[0]) if len(rows) else None
 
     def _step(self, by: int) -> None:
@@ -212,7 +198,7 @@ class WorstList(QWidget):
 
     def _refresh(self) -> None:
         mesh, figures = self._mesh, self._figures
-        self._save.setEnabled(mesh is not None)
+        self.save_button.setEnabled(mesh is not None)
         if mesh is None:
             self._text.setText(tr("No mesh is open."))
             return

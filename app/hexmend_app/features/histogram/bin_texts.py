@@ -70,11 +70,11 @@ def _bin_ends(shown: Distribution, index: int) -> tuple[str, str]:
     """Write the ends of a bin with as many decimals as its width needs."""
     axis = shown.axis
     width = (axis.high - axis.low) / len(shown.counts)
-    ends = axis.low + width * index, axis.low + width * (index + 1)
+    low, high = axis.low + width * index, axis.low + width * (index + 1)
     if not 0 <= axis.decimals <= 4:
-        return tuple(axis.text(end) for end in ends)
+        return axis.text(low), axis.text(high)
     decimals = next((d for d in range(7) if abs(round(width, d) - width) < 0.05 * width), 7)
-    return tuple(f"{end:.{decimals}f}" for end in ends)
+    return f"{low:.{decimals}f}", f"{high:.{decimals}f}"
 
 
 def range_summary(now: Distribution | None, range: Show | None, inside: int) -> str:

@@ -140,7 +140,7 @@ class ColourRange(QObject):
     def __init__(self, plot: pg.PlotWidget):
         super().__init__(plot)
         self._ends = [0.0, 1.0]  # also beyond the axis
-        self.lines = []
+        self.lines: list[pg.InfiniteLine] = []
         for marker in ("|>", "<|"):
             line = pg.InfiniteLine(angle=90, movable=True, bounds=(0.0, 1.0))
             line.addMarker(marker, position=0.5, size=12)

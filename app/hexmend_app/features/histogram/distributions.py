@@ -76,7 +76,7 @@ class Distributions:
             Arrays as in `set_initial`.
         """
         before = {slot: distribution for slot, _, distribution in self.snapshots}
-        self.snapshots = []
+        self.snapshots: list[tuple[int, str, Distribution]] = []
         for slot, name, values, inverted in snapshots:
             distribution = before.get(slot)
             if distribution is None or distribution.values is not values:
@@ -97,10 +97,9 @@ class Distributions:
         return series + [Series(str(slot), name, KEPT[slot], counts) for slot, name, counts in self.snapshots]
 
     def _clear(self) -> None:
-        self._initial: Distribution | None = None
-        self.current: Distribution | None = None
+        self._initial = self.current = None
         self.inside = 0
-        self.snapshots: list[tuple[int, str, Distribution]] = []
+        self.snapshots = []
 
     def _count(self, values: np.ndarray, inverted: np.ndarray) -> Distribution:
         return distribute(values, inverted, self.axis, self._bins)

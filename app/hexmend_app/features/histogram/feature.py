@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from hexmend.quality import METRICS, measure
-from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.histogram.head import HistogramSettings
-from hexmend_app.features.histogram.histogram_file import figure, write_histogram
+from hexmend_app.features.histogram.histogram_file import HistogramExport
 from hexmend_app.features.histogram.outline import Gradient
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.picture.visibility import Show
+from hexmend_app.report.charts import ChartStyle
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
@@ -50,14 +49,14 @@ class FeatureHistogram(Feature):
         #: Metric, points and values of the snapshots, by slot.
         self._snapshot_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
         panel = self.panel = QualityHistogram()
-        panel.metric_chosen.connect(self._on_metric)
+        panel.head.metric_chosen.connect(self._on_metric)
         panel.range_changed.connect(self._filter)
-        panel.keep_requested.connect(self._keep)
-        panel.renamed.connect(self._snapshots.rename)
-        panel.removed.connect(self._snapshots.remove)
-        panel.save_requested.connect(self.ask)
+        panel.head.keep.triggered.connect(self._keep)
+        panel.legend.renamed.connect(self._snapshots.rename)
+        panel.legend.removed.connect(self._snapshots.remove)
+        panel.head.save.triggered.connect(self.ask)
         panel.inverted_requested.connect(self._isolate_inverted)
-        panel.colours_dragged.connect(self._pin_colours)
+        panel.colours_dragged.connect(lambda low, high: self._view.change(colours={"range": (low, high)}))
 
     def states(self) -> Sequence[StatePart]:
         """Return the settings of the histogram."""
@@ -147,10 +146,6 @@ class FeatureHistogram(Feature):
         range = Show() if range is None else range
         self._view.change(show={"quality": range.quality, "metric": range.metric, "inverted": range.inverted})
 
-    def _pin_colours(self, low: float, high: float) -> None:
-        """Pin the range of colours."""
-        self._view.change(colours={"range": (low, high)})
-
     def _isolate_inverted(self) -> None:
         now = self._document.now
         self._view.isolate(hexes_of_group("inverted", now.mesh, now.figures))
@@ -186,29 +181,22 @@ class FeatureHistogram(Feature):
 
     def dialog(self) -> ChartDialog:
         """Return the export dialog, with the sizes and names of the last export."""
-        chart, proposed = figure(**self._exported()), f"{self.host.stem}-histogram.svg"
+        chart, proposed = self._exported().figure(), f"{self.host.stem}-histogram.svg"
         return ChartDialog(chart, tr("the histogram"), proposed, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
         return self.host.try_and_report(
             tr("Histogram not saved"),
-            lambda: write_histogram(path, **self._exported(), style=style),
+            lambda: self._exported().write(path, style),
             tr("Histogram saved to {path}", path=path),
         )
 
-    def _exported(self) -> dict[str, Any]:
-        """Return the arguments of `figure`."""
+    def _exported(self) -> HistogramExport:
+        """Return the histogram that is shown."""
         panel, document = self.panel, self._document
         start, now = document.start.mesh, document.now.mesh
         drawn = [(tr("at the start"), GREY.light, True, start), (tr("now"), BLUE.light, True, now)]
         for snapshot in self._snapshots.all:
             drawn.append((snapshot.name, KEPT[snapshot.slot].light, False, now.with_points(snapshot.points)))
-        return {
-            "title": document.name,
-            "metric": self.metric,
-            "drawn": drawn,
-            "bins": panel.head.bins.value(),
-            "log": panel.log,
-            "cumulative": panel.cumulative,
-        }
+        return HistogramExport(document.name, self.metric, drawn, panel.head.bins.value(), panel.log, panel.cumulative)

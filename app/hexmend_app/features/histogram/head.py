@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QSpinBox, QWidget, QWidg
 from hexmend.quality import METRICS
 from hexmend_app.codec.checks import check_count
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, MAX_BINS, MIN_BINS
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, set_help, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -46,17 +47,10 @@ class HistogramHead(QWidget):
         The user selected a metric, or "" for that of the colours.
     scale_changed
         The heights changed between linear and logarithmic, or counts and cumulative shares.
-    bins_changed
-        The number of bins changed.
-    keep_requested, save_requested
-        The user asked to keep the present distribution, or to save the histogram.
     """
 
     metric_chosen = Signal(str)
     scale_changed = Signal()
-    bins_changed = Signal()
-    keep_requested = Signal()
-    save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -83,9 +77,7 @@ class HistogramHead(QWidget):
         self.cumulative.setCheckable(True)
         self.cumulative.toggled.connect(self.scale_changed)
         self.keep = self._action(tr("Keep"), tr(_KEEP))
-        self.keep.triggered.connect(self.keep_requested)
         self.save = self._action(tr("Save…"), tr(_SAVE))
-        self.save.triggered.connect(self.save_requested)
         self._make_bins()
         self._lay_out()
         self.show_metric("q", True)
@@ -106,7 +98,6 @@ class HistogramHead(QWidget):
         self.bins.setKeyboardTracking(False)
         self.bins.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(self.bins, tr("Bins"), tr(_BINS))
-        self.bins.valueChanged.connect(self.bins_changed)
 
     def _lay_out(self) -> None:
         self.more = MenuButton(tr("More"), tr("Cumulative shares, number of bins, keep, save."))
@@ -117,13 +108,7 @@ class HistogramHead(QWidget):
         bins.setDefaultWidget(self.bins)
         menu.addActions([bins, self.keep, self.save])
         self.more.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(8)
-        layout.addWidget(self.metric_box, 1)
-        layout.addStretch()
-        layout.addWidget(self.scale)
-        layout.addWidget(self.more)
+        fill(QHBoxLayout(self), (self.metric_box, 1), None, self.scale, self.more, margins=(0, 0, 0, 0))
 
     @property
     def log(self) -> bool:

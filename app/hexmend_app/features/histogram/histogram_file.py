@@ -5,16 +5,17 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.documents import write_text
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, Distribution, distribute
+from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend_app.report.histogram import Histogram, Outline
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.translation import tr
@@ -23,22 +24,12 @@ from hexmend_app.translation import tr
 SUFFIXES = (*FIGURE_SUFFIXES, ".csv")
 
 
-def write_histogram(
-    path: str | Path,
-    title: str,
-    metric: str,
-    drawn: Sequence[tuple[str, str, bool, Mesh]],
-    *,
-    bins: int = DEFAULT_BINS,
-    log: bool = False,
-    cumulative: bool = False,
-    style: ChartStyle | None = None,
-) -> None:
-    """Write the histogram as SVG, PDF or PNG, or its counts as CSV, by the suffix.
+@dataclass(frozen=True)
+class HistogramExport:
+    """Histogram to be exported.
 
     Parameters
     ----------
-    path : path-like
     title : str
         Title above the figure.
     metric : str
@@ -51,64 +42,60 @@ def write_histogram(
         Draw logarithmic heights.
     cumulative : bool
         Write shares of hexes up to a value instead of counts.
-    style : ChartStyle, optional
-        Sizes and names.
-
-    Raises
-    ------
-    HexmendError
-        If the suffix is unknown or the file cannot be written; an existing file is left unchanged.
     """
-    style = ChartStyle() if style is None else style
-    if suffix_for(Path(path), "a histogram", SUFFIXES) == ".csv":
-        names = [style.names.get(name) or name for name, *_ in drawn]
-        write_text(Path(path), _csv_text(_count(metric, drawn, bins, cumulative), names, cumulative))
-    else:
-        chart = figure(title, metric, drawn, bins=bins, log=log, cumulative=cumulative)
-        write_chart(Path(path), chart.draw, style)
 
+    title: str
+    metric: str
+    drawn: Sequence[tuple[str, str, bool, Mesh]]
+    bins: int = DEFAULT_BINS
+    log: bool = False
+    cumulative: bool = False
 
-def figure(
-    title: str,
-    metric: str,
-    drawn: Sequence[tuple[str, str, bool, Mesh]],
-    *,
-    bins: int = DEFAULT_BINS,
-    log: bool = False,
-    cumulative: bool = False,
-) -> Histogram:
-    """Return the histogram as a figure for print; see `write_histogram`."""
-    columns = _count(metric, drawn, bins, cumulative)
-    axis, outlines = columns[0].axis, []
-    for (name, colour, filled, _), counted in zip(drawn, columns, strict=True):
-        scale = 100 / max(counted.total, 1) if cumulative else 1
-        bars = ((axis.inverted, counted.inverted), (axis.below, counted.below), (axis.above, counted.above))
-        outlines.append(
-            Outline(
-                name,
-                colour,
-                [float(count * scale) for count in counted.counts],
-                [(*span, count * scale) for span, count in bars if span is not None and count],
-                filled and not cumulative,
-                tr("{count:,} inverted", count=counted.inverted),
+    def write(self, path: str | Path, style: ChartStyle | None = None) -> None:
+        """Write the histogram as SVG, PDF or PNG, or its counts as CSV, by the suffix.
+
+        Raises
+        ------
+        HexmendError
+            If the suffix is unknown or the file cannot be written; an existing file is left unchanged.
+        """
+        style = ChartStyle() if style is None else style
+        if suffix_for(Path(path), "a histogram", SUFFIXES) == ".csv":
+            names = [style.names.get(name) or name for name, *_ in self.drawn]
+            write_text(Path(path), _csv_text(self._count(), names, self.cumulative))
+        else:
+            write_chart(Path(path), self.figure().draw, style)
+
+    def figure(self) -> Histogram:
+        """Return the histogram as a figure for print."""
+        columns = self._count()
+        axis, outlines = columns[0].axis, []
+        for (name, colour, filled, _), counted in zip(self.drawn, columns, strict=True):
+            scale = 100 / max(counted.total, 1) if self.cumulative else 1
+            bars = ((axis.inverted, counted.inverted), (axis.below, counted.below), (axis.above, counted.above))
+            outlines.append(
+                Outline(
+                    name,
+                    colour,
+                    [float(count * scale) for count in counted.counts],
+                    [(*span, count * scale) for span, count in bars if span is not None and count],
+                    filled and not self.cumulative,
+                    tr("{count:,} inverted", count=counted.inverted),
+                )
             )
-        )
-    label = tr("% of hexes up to x, inverted first") if cumulative else tr("hexes")
-    return Histogram(outlines, title, axis.title, label, axis.ticks(), axis.extent, log)
+        label = tr("% of hexes up to x, inverted first") if self.cumulative else tr("hexes")
+        return Histogram(outlines, self.title, axis.title, label, axis.ticks(), axis.extent, self.log)
 
-
-def _count(
-    metric: str, drawn: Sequence[tuple[str, str, bool, Mesh]], bins: int, cumulative: bool
-) -> list[Distribution]:
-    """Count the hexes of the meshes on the axis that fits the first."""
-    axis, columns = None, []
-    for *_, mesh in drawn:
-        figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
-        values = metric_values(metric, mesh, figures)
-        axis = axis or Axis.fitted(metric, values, figures.inverted)
-        distribution = distribute(values, figures.inverted, axis, bins)
-        columns.append(distribution.cumulated() if cumulative else distribution)
-    return columns
+    def _count(self) -> list[Distribution]:
+        """Count the hexes of the meshes on the axis that fits the first."""
+        axis, columns = None, []
+        for *_, mesh in self.drawn:
+            figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+            values = metric_values(self.metric, mesh, figures)
+            axis = axis or Axis.fitted(self.metric, values, figures.inverted)
+            distribution = distribute(values, figures.inverted, axis, self.bins)
+            columns.append(distribution.cumulated() if self.cumulative else distribution)
+        return columns
 
 
 def _csv_text(columns: Sequence[Distribution], names: Sequence[str], cumulative: bool) -> str:

@@ -15,7 +15,7 @@ from hexmend_app.features.histogram.brush import BrushView, ColourRange
 from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import BROKEN_TOP, Heights, Outline, Series
 from hexmend_app.scene.colour.ticks import nice_ticks
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import BLUE, INVERTED_TEXT, MUTED, on_theme_change, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot, log_ticks
@@ -73,9 +73,7 @@ class HistogramPlot(QWidget):
             self.plot.addItem(number, ignoreBounds=True)
         self.plot.getAxis("left").label.setFont(smaller(self.font()))
         self.plot.getAxis("bottom").setHeight(self.fontMetrics().height() + 6)  # its title is in the legend
-        layout = on_grid(QVBoxLayout(self))
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.plot)
+        fill(QVBoxLayout(self), self.plot, margins=(0, 0, 0, 0))
         self._legend = legend
         legend.setParent(self)
         legend.installEventFilter(self)
@@ -125,7 +123,7 @@ class HistogramPlot(QWidget):
         """Label broken bars, with the count at the start above that of now, and always the bar of inverted hexes."""
         rows = 1
         for index, name in enumerate(("inverted", "below", "above")):
-            span, labelled = self.axis and getattr(self.axis, name), None
+            span, labelled = getattr(self.axis, name, None), None
             for key, numbers in self.numbers.items():
                 number, distribution = numbers[index], distributions.get(key)
                 number.setVisible(distribution is not None and span is not None)

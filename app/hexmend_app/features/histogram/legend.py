@@ -6,11 +6,12 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QFocusEvent
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 from superqt import QFlowLayout
 
 from hexmend_app.theme.palette import KEPT
-from hexmend_app.theme.style import BLUE, GREY, MUTED, icon, set_help, set_variant, smaller, tint
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import BLUE, GREY, MUTED, cross_button, set_help, set_variant, smaller, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.legend import Swatch, legend_entry
@@ -92,18 +93,9 @@ class SnapshotEntry(QWidget):
     def __init__(self, slot: int):
         super().__init__()
         self.name = _Name()
-        self.cross = QToolButton()
-        set_variant(self.cross, "small")
-        self.cross.setIcon(icon("close", MUTED))
-        self.cross.setIconSize(QSize(11, 11))
-        self.cross.setFixedSize(16, 16)
-        self.cross.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.cross = cross_button()
         self.setFixedHeight(max(_HEIGHT, self.fontMetrics().height()))
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 4, 0)
-        layout.setSpacing(4)
-        for widget in (Swatch(KEPT[slot]), self.name, self.cross):
-            layout.addWidget(widget)
+        fill(QHBoxLayout(self), Swatch(KEPT[slot]), self.name, self.cross, margins=(0, 0, 4, 0), spacing=4)
 
 
 class _Name(QLineEdit):

@@ -151,7 +151,7 @@ def _draw_bars(item: QGraphicsPathItem, bars: list, distribution: Distribution, 
     path = QPainterPath()
     for span, count in bars:
         if span is not None and count > 0:
-            _add_bar(path, *span, *heights.bar(distribution, count), heights)
+            _add_bar(path, span[0], span[1], *heights.bar(distribution, count), heights)
     item.setVisible(not path.isEmpty())
     item.setPath(path)
     item.setPen(pen)

@@ -22,7 +22,7 @@ from hexmend_app.features.histogram.outline import Gradient, Series
 from hexmend_app.features.histogram.range_row import RangeRow
 from hexmend_app.picture.visibility import Show
 from hexmend_app.theme.palette import KEPT
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import MUTED, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -41,28 +41,15 @@ class QualityHistogram(QWidget):
 
     Signals
     -------
-    metric_chosen(str)
-        The user selected a metric, or "" for that of the colours.
     range_changed(Show or None)
         The user brushed or typed a range, or cleared it.
-    keep_requested
-        The user asked to keep the present distribution.
-    renamed(slot, name), removed(slot)
-        The user renamed or removed a snapshot.
-    save_requested
-        The user asked to save the histogram.
     inverted_requested
         The user clicked the bar of inverted hexes, which is not empty.
     colours_dragged(low, high)
         The user dragged an end of the range of colours to these values.
     """
 
-    metric_chosen = Signal(str)
     range_changed = Signal(object)
-    keep_requested = Signal()
-    renamed = Signal(int, str)
-    removed = Signal(int)
-    save_requested = Signal()
     inverted_requested = Signal()
     colours_dragged = Signal(float, float)
 
@@ -72,31 +59,18 @@ class QualityHistogram(QWidget):
         self._range: Show | None = None
         self._colour_ends = (0.0, 1.0)
         self._make_widgets()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(4, 4, 4, 4)
-        layout.setSpacing(4)
-        layout.addWidget(self.head)
-        layout.addWidget(self.plot, 1)
-        self._bottom = on_grid(QBoxLayout(QBoxLayout.Direction.LeftToRight))
-        self._bottom.setSpacing(4)
-        self._bottom.addWidget(self.range_row)
-        self._bottom.addWidget(self.summary, 1)
-        layout.addLayout(self._bottom)
+        self._bottom = fill(QBoxLayout(QBoxLayout.Direction.LeftToRight), self.range_row, (self.summary, 1), spacing=4)
+        fill(QVBoxLayout(self), self.head, (self.plot, 1), self._bottom, margins=(4, 4, 4, 4), spacing=4)
         self._use_axis()
         self._refresh()
 
     def _make_widgets(self) -> None:
         self.head, self.legend = HistogramHead(), HistogramLegend(tr(_HELP))
         self.plot, self.range_row = HistogramPlot(self.legend), RangeRow()
-        self.head.metric_chosen.connect(self.metric_chosen)
         self.head.scale_changed.connect(self._on_scale)
-        self.head.bins_changed.connect(self._on_bins)
-        self.head.keep_requested.connect(self.keep_requested)
-        self.head.save_requested.connect(self.save_requested)
-        self.legend.renamed.connect(self.renamed)
-        self.legend.removed.connect(self.removed)
+        self.head.bins.valueChanged.connect(self._on_bins)
         self.range_row.chosen.connect(self._on_typed)
-        self.range_row.cleared.connect(lambda: self._choose(None))
+        self.range_row.all.clicked.connect(lambda: self._choose(None))
         # The tooltip of the plot shows counts; the help is the tooltip of the legend.
         self.plot.plot.setAccessibleName(tr("Histogram of hex quality"))
         self.plot.plot.setAccessibleDescription(tr(_HELP))
@@ -246,7 +220,7 @@ class QualityHistogram(QWidget):
 
     def _show_range(self, range: Show | None) -> None:
         self._range = range
-        self.plot.show_range(range and self.axis.span(range), range is not None and range.inverted)
+        self.plot.show_range(None if range is None else self.axis.span(range), range is not None and range.inverted)
         self.range_row.show_range(range)
         self._show_summary()
 

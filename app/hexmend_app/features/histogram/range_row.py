@@ -10,6 +10,7 @@ from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.end_box import EndBox
 from hexmend_app.picture.visibility import Show
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import INVERTED, narrow, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.metric_texts import in_sentence
@@ -25,12 +26,9 @@ class RangeRow(QWidget):
     -------
     chosen(low, high, inverted)
         The user changed an end of the range, or showed or hid inverted hexes.
-    cleared
-        The user asked to show all hexes.
     """
 
     chosen = Signal(float, float, bool)
-    cleared = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -41,7 +39,6 @@ class RangeRow(QWidget):
         self.low, self.high, self.all = EndBox(), EndBox(), QPushButton(tr("All"))
         set_help(self.all, tr("Show all"), tr("Show the hexes of all values (or double-click the plot)."))
         narrow(self.all)
-        self.all.clicked.connect(self.cleared)
         self.inverted = QToolButton()
         self.inverted.setCheckable(True)
         self.inverted.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -51,13 +48,9 @@ class RangeRow(QWidget):
         self.inverted.clicked.connect(self._choose)
         self.inverted.setIcon(_swatch())
         self._label, to = QLabel(tr("Show")), QLabel(tr("to"))
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(_SPACING)
         self.controls = (self.low, to, self.high, self.inverted, self.all)
-        for widget in (self._label, *self.controls):
-            row.addWidget(widget)
-        row.insertStretch(row.count() - 1)
+        parts = (self._label, *self.controls[:-1], None, self.all)
+        fill(QHBoxLayout(self), *parts, margins=(0, 0, 0, 0), spacing=_SPACING)
         for box in (self.low, self.high):
             box.valueChanged.connect(lambda _, box=box: self._on_end(box))
         self.set_axis(self._axis)

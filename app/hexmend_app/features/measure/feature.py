@@ -23,8 +23,8 @@ class FeatureMeasure(Feature):
         self._view = self.session.view
         self._seen = ChangeTracker()
         self.panel = MeasurePanel()
-        self.panel.toggled.connect(self._switch)
-        self.panel.clear_requested.connect(self._view.clear_measurement)
+        self.panel.switch.clicked.connect(self._switch)
+        self.panel.clear_button.clicked.connect(self._view.clear_measurement)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that measure and copy."""

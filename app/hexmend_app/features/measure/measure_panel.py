@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from hexmend_app.picture.appearance import Measurement
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, set_help, tabular
 from hexmend_app.translation import tr
 
@@ -23,27 +24,17 @@ class MeasurePanel(QWidget):
     ----------
     text : QLabel
         The measurement, which can be selected.
-
-    Signals
-    -------
-    toggled(bool)
-        The user switched measuring on or off.
-    clear_requested
-        Remove the measured points.
     """
-
-    toggled = Signal(bool)
-    clear_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._measurement = Measurement()
-        self._switch = QPushButton(icon("ruler"), tr("Measure"))
-        self._switch.setCheckable(True)
-        set_help(self._switch, tr("Measure"), tr("Clicks in the view measure instead of selecting hexes; Esc ends."))
-        self._copy, self._clear = QPushButton(icon("content-copy"), tr("Copy")), QPushButton(tr("Clear"))
+        self.switch = QPushButton(icon("ruler"), tr("Measure"))
+        self.switch.setCheckable(True)
+        set_help(self.switch, tr("Measure"), tr("Clicks in the view measure instead of selecting hexes; Esc ends."))
+        self._copy, self.clear_button = QPushButton(icon("content-copy"), tr("Copy")), QPushButton(tr("Clear"))
         set_help(self._copy, tr("Copy measurement"), tr("Copy the points, distances and angle to the clipboard."))
-        set_help(self._clear, tr("Clear measurement"), tr("Remove the measured points."))
+        set_help(self.clear_button, tr("Clear measurement"), tr("Remove the measured points."))
         self.text = QLabel()
         self.text.setFont(tabular(self.text.font()))
         self.text.setTextFormat(Qt.TextFormat.PlainText)
@@ -51,18 +42,8 @@ class MeasurePanel(QWidget):
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
         self.text.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(8)
-        for button in (self._switch, self._copy, self._clear):
-            buttons.addWidget(button)
-        buttons.addStretch()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(8)
-        layout.addLayout(buttons)
-        layout.addWidget(self.text, 1)
-        self._switch.clicked.connect(self.toggled)
-        self._clear.clicked.connect(self.clear_requested)
+        buttons = fill(QHBoxLayout(), self.switch, self._copy, self.clear_button, None)
+        fill(QVBoxLayout(self), buttons, (self.text, 1), margins=(0, 0, 0, 0))
         self._copy.clicked.connect(self.copy)
         self.set_measurement(False, self._measurement)
 
@@ -70,8 +51,8 @@ class MeasurePanel(QWidget):
         """Show whether clicks measure, and a measurement; emits no signal."""
         self._measurement = measurement
         count = len(measurement.points)
-        self._switch.setChecked(measuring)
-        self._clear.setEnabled(count > 0)
+        self.switch.setChecked(measuring)
+        self.clear_button.setEnabled(count > 0)
         self._copy.setEnabled(count > 1)
         if count > 1:
             self.text.setText(measurement_text(measurement))

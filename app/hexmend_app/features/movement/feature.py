@@ -25,8 +25,8 @@ class FeatureMovement(Feature):
         self._seen = ChangeTracker()
         panel = self.panel = MovementPanel()
         panel.traces_changed.connect(lambda traces: view.change(movement=traces))
-        panel.colours_chosen.connect(lambda name: view.colour_by(name or self._metric))
-        panel.newly_invalid_requested.connect(self._show_newly_invalid)
+        panel.colours.chosen.connect(lambda name: view.colour_by(name or self._metric))
+        panel.show_newly.clicked.connect(self._show_newly_invalid)
 
     def panels(self) -> Sequence[Panel]:
         """Return the panel of the displacement."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
@@ -10,7 +11,8 @@ from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHB
 from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, DisplacementCounts
 from hexmend_app.scene.layers.arrows import MAX_ARROWS
-from hexmend_app.theme.style import note, set_help, tabular
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import labelled, note, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import counted, figure, short_number
@@ -66,15 +68,9 @@ class MovementPanel(QWidget):
     -------
     traces_changed(Traces)
         The user changed the reference state or the arrows.
-    colours_chosen(name)
-        The user selected a name of `DISPLACEMENT_QUANTITIES` for the colours, or "" for a metric.
-    newly_invalid_requested
-        The user asked to isolate the newly invalid hexes.
     """
 
     traces_changed = Signal(object)
-    colours_chosen = Signal(str)
-    newly_invalid_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -98,8 +94,6 @@ class MovementPanel(QWidget):
         self.since.chosen.connect(lambda key: self._change(since=Since(key)))
         self.arrows.chosen.connect(lambda key: self._change(arrows=Arrows(key)))
         self.factor.valueChanged.connect(lambda value: self._change(factor=value))
-        self.colours.chosen.connect(self.colours_chosen)
-        self.show_newly.clicked.connect(self.newly_invalid_requested)
         self.set_traces(self._traces)
         self.set_counts(None, "", 0)
         self.set_arrows(0, 0)
@@ -110,21 +104,13 @@ class MovementPanel(QWidget):
         grid.setHorizontalSpacing(12)
         grid.setVerticalSpacing(4)
         grid.setColumnStretch(1, 1)
-        lengths = QHBoxLayout()
-        lengths.setSpacing(8)
-        lengths.addWidget(self.factor)
-        lengths.addWidget(self._drawn, 1)
+        lengths = fill(QHBoxLayout(), self.factor, (self._drawn, 1))
         rows = ((tr("Since"), self.since), (tr("Colours"), self.colours), (tr("Arrows"), self.arrows))
         for row, (text, buttons) in enumerate(rows):
-            label = QLabel(text)
-            grid.addWidget(label, row, 0)
-            label.setBuddy(buttons)
+            grid.addWidget(labelled(text, buttons), row, 0)
             grid.addWidget(buttons, row, 1)
         grid.addLayout(lengths, 3, 1)
-        invalid = QHBoxLayout()
-        invalid.setSpacing(8)
-        invalid.addWidget(self._figures["Invalid"], 1)
-        invalid.addWidget(self.show_newly)
+        invalid = fill(QHBoxLayout(), (self._figures["Invalid"], 1), self.show_newly)
         for row, (text, label) in enumerate(self._figures.items(), start=4):
             grid.addWidget(QLabel(tr(text)), row, 0)
             set_help(label, tr(text), tr(_FIGURES[text]))
@@ -174,7 +160,7 @@ class MovementPanel(QWidget):
         for label, text in zip(self._figures.values(), texts, strict=True):
             label.setText(text)
 
-    def _change(self, **fields: object) -> None:
+    def _change(self, **fields: Any) -> None:
         traces = dataclasses.replace(self._traces, **fields)
         if traces != self._traces:
             self.set_traces(traces)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QTimer
@@ -50,8 +51,8 @@ class FeatureNodeStep(Feature):
             lambda: self._draw_message(tr("Computing… A global method takes several seconds on a large mesh."))
         )
         session.node_step_task.answered.connect(self._computing_timer.stop)
-        panel.node_chosen.connect(lambda node: self._selection.choose(self._selection.hex, node))
-        panel.patch_toggled.connect(self._on_patch_toggled)
+        panel.nodes.followed.connect(lambda node: self._selection.choose(self._selection.hex, node))
+        panel.patch_box.toggled.connect(self._on_patch_toggled)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that explain a node and run a sweep node by node."""
@@ -131,7 +132,7 @@ class FeatureNodeStep(Feature):
         else:
             self._request_step(self._document.now.mesh, smoother, node)
 
-    def _request_step(self, *request: object) -> None:
+    def _request_step(self, *request: Any) -> None:
         """Compute a step in the background, or show it if it has been computed."""
         if request != self._request:
             self._request = request
@@ -214,7 +215,7 @@ class FeatureNodeStep(Feature):
         self.host.show_panel("node")
         if self._reason_for_no_sweep():
             return
-        smoother = self.session.run_setup.smoother
+        smoother: Any = self.session.run_setup.smoother
         if amount == "finish":
             self._node_sweep.finish(smoother)
         else:

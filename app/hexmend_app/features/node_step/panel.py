@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QAction, QFont
+from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -21,8 +21,8 @@ from hexmend_app.features.node_step.step_plot import NodePlot
 from hexmend_app.features.node_step.step_texts import rows
 from hexmend_app.state.node_step import NodeStep, StepStatus
 from hexmend_app.theme.palette import DESCENT, OTHERWISE, SEARCH, TAKEN, TRIED
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import MUTED, WORSE, bold, note, set_help, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.legend import legend_entry
@@ -49,25 +49,12 @@ _NO_PLOT = "No plot: along the direction, the energy changes by rounding only."
 
 
 class NodePanel(QWidget):
-    """Shows the step of a node, or the reason why it has none.
-
-    Signals
-    -------
-    node_chosen(int)
-        The user selected this node.
-    patch_toggled(bool)
-        The user isolated the hexes of the node, or ended the isolation.
-    """
-
-    node_chosen = Signal(int)
-    patch_toggled = Signal(bool)
+    """Shows the step of a node, or the reason why it has none."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._title, self._status = QLabel(), QLabel()
-        font = QFont(self._title.font())
-        font.setBold(True)
-        self._title.setFont(font)
+        self._title.setFont(bold(self._title.font()))
         self._status.setWordWrap(True)
         self._status.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         for label, name in ((self._title, tr("Node")), (self._status, tr("Outcome of the step"))):
@@ -81,18 +68,16 @@ class NodePanel(QWidget):
         self._no_plot.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._no_plot.setMargin(16)
         self.figures = NodeFigures()
-        self._nodes = LinkLabel()
-        self._nodes.setWordWrap(True)
-        self._nodes.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self._nodes.followed.connect(self.node_chosen)
+        self.nodes = LinkLabel()
+        self.nodes.setWordWrap(True)
+        self.nodes.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         set_help(
-            self._nodes,
+            self.nodes,
             tr("Free nodes"),
             tr("Nodes of the selected hex that methods may move; click one to select it."),
         )
-        self._patch = QCheckBox(tr("Isolate patch"))
-        set_help(self._patch, tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again."))
-        self._patch.toggled.connect(self.patch_toggled)
+        self.patch_box = QCheckBox(tr("Isolate patch"))
+        set_help(self.patch_box, tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again."))
         self._buttons = {name: ActionButton(with_text=True) for name in SWEEP}
         self._progress = QLabel()
         self._progress.setFont(tabular(self._progress.font()))
@@ -104,50 +89,25 @@ class NodePanel(QWidget):
 
     def _make_legend(self) -> QWidget:
         row = QWidget()
-        layout = QHBoxLayout(row)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        for text, role, help in _LEGEND:
-            entry = legend_entry(tr(text), role)
+        entries = [legend_entry(tr(text), role) for text, role, _ in _LEGEND]
+        for entry, (text, _, help) in zip(entries, _LEGEND, strict=True):
             set_help(entry, tr(text), tr(help))
-            layout.addWidget(entry)
         self._edges = {name: legend_entry(tr(name), OTHERWISE) for name in ("after", "before")}  # one of them is shown
         set_help(self._edges["after"], tr("after"), tr("Edges at the node after the step."))
         set_help(self._edges["before"], tr("before"), tr("Edges at the node before the step."))
-        for entry in self._edges.values():
-            layout.addWidget(entry)
         row.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        layout.addStretch()
+        fill(QHBoxLayout(row), *entries, *self._edges.values(), None, margins=(0, 0, 0, 0), spacing=4)
         return row
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.addWidget(self._title)
-        head.addWidget(self._status, 1)
-        head.addWidget(self._progress)
+        head = fill(QHBoxLayout(), self._title, (self._status, 1), self._progress, spacing=None)
         self._stack = QStackedLayout()
         self._stack.addWidget(self._message)
         page = QWidget()
-        middle = on_grid(QHBoxLayout(page))
-        middle.setContentsMargins(0, 0, 0, 0)
-        middle.addWidget(self.plot, 1)
-        middle.addWidget(self._no_plot, 1)
-        middle.addWidget(self.figures, 1)
+        fill(QHBoxLayout(page), (self.plot, 1), (self._no_plot, 1), (self.figures, 1), margins=(0, 0, 0, 0))
         self._stack.addWidget(page)
-        foot = QHBoxLayout()
-        foot.setSpacing(8)
-        foot.addWidget(self._patch)
-        foot.addStretch()
-        for button in self._buttons.values():
-            foot.addWidget(button)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(8, 4, 8, 4)
-        column.setSpacing(4)
-        column.addLayout(head)
-        column.addLayout(self._stack, 1)
-        column.addWidget(self._legend)
-        column.addWidget(self._nodes)
-        column.addLayout(foot)
+        foot = fill(QHBoxLayout(), self.patch_box, None, *self._buttons.values())
+        fill(QVBoxLayout(self), head, (self._stack, 1), self._legend, self.nodes, foot, margins=(8, 4, 8, 4), spacing=4)
 
     def show_message(self, message: str, title: str = "") -> None:
         """Show a message instead of a step."""
@@ -186,11 +146,11 @@ class NodePanel(QWidget):
 
     def set_nodes(self, nodes: Sequence[int] | None, selected: int | None = None) -> None:
         """List the free nodes of the selected hex as links, the `selected` node in bold; None hides the list."""
-        self._nodes.setVisible(nodes is not None)
+        self.nodes.setVisible(nodes is not None)
         if nodes is None:
             return
         links = (f"<b>{i:,}</b>" if i == selected else f'<a href="{i}">{i:,}</a>' for i in nodes)
-        self._nodes.setText(tr("Free nodes: {nodes}", nodes=" ".join(links) or tr("none")))
+        self.nodes.setText(tr("Free nodes: {nodes}", nodes=" ".join(links) or tr("none")))
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:
         """Show the actions of `SWEEP` on the buttons."""
@@ -203,10 +163,10 @@ class NodePanel(QWidget):
 
     def set_patch(self, on: bool) -> None:
         """Show whether the patch is isolated in the view, without emitting a signal."""
-        with QSignalBlocker(self._patch):
-            self._patch.setChecked(on)
+        with QSignalBlocker(self.patch_box):
+            self.patch_box.setChecked(on)
 
     @property
     def patch_alone(self) -> bool:
         """True if the hexes of the node are isolated in the view."""
-        return self._patch.isChecked()
+        return self.patch_box.isChecked()

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.state.node_step import NodeStep
 from hexmend_app.theme.palette import AMBER, MUTED, PANEL, SEARCH, TAKEN, TEXT, TRIED
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import on_theme_change, set_help, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot
@@ -56,9 +56,7 @@ class NodePlot(QWidget):
         self.numbers: list[pg.TextItem] = []
         self._step: NodeStep | None = None
         set_help(self._plot, tr("Energy along the direction"), tr(_HELP))
-        layout = on_grid(QVBoxLayout(self))
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self._plot)
+        fill(QVBoxLayout(self), self._plot, margins=(0, 0, 0, 0))
         on_theme_change(self, lambda: self.show_step(self._step))
 
     def show_step(self, step: NodeStep | None) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtGui import QDropEvent
@@ -43,8 +44,8 @@ class FeatureOpen(Feature):
         self._menu = RecentMenu(self.recent, host.dialog_parent)
         self._menu.chosen.connect(self.open)
         self.welcome = Welcome(self.recent)
-        self.welcome.open_requested.connect(self.ask)
-        self.welcome.demo_requested.connect(self.open_demo)
+        self.welcome.open_button.clicked.connect(self.ask)
+        self.welcome.demo_button.clicked.connect(self.open_demo)
         self.welcome.recent_requested.connect(self.open)
         opener = self._opener
         opener.began.connect(lambda path: self._show_progress(LoadProgress(LoadStage.READING, path)))
@@ -107,7 +108,7 @@ class FeatureOpen(Feature):
         """Open the demo mesh included with Hexmend."""
         self.open(demo_mesh())
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+    def eventFilter(self, watched: QObject, event: Any) -> bool:
         """Open a single file that is dropped on the window."""
         kind = event.type()
         if kind == QEvent.Type.DragEnter and _dragged_file(event):
@@ -132,7 +133,7 @@ class FeatureOpen(Feature):
         if restored := self._restored:
             self._restored = None
             show = self.host.messages.show_info if restored.matches else self.host.messages.show_warning
-            show(*restored_message(restored))
+            show(*restored_message(restored))  # type: ignore[arg-type]  # one text for `show_info`
         else:
             self._show_card()
         if path.resolve() != demo_mesh().resolve():

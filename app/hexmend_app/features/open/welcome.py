@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWi
 
 from hexmend_app.features.open.recent_menu import elide
 from hexmend_app.state.settings.recent_files import RecentFiles
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import clear, fill
 from hexmend_app.theme.style import MUTED, icon, set_help, set_variant, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_folder
@@ -24,14 +24,10 @@ class Welcome(QWidget):
 
     Signals
     -------
-    open_requested, demo_requested
-        The user asked for the file dialog or the demo mesh.
     recent_requested(Path)
         The user selected this file.
     """
 
-    open_requested = Signal()
-    demo_requested = Signal()
     recent_requested = Signal(object)
 
     def __init__(self, recent: RecentFiles, parent: QWidget | None = None):
@@ -45,33 +41,18 @@ class Welcome(QWidget):
             tr("Drop a file here or open one: VTK, Exodus, CGNS, MED, Gmsh, Abaqus, Nastran, Medit and more.")
         )
         tint(self._hint, MUTED)
-        self._open = QPushButton(icon("folder-open-outline"), tr("Open…"))
-        self._demo = QPushButton(tr("Demo mesh"))
-        self._open.clicked.connect(self.open_requested)
-        self._demo.clicked.connect(self.demo_requested)
-        buttons = QHBoxLayout()
-        buttons.addStretch()
-        buttons.addWidget(self._open)
-        buttons.addWidget(self._demo)
-        buttons.addStretch()
-        layout = on_grid(QVBoxLayout(self))
-        layout.setSpacing(16)
-        layout.addStretch()
+        self.open_button = QPushButton(icon("folder-open-outline"), tr("Open…"))
+        self.demo_button = QPushButton(tr("Demo mesh"))
+        buttons = fill(QHBoxLayout(), None, self.open_button, self.demo_button, None, spacing=None)
+        self._links = fill(QVBoxLayout(), spacing=4)
         for label in (self._title, self._hint):
             label.setAlignment(Qt.AlignmentFlag.AlignCenter)
-            layout.addWidget(label)
-        layout.addLayout(buttons)
-        self._links = QVBoxLayout()
-        self._links.setSpacing(4)
-        layout.addLayout(self._links)
-        layout.addStretch()
+        fill(QVBoxLayout(self), None, self._title, self._hint, buttons, self._links, None, spacing=16)
         recent.changed.connect(self._show_recent)
         self._show_recent()
 
     def _show_recent(self) -> None:
-        while (item := self._links.takeAt(0)) is not None:
-            item.widget().hide()
-            item.widget().deleteLater()
+        clear(self._links)
         for path in self._recent.files():
             if path.exists():
                 link = QPushButton(elide(f"{path.name}  ({short_folder(path)})", self).replace("&", "&&"))

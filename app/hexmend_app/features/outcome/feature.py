@@ -14,6 +14,7 @@ from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelP
 from hexmend_app.features.outcome.notice import notice
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.theme.style import show_text
 from hexmend_app.translation import tr
 
 #: Rings of hexes around the inverted ones whose nodes are unpinned where the part of the mesh was too small.
@@ -32,7 +33,6 @@ class FeatureOutcome(Feature):
         session = self.session
         #: The last run if it made no iteration and so has no record: the record before it, its name, its explanation.
         self._empty_run: tuple[RunRecord | None, str, Advice] | None = None
-        self._shown: Advice | None = None
         self._notice: tuple[str, str] | None = None  # title and text of the message on the last run
         panel = self.panel = OutcomePanel()
         panel.chosen.connect(session.selection.visit)
@@ -41,6 +41,7 @@ class FeatureOutcome(Feature):
         panel.suggestion_chosen.connect(lambda index: self._apply(self._shown.suggestions[index]))
         session.run.ended.connect(lambda _: self._on_ended())
         session.document.mesh_replaced.connect(self._on_mesh_replaced)
+        self._shown: Advice | None = None
 
     def actions(self) -> Sequence[Action]:
         """Return the action that shows the panel."""
@@ -86,7 +87,7 @@ class FeatureOutcome(Feature):
         elif advice is None:
             self.panel.show_hint()
         self._shown = advice
-        self.panel.set_view_note(self._view_note())
+        show_text(self.panel.view_note, self._view_note())
         self.panel.set_busy(not self.session.editable)
 
     def _on_ended(self) -> None:

@@ -7,7 +7,6 @@ from html import escape
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QFont
 from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
@@ -19,8 +18,8 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.advice import Advice, Suggestion
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, icon, note, set_help, tint
+from hexmend_app.theme.spacing import clear, fill
+from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, bold, icon, note, set_help, show_text, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.scrolled import scrolled
@@ -60,9 +59,7 @@ class OutcomePanel(QWidget):
         self._hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._hint.setMargin(24)
         self._title, self._reason, self._state, self._regressions = QLabel(), *(self._text() for _ in range(3))
-        font = QFont(self._title.font())
-        font.setBold(True)
-        self._title.setFont(font)
+        self._title.setFont(bold(self._title.font()))
         self._locked = _HexList(tr("Locked"), tr("that fixed nodes alone keep inverted"))
         self._unlocked = _HexList(tr("Inverted"), tr("that are inverted but not locked"))
         self._surface = self._text()
@@ -78,10 +75,10 @@ class OutcomePanel(QWidget):
             request = self.visit_requested if hex_list is self._limiting else self.show_requested
             hex_list.show_requested.connect(request)
         self._suggestions_title = QLabel(tr("Suggestions"))
-        self._suggestions_title.setFont(font)
+        self._suggestions_title.setFont(self._title.font())
         self._no_suggestion = note()
-        self._view_note = note("", AMBER)
-        self._view_note.hide()
+        self.view_note = note("", AMBER)
+        self.view_note.hide()
         self._suggestions = QGridLayout()
         self._suggestions.setColumnStretch(0, 1)
         self._suggestions.setVerticalSpacing(8)
@@ -98,14 +95,10 @@ class OutcomePanel(QWidget):
 
     def _page(self) -> QWidget:
         page = QWidget()
-        column = QVBoxLayout(page)
-        column.setContentsMargins(8, 8, 8, 8)
-        column.setSpacing(8)
-        summary = (self._title, self._view_note, self._reason, self._state, self._regressions)
-        for widget in (*summary, *self._hex_lists, self._surface, self._suggestions_title, self._no_suggestion):
-            column.addWidget(widget)
-        column.addLayout(self._suggestions)
-        column.addStretch()
+        summary = (self._title, self.view_note, self._reason, self._state, self._regressions)
+        suggestions = (self._suggestions_title, self._no_suggestion, self._suggestions)
+        parts = (*summary, *self._hex_lists, self._surface, *suggestions)
+        fill(QVBoxLayout(page), *parts, None, margins=(8, 8, 8, 8))
         return scrolled(page)
 
     def show_hint(self, hint: str = "") -> None:
@@ -113,26 +106,19 @@ class OutcomePanel(QWidget):
         self._hint.setText(hint or tr(_HINT))
         self._stack.setCurrentIndex(0)
 
-    def set_view_note(self, text: str) -> None:
-        """Show a note on the mesh in the view; "" if it is the result of the run."""
-        self._view_note.setText(text)
-        self._view_note.setVisible(bool(text))
-
     def show_advice(self, title: str, advice: Advice, ids: np.ndarray | None = None) -> None:
         """Explain the end of a run; `ids` (m,) are the numbers of the hexes in the file, if it has some."""
         self._title.setText(title)
         self._reason.setText(advice.reason)
         self._state.setText(with_minus(advice.state))
         tint(self._state, INVERTED_TEXT if advice.locked.size or advice.unlocked.size else TEXT)
-        self._regressions.setText(with_minus(advice.regressions))
-        self._regressions.setVisible(bool(advice.regressions))
+        show_text(self._regressions, with_minus(advice.regressions))
         tint(self._regressions, WORSE)
         self._locked.show_hexes(advice.locked, ids)
         self._unlocked.show_hexes(advice.unlocked, ids)
         self._limiting.show_hexes(advice.limiting, ids)
         self._locked_below.show_hexes(advice.locked_below, ids)
-        self._surface.setText(advice.surface)
-        self._surface.setVisible(bool(advice.surface))
+        show_text(self._surface, advice.surface)
         self._no_suggestion.setText(advice.no_suggestion)
         self._show_suggestions(advice.suggestions)
         self._stack.setCurrentIndex(1)
@@ -144,9 +130,7 @@ class OutcomePanel(QWidget):
             button.setEnabled(not busy)
 
     def _show_suggestions(self, suggestions: Sequence[Suggestion]) -> None:
-        while (item := self._suggestions.takeAt(0)) is not None:
-            item.widget().hide()
-            item.widget().deleteLater()
+        clear(self._suggestions)
         self._buttons = []
         self._suggestions_title.setVisible(bool(suggestions or self._no_suggestion.text()))
         self._no_suggestion.setVisible(not suggestions and bool(self._no_suggestion.text()))
@@ -194,9 +178,7 @@ class _HexList(QWidget):
                 description=description,
             ),
         )
-        row = on_grid(QHBoxLayout(self))
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self._links, 1)
+        row = fill(QHBoxLayout(self), (self._links, 1), margins=(0, 0, 0, 0))
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignTop)
 
     def show_hexes(self, hexes: np.ndarray, ids: np.ndarray | None) -> None:

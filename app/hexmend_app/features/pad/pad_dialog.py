@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.state.tasks.mesh_padder import PaddingChoice
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -67,11 +67,8 @@ class PadDialog(QDialog):
         buttons.addButton(tr("Pad"), QDialogButtonBox.ButtonRole.AcceptRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        column = on_grid(QVBoxLayout(self))
         text = tr("Insert a layer of new hexes under the boundary, then run Mend. The boundary does not change.")
-        column.addWidget(note(text))
-        column.addLayout(form)
-        column.addWidget(buttons)
+        fill(QVBoxLayout(self), note(text), form, buttons)
         self.where.currentIndexChanged.connect(self._enable)
         self._enable()
 

@@ -25,7 +25,7 @@ def open_plotter(title: str, view: Viewport, up: str) -> BackgroundPlotter:
     return plotter
 
 
-def show_in(plotter: pv.Plotter, view: Viewport, up: str) -> None:
+def show_in(plotter: pv.BasePlotter, view: Viewport, up: str) -> None:
     """Show what a view shows, in its colours and from its side, with a plane that can cut more away.
 
     Parameters

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QWidget
 from hexmend.quality import SUMMARY_QUANTITIES
 from hexmend.quantity import Quantity
 from hexmend_app.theme.palette import Role
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import BETTER, MUTED, TEXT, WORSE, on_theme_change, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import figure
@@ -37,10 +37,8 @@ class QualityBar(QFrame):
         self._label.setTextFormat(Qt.TextFormat.RichText)
         self._label.setAccessibleName(tr("Key figures"))
         self._label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self._layout = on_grid(QHBoxLayout(self))
-        self._layout.setContentsMargins(8, 4, 8, 4)
-        self._layout.addWidget(self._label)
-        on_theme_change(self, self._paint)
+        self._layout = fill(QHBoxLayout(self), self._label, margins=(8, 4, 8, 4))
+        on_theme_change(self, self._show)
 
     def set_summaries(self, start: Any, now: Any) -> None:
         """Show two summaries of `hexmend.quality.summarise`: at the start and now."""
@@ -66,9 +64,6 @@ class QualityBar(QFrame):
     def minimumSizeHint(self) -> QSize:
         """Return a size that fits any view."""
         return QSize(0, 0)
-
-    def _paint(self) -> None:
-        self._show()
 
     def _show(self) -> None:
         """Show the figures, and let the overlay fit its size to them."""

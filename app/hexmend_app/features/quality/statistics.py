@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, regressions
 from hexmend.quantity import Quantity
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import (
     BETTER,
     MUTED,
@@ -120,10 +120,7 @@ class StatisticsTable(QWidget):
         self._copy.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         self._copy.triggered.connect(self.copy)
         self.addAction(self._copy)
-        layout = on_grid(QVBoxLayout(self))
-        layout.setContentsMargins(4, 4, 4, 4)
-        layout.addWidget(table)
-        layout.addStretch()
+        fill(QVBoxLayout(self), table, None, margins=(4, 4, 4, 4))
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
         table.setFixedHeight(height)
         table.setMinimumWidth(self._title_width() + self._figures_width() - 56)  # the longest titles may be elided

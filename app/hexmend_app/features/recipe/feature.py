@@ -36,15 +36,15 @@ class FeatureRecipe(Feature):
         self._draft, self._smoothing = draft, self.session.run
         self._seen = ChangeTracker()
         panel = self.panel = RecipePanel()
-        panel.add_requested.connect(lambda: setup.use(self._add))
+        panel.add_button.clicked.connect(lambda: setup.use(self._add))
         panel.replace_requested.connect(lambda at: setup.use(lambda stage: draft.replace(at, stage)))
         panel.edit_requested.connect(self._edit)
         panel.move_requested.connect(self._move)
         panel.remove_requested.connect(draft.remove)
         panel.renamed.connect(draft.rename)
-        panel.run_requested.connect(self.run)
+        panel.run_button.clicked.connect(self.run)
         panel.load_requested.connect(self.ask_load)
-        panel.save_requested.connect(self.ask_save)
+        panel.save_button.clicked.connect(self.ask_save)
         panel.shipped_requested.connect(self.load)
         panel.set_shipped([(tr(read_recipe(path).title), path) for path in recipes()])
 
@@ -110,7 +110,7 @@ class FeatureRecipe(Feature):
         # The iteration tells apart two pauses without a refresh between them.
         paused_at = (smoothing.record, smoothing.record.newest) if number and smoothing.phase is Phase.PAUSED else None
         if self._seen.changed("paused at", paused_at) and paused_at is not None:
-            self.session.run_setup.show_active(smoothing.work.stages[number - 1])
+            self.session.run_setup.show_active(smoothing.work.stages[number - 1])  # type: ignore[union-attr]
 
     def run(self) -> None:
         """Run the recipe on the displayed mesh."""

@@ -6,11 +6,10 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
@@ -20,7 +19,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.theme.style import icon, note, set_help
+from hexmend_app.theme.spacing import fill, on_grid
+from hexmend_app.theme.style import icon, labelled, note, set_help
 from hexmend_app.translation import tr
 
 _EMPTY = (
@@ -36,25 +36,22 @@ class RecipePanel(QWidget):
 
     Signals
     -------
-    add_requested, replace_requested(int)
-        Add the method of the smoothing panel as a stage, or replace a stage by it.
+    replace_requested(int)
+        Replace a stage by the method of the smoothing panel.
     edit_requested(int)
         Show a stage in the smoothing panel.
     move_requested(int, int), remove_requested(int)
     renamed(str)
-    run_requested, save_requested, load_requested
+    load_requested
     shipped_requested(Path)
         Load a recipe that comes with Hexmend.
     """
 
-    add_requested = Signal()
     replace_requested = Signal(int)
     edit_requested = Signal(int)
     move_requested = Signal(int, int)
     remove_requested = Signal(int)
     renamed = Signal(str)
-    run_requested = Signal()
-    save_requested = Signal()
     load_requested = Signal()
     shipped_requested = Signal(object)
 
@@ -73,7 +70,7 @@ class RecipePanel(QWidget):
         self._list.itemActivated.connect(lambda item: self.edit_requested.emit(self._list.row(item)))
         self._list.currentRowChanged.connect(self._enable)
         self._empty = note(tr(_EMPTY))
-        self._add = self._button(
+        self.add_button = self._button(
             "plus", tr("Add"), tr("Add the method above, with its parameters and limits, as the last stage.")
         )
         self._replace = self._button(
@@ -82,23 +79,22 @@ class RecipePanel(QWidget):
         self._up = self._button("chevron-up", "", tr("Move the selected stage up."), tr("Move up"))
         self._down = self._button("chevron-down", "", tr("Move the selected stage down."), tr("Move down"))
         self._remove = self._button("delete-outline", "", tr("Remove the selected stage."), tr("Remove the stage"))
-        self._run = self._button("play", tr("Run"), tr("Run the stages in sequence, as one run."), tr("Run recipe"))
+        self.run_button = self._button(
+            "play", tr("Run"), tr("Run the stages in sequence, as one run."), tr("Run recipe")
+        )
         self._load = self._button(
             "folder-open-outline", tr("Load"), tr("Load a recipe from a file or a built-in recipe.")
         )
-        self._save = self._button(
+        self.save_button = self._button(
             "content-save-outline", "", tr("Save the recipe as a TOML file, for hexmend smooth."), tr("Save")
         )
         self._menu = QMenu(self._load)
         self._menu.setToolTipsVisible(True)
         self._load.setMenu(self._menu)
-        self._add.clicked.connect(self.add_requested)
         self._replace.clicked.connect(lambda: self.replace_requested.emit(self._list.currentRow()))
         self._up.clicked.connect(lambda: self._move(-1))
         self._down.clicked.connect(lambda: self._move(1))
         self._remove.clicked.connect(lambda: self.remove_requested.emit(self._list.currentRow()))
-        self._run.clicked.connect(self.run_requested)
-        self._save.clicked.connect(self.save_requested)
         self.set_shipped(())
         self._lay_out()
         self.set_stages(())
@@ -111,29 +107,15 @@ class RecipePanel(QWidget):
         return button
 
     def _lay_out(self) -> None:
-        head, edit, foot = QHBoxLayout(), QHBoxLayout(), QGridLayout()
-        label = QLabel(tr("Title"))
-        label.setBuddy(self._title)
-        head.addWidget(label)
-        head.addWidget(self._title, 1)
-        edit.setSpacing(4)
-        edit.addWidget(self._add, 1)
-        for button in (self._replace, self._up, self._down, self._remove):
-            edit.addWidget(button)
-        foot.setSpacing(8)
-        for column, button in enumerate((self._run, self._load)):
+        head = fill(QHBoxLayout(), labelled(tr("Title"), self._title), (self._title, 1), spacing=4)
+        edit = fill(QHBoxLayout(), (self.add_button, 1), self._replace, self._up, self._down, self._remove, spacing=4)
+        foot = on_grid(QGridLayout())
+        for column, button in enumerate((self.run_button, self._load)):
             button.setMinimumWidth(button.minimumSizeHint().width())
             foot.addWidget(button, 0, column)
             foot.setColumnStretch(column, 1)
-        foot.addWidget(self._save, 0, 2)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addLayout(head)
-        layout.addWidget(self._empty)
-        layout.addWidget(self._list)
-        layout.addLayout(edit)
-        layout.addLayout(foot)
+        foot.addWidget(self.save_button, 0, 2)
+        fill(QVBoxLayout(self), head, self._empty, self._list, edit, foot, margins=(0, 0, 0, 0), spacing=4)
 
     def set_shipped(self, recipes: Iterable[tuple[str, Path]]) -> None:
         """List the titles and files of the built-in recipes in the menu."""
@@ -176,9 +158,8 @@ class RecipePanel(QWidget):
 
     def select(self, at: int) -> None:
         """Select a stage without sending a signal."""
-        self._list.blockSignals(True)
-        self._list.setCurrentRow(at)
-        self._list.blockSignals(False)
+        with QSignalBlocker(self._list):
+            self._list.setCurrentRow(at)
         self._enable()
 
     def set_active(self, number: int | None) -> None:
@@ -204,11 +185,11 @@ class RecipePanel(QWidget):
 
     def _enable(self) -> None:
         count, at = self._list.count(), self._list.currentRow()
-        for widget in (self._title, self._add, self._load):
+        for widget in (self._title, self.add_button, self._load):
             widget.setEnabled(self._editable)
         for button in (self._replace, self._remove):
             button.setEnabled(self._editable and at >= 0)
         self._up.setEnabled(self._editable and at > 0)
         self._down.setEnabled(self._editable and 0 <= at < count - 1)
-        self._run.setEnabled(self._editable and count > 0)
-        self._save.setEnabled(count > 0)
+        self.run_button.setEnabled(self._editable and count > 0)
+        self.save_button.setEnabled(count > 0)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QStyledItemDelegate, QStyleOptionViewItem
@@ -29,7 +31,7 @@ class DotDelegate(QStyledItemDelegate):
     ) -> None:
         """Paint the number and the dot."""
         super().paint(painter, option, index)
-        model = index.model()
+        model: Any = index.model()
         low, high = model.range_of(QUANTITIES[index.column() - FIRST].key)
         axis = axis_of(QRectF(option.rect))
         if low == high or axis.width() < _AXIS / 2:

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.quality import SUMMARY_QUANTITIES
 from hexmend_app.features.runs.dominance import KEY_FIGURES
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.theme.palette import Role
-from hexmend_app.theme.style import MUTED, TEXT, WORSE, tabular
+from hexmend_app.theme.style import MUTED, TEXT, WORSE, bold, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import figure
 
@@ -89,13 +89,13 @@ class RunTable(QAbstractTableModel):
         values = [row.figures[key] for row in self.rows if row.record is None or not row.dominated_by]
         return min(values), max(values)
 
-    def rowCount(self, parent: QModelIndex | None = None) -> int:
+    def rowCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
         return 0 if parent is not None and parent.isValid() else len(self.rows)
 
-    def columnCount(self, parent: QModelIndex | None = None) -> int:
+    def columnCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
         return 0 if parent is not None and parent.isValid() else FIRST + len(QUANTITIES)
 
-    def data(self, index: QModelIndex, role: int = _Role.DisplayRole) -> Any:
+    def data(self, index: QModelIndex | QPersistentModelIndex, role: int = _Role.DisplayRole) -> Any:
         row, column = self.rows[index.row()], index.column()
         if role == _Role.DisplayRole:
             name = tr("{name} (active)", name=row.name) if row.running else row.name
@@ -106,9 +106,7 @@ class RunTable(QAbstractTableModel):
         if role == _Role.ForegroundRole:
             return QBrush(QColor(str(self._colour(row, column))))
         if role == _Role.FontRole and column >= FIRST and self._is_best(row, QUANTITIES[column - FIRST].key):
-            font = tabular(QFont())
-            font.setBold(True)
-            return font
+            return bold(tabular(QFont()))
         if role == _Role.ToolTipRole:
             settings = f"<br>{escape(row.settings)}" if row.settings else ""
             return f"<qt><b>{escape(row.name)}</b>{settings}<br>{escape(row.help)}</qt>"

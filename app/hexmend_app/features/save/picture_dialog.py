@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
@@ -20,10 +20,10 @@ from PySide6.QtWidgets import (
 from hexmend.errors import FileError, ParameterError
 from hexmend_app.features.save.preview import Preview
 from hexmend_app.features.save.size_form import SizeForm
-from hexmend_app.picture import Camera, ConfigTable, PicturePanel, Scene, read_scene, write_scene
+from hexmend_app.picture import Camera, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.named_cameras import merged
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_scene, ask_scene_target
@@ -108,7 +108,6 @@ class PictureDialog(SaveDialog):
 
     def _lay_out(self) -> None:
         settings = QWidget()
-        column = on_grid(QVBoxLayout(settings))
         captions = QWidget()
         rows = on_grid(QFormLayout(captions))
         rows.setContentsMargins(0, 0, 0, 0)
@@ -118,6 +117,7 @@ class PictureDialog(SaveDialog):
             rows.addRow(title, line)
         groups = [(tr("Size"), self.size_form), (tr("Camera"), self.camera)]
         groups += [(tr(title), form) for (title, _, _), (_, form) in zip(_GROUPS, self.forms, strict=True)]
+        column = on_grid(QVBoxLayout(settings))
         for title, group in groups:
             column.addWidget(QLabel(f"<b>{title}</b>"))
             column.addWidget(group)
@@ -127,14 +127,10 @@ class PictureDialog(SaveDialog):
         labels = [label for label in settings.findChildren(QLabel) if label.buddy() is not None]
         for label in labels:  # align the fields of all groups
             label.setMinimumWidth(max(other.sizeHint().width() for other in labels))
-        left = on_grid(QVBoxLayout())
-        left.addWidget(self.preview, 1)
-        left.addWidget(self._page_size)
-        columns = on_grid(QHBoxLayout())
-        columns.addLayout(left, 1)
+        left = fill(QVBoxLayout(), (self.preview, 1), self._page_size)
         area = scrolled(settings)
         area.setMinimumWidth(settings.sizeHint().width() + 28)
-        columns.addWidget(area)
+        columns = fill(QHBoxLayout(), (left, 1), area)
         load, save = QPushButton(tr("Load scene…")), QPushButton(tr("Save scene…"))
         set_help(load, tr("Load scene…"), tr("Load these settings from a scene file."))
         set_help(save, tr("Save scene…"), tr("Save these settings as a scene file, for hexmend render --scene."))
@@ -152,7 +148,7 @@ class PictureDialog(SaveDialog):
         ParameterError
             If a value is invalid.
         """
-        tables: dict[str, ConfigTable] = {"page": self.size_form.page(self._base.page)}
+        tables: dict[str, Any] = {"page": self.size_form.page(self._base.page)}
         for name, form in self.forms:
             tables[name] = form.table(tables.get(name, getattr(self._base, name)))
         captions = [line.text() for line in self.captions]

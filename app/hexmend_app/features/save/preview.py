@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPixmap, QResizeEvent
@@ -107,9 +107,9 @@ def preview_scene(scene: Scene, width: float, height: float) -> Scene:
     page = scene.page
     scale = min(1.0, width / page.size[0], height / page.size[1])
     dpi = page.resolution * scale
-    size = tuple(max(16, round(side * scale)) for side in page.size)
+    across, down = (max(16, round(side * scale)) for side in page.size)
     edges = scene.lines.edges
     pen = edges if edges == 0 else page.line_width(scene.lines) / page.resolution * PT_PER_INCH
-    fast = {"shading": False, "supersampling": 1, "font_size": page.letters}
-    small = replace(page, width=None, height=None, pixels=size, dpi=max(dpi, 5.0), **fast)
+    fast: dict[str, Any] = {"shading": False, "supersampling": 1, "font_size": page.letters}
+    small = replace(page, width=None, height=None, pixels=(across, down), dpi=max(dpi, 5.0), **fast)
     return replace(scene, page=small, lines=replace(scene.lines, edges=pen))

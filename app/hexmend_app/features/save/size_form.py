@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from PySide6.QtCore import QSize, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QWidget
 
 from hexmend_app.picture import Page
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -65,10 +65,7 @@ class SizeForm(QWidget):
         self.dpi.setRange(5, 4800)
         self.dpi.setDecimals(0)
         self.dpi.setSuffix(tr(" dpi"))
-        row = on_grid(QHBoxLayout())
-        for widget in (self.width_box, QLabel("×"), self.height_box, self.unit):
-            row.addWidget(widget)
-        row.addStretch()
+        row = fill(QHBoxLayout(), self.width_box, QLabel("×"), self.height_box, self.unit, None)
         layout = on_grid(QFormLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addRow(self.preset)
@@ -85,9 +82,8 @@ class SizeForm(QWidget):
         unit = _MM if page.pixels is None and (page.width or page.height) else _PIXELS
         size = [side * 25.4 / page.resolution for side in page.size] if unit == _MM else page.size
         self._show(unit, *size)
-        self.dpi.blockSignals(True)
-        self.dpi.setValue(page.resolution if unit == _MM else _DPI)
-        self.dpi.blockSignals(False)
+        with QSignalBlocker(self.dpi):
+            self.dpi.setValue(page.resolution if unit == _MM else _DPI)
         self._find_preset()
 
     def page(self, base: Page) -> Page:
@@ -107,11 +103,10 @@ class SizeForm(QWidget):
         self.unit.setCurrentIndex(self.unit.findData(unit))
         low, high, decimals = _RANGES[unit]
         for box, value in ((self.width_box, width), (self.height_box, height)):
-            box.blockSignals(True)
-            box.setDecimals(decimals)
-            box.setRange(low, high)
-            box.setValue(value)
-            box.blockSignals(False)
+            with QSignalBlocker(box):
+                box.setDecimals(decimals)
+                box.setRange(low, high)
+                box.setValue(value)
         self.dpi.setEnabled(unit == _MM)
 
     def _find_preset(self) -> None:

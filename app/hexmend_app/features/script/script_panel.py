@@ -6,7 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 
@@ -36,14 +36,13 @@ class ScriptPanel(QWidget):
         save = QPushButton(icon("content-save-outline"), tr("Save as…"))
         set_help(save, tr("Save the script"), tr("Save the script as a Python file: python FILE repeats the changes."))
         save.clicked.connect(self.save_requested)
-        head = on_grid(QHBoxLayout())
-        head.addWidget(note(tr("Python script that makes the mesh shown again; the view is at its end.")), 1)
-        head.addWidget(copy)
-        head.addWidget(save)
-        column = on_grid(QVBoxLayout(self))
-        column.setContentsMargins(8, 8, 8, 8)
-        column.addLayout(head)
-        column.addWidget(self._text, 1)
+        head = fill(
+            QHBoxLayout(),
+            (note(tr("Python script that makes the mesh shown again; the view is at its end.")), 1),
+            copy,
+            save,
+        )
+        fill(QVBoxLayout(self), head, (self._text, 1), margins=(8, 8, 8, 8))
 
     def show_text(self, text: str) -> None:
         """Show a script, where the user has scrolled to; a selection stays while the script does."""

@@ -94,9 +94,9 @@ class FeatureSideViews(Feature):
     def canvas_ready(self, canvas: Canvas) -> None:
         """Connect the 3D view."""
         canvas.frame.view_closed.connect(self._views.close_view)
-        canvas.frame.wipe_chosen.connect(self._views.choose_wiped)
-        canvas.frame.wipe_moved.connect(self._views.move_wipe)
-        canvas.frame.wipe_stepped.connect(self._step_wipe)
+        canvas.frame.wipe_row.chosen.connect(self._views.choose_wiped)
+        canvas.frame.edge.moved.connect(self._views.move_wipe)
+        canvas.frame.edge.stepped.connect(self._step_wipe)
 
     def refresh(self) -> None:
         """Show the side views and their captions."""

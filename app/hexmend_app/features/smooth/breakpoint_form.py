@@ -6,6 +6,7 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QSpinBox, QWidget
 
 from hexmend_app.state.run.breakpoints import Breakpoints
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help, tabular
 from hexmend_app.translation import tr
 
@@ -101,7 +102,7 @@ class BreakpointForm(QWidget):
         ):
             if value is not None:
                 with QSignalBlocker(box):
-                    box.setValue(value)
+                    box.setValue(value)  # type: ignore[arg-type]  # of the type of its box
         self._on_changed()
 
     def set_selected(self, hex: int | None, node: int | None) -> None:
@@ -140,9 +141,7 @@ class BreakpointForm(QWidget):
     @staticmethod
     def _add_limit(grid: QGridLayout, row: int, label: str, box: QWidget) -> None:
         """Add an indented row with a label and the box of a limit."""
-        line = QHBoxLayout()
-        line.setContentsMargins(8, 0, 0, 0)
-        line.addWidget(QLabel(label))
+        line = fill(QHBoxLayout(), QLabel(label), margins=(8, 0, 0, 0), spacing=None)
         grid.addLayout(line, row, 0)
         grid.addWidget(box, row, 1)
 

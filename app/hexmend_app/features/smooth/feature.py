@@ -25,7 +25,6 @@ from hexmend_app.feature import (
 )
 from hexmend_app.features.smooth.pace_actions import pace_actions
 from hexmend_app.features.smooth.run_buttons import STATES, RunState
-from hexmend_app.features.smooth.skip_on_input import SkipOnInput
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.mesh.run_record import balances
 from hexmend_app.state.run.pace import Pace
@@ -66,7 +65,6 @@ class FeatureSmooth(Feature):
         panel.resume_requested.connect(smoothing.resume)
         panel.breakpoint_form.changed.connect(smoothing.break_at)
         smoothing.set_pace(Pace(settings.RUN_PACE.get()))
-        SkipOnInput(smoothing, lambda: self.canvas)
         smoothing.failed.connect(self._on_failed)
         smoothing.hit.connect(self._on_hit)
 

@@ -13,7 +13,7 @@ from hexmend_app.translation import tr
 #: Texts and explanations of the paces.
 _PACES = {
     Pace.FASTEST: ("&As fast as possible", "Show the latest iteration; short runs end too quickly to be seen."),
-    Pace.EASED: ("&Eased", "Blend successive iterations; a short run is shown over two to three seconds."),
+    Pace.SLOW_START: ("&Slow start", "Show each of the first 25 iterations for a tenth of a second."),
     Pace.EVERY: ("E&very iteration", "Show every iteration; the run waits until it is drawn."),
 }
 
@@ -22,7 +22,7 @@ def pace_actions(run: RunController) -> Sequence[Action]:
     """Return one action for each pace, of which the present one is checked; the choice is stored."""
 
     def choose(pace: Pace, on: bool) -> None:
-        if on and pace is not run.view.pace:
+        if on and pace is not run.pace:
             run.set_pace(pace)
             settings.RUN_PACE.set(pace.value)
 
@@ -33,7 +33,7 @@ def pace_actions(run: RunController) -> Sequence[Action]:
             menu="Smooth/Iterations in the view",
             help=tr(help),
             handle=lambda on, pace=pace: choose(pace, on),
-            checked=lambda pace=pace: run.view.pace is pace,
+            checked=lambda pace=pace: run.pace is pace,
             needs_mesh=False,
             exclusive=True,
         )

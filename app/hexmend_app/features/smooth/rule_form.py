@@ -7,7 +7,7 @@ from html import escape
 from itertools import pairwise
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QStandardItemModel
+from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
 from hexmend.errors import MeshError
@@ -25,7 +25,8 @@ from hexmend_app.features.smooth.set_rules import (
     rules_of_set,
     with_set_rules,
 )
-from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.theme.spacing import clear, fill
+from hexmend_app.theme.style import WORSE, note, set_help, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -83,11 +84,17 @@ class RuleForm(QWidget):
         self._grid.setVerticalSpacing(4)
         self._grid.setColumnStretch(0, 1)
         self._grid.setColumnStretch(1, 1)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        for widget in (self._found, self.interfaces, self._filter, self._list, self._more, self._problem):
-            layout.addWidget(widget)
+        fill(
+            QVBoxLayout(self),
+            self._found,
+            self.interfaces,
+            self._filter,
+            self._list,
+            self._more,
+            self._problem,
+            margins=(0, 0, 0, 0),
+            spacing=4,
+        )
 
     @property
     def offered(self) -> bool:
@@ -118,9 +125,7 @@ class RuleForm(QWidget):
 
     def _fill(self) -> None:
         """Make a row for each set whose name contains the text of the filter."""
-        while (item := self._grid.takeAt(0)) is not None:
-            item.widget().hide()
-            item.widget().deleteLater()
+        clear(self._grid)
         self._rows.clear()
         part = self._filter.text().casefold()
         matching = [name for name in self._names if part in name.casefold()]
@@ -133,8 +138,7 @@ class RuleForm(QWidget):
         self._filter.setVisible(len(self._names) > _MOST)
         self._list.setVisible(bool(self._rows))
         more = len(matching) - len(self._rows)
-        self._more.setText(tr("{count:,} more sets: filter them by name.", count=more) if more else "")
-        self._more.setVisible(bool(more))
+        show_text(self._more, tr("{count:,} more sets: filter them by name.", count=more) if more else "")
         self._show_choices()
 
     def _add_row(self, row: int, name: str) -> tuple[QLabel, _RuleBox]:
@@ -154,7 +158,7 @@ class RuleForm(QWidget):
             widget.setVisible(materials is not None)
         self.interfaces.set_value(self._rules.interfaces)
         self._found.setText(describe_interfaces(self._mesh, self._rules.interfaces))
-        self._show_problem("")
+        show_text(self._problem, "")
         self._show_choices()
 
     def _show_choices(self) -> None:
@@ -174,7 +178,7 @@ class RuleForm(QWidget):
                     match_periodic(self._mesh, name, other)
                 except MeshError as error:
                     self._show_choices()
-                    self._show_problem(tr("{error}.", error=str(error).rstrip(".")))
+                    show_text(self._problem, tr("{error}.", error=str(error).rstrip(".")))
                     return
         self._change(with_set_rules(self._rules, name, choice.rules))
 
@@ -183,10 +187,6 @@ class RuleForm(QWidget):
             self._rules = rules
             self.changed.emit(rules)
         self._refresh()
-
-    def _show_problem(self, text: str) -> None:
-        self._problem.setText(text)
-        self._problem.setVisible(bool(text))
 
 
 class _RuleBox(FocusedWheel, ComboBox):
@@ -221,11 +221,11 @@ class _RuleBox(FocusedWheel, ComboBox):
         self.setFont(font)
         with QSignalBlocker(self):
             self.clear()
-            model: QStandardItemModel = self.model()
+
             for at, choice in enumerate(choices):
                 self.addItem(choice.text)
                 self.setItemData(at, choice.problem or choice.help, Qt.ItemDataRole.ToolTipRole)
-                model.item(at).setEnabled(not choice.problem)
+                self.model().item(at).setEnabled(not choice.problem)  # type: ignore[attr-defined]
             self.setCurrentIndex(next(at for at, one in enumerate(choices) if one.rules == current.rules))
 
     def _find_choices(self) -> None:

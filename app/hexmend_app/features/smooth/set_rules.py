@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -55,7 +55,7 @@ def with_set_rules(rules: MotionRules, name: str, chosen: tuple[Rule, ...]) -> M
     >>> with_set_rules(MotionRules(fix=("a",)), "a", (("slide", ""),)).values()
     {'slide': ['a']}
     """
-    sets = {key: tuple(one for one in getattr(rules, key) if one != name) for key in _RULES}
+    sets: dict[str, Any] = {key: tuple(one for one in getattr(rules, key) if one != name) for key in _RULES}
     pairs = [pair for pair in rules.periodic if name not in pair]
     for key, other in chosen:
         if key == "periodic":

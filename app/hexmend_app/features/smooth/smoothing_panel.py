@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QSpinBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QSpinBox, QVBoxLayout, QWidget
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.run.recipe import Stage
@@ -13,7 +13,8 @@ from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
 from hexmend_app.features.smooth.stage_form import StageForm
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.palette import Role
-from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import MUTED, WORSE, labelled, note, set_help, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.section import Section
@@ -82,17 +83,8 @@ class SmoothingPanel(QWidget):
         # Reserve the height, so that nothing below moves when the sentence changes.
         self._sentence.setMinimumHeight(_LINES * self._sentence.fontMetrics().lineSpacing())
 
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addLayout(method_row)
-        layout.addWidget(self.buttons)
-        layout.addWidget(self._progress)
-        layout.addWidget(self._sentence)
-        layout.addWidget(stage.help)  # its height depends on the method
-        for section in self._sections:
-            layout.addWidget(section)
-        layout.addStretch()
+        status = (self.buttons, self._progress, self._sentence, stage.help)  # the help's height depends on the method
+        fill(QVBoxLayout(self), method_row, *status, *self._sections, None, margins=(0, 0, 0, 0), spacing=4)
         self.set_state("idle")
         self.set_status()
         self.stage.edited.connect(self._on_edited)
@@ -106,17 +98,10 @@ class SmoothingPanel(QWidget):
         self._steps.setRange(1, 9999)
         self._steps.setFont(tabular(self._steps.font()))
         set_help(self._steps, tr("Iterations per step"), tr("Number of iterations that Step runs before it pauses."))
-        label = QLabel(tr("Iterations per step"))
-        label.setBuddy(self._steps)
-        row = QHBoxLayout()
-        row.addWidget(label, 1)
-        row.addWidget(self._steps)
+        label = labelled(tr("Iterations per step"), self._steps)
+        row = fill(QHBoxLayout(), (label, 1), self._steps, spacing=4)
         form = QWidget()
-        layout = QVBoxLayout(form)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addLayout(row)
-        layout.addWidget(self.breakpoint_form)
+        fill(QVBoxLayout(form), row, self.breakpoint_form, margins=(0, 0, 0, 0), spacing=4)
         return form
 
     def show_rules(self, mesh: Mesh) -> None:

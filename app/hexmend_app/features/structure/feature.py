@@ -72,16 +72,16 @@ class FeatureStructure(Feature):
         if self._seen.changed("legends", session.document.start, *of_mesh):
             for layer in ordered_layers():
                 if layer.drawn_by is not None:
-                    self.panel.set_legend(layer.name, layer.drawn_by.legend(now.mesh))
+                    self.panel.set_legend(layer.name, layer.drawn_by.legend(now.mesh))  # type: ignore[attr-defined]
             self.panel.set_curved(now.mesh.mid_nodes)
         summary = now.summary
         counted = now.mesh.pinned, summary.free_nodes, summary.locked_inverted
         if self._seen.changed("counts", session.document.start, *counted):
             mesh, boundary = now.mesh, now.mesh.topology.boundary
-            pinned = 0 if mesh.pinned is None else np.count_nonzero(mesh.pinned & mesh.topology.used & ~boundary)
+            pinned = 0 if mesh.pinned is None else int(np.sum(mesh.pinned & mesh.topology.used & ~boundary))
             interfaces = mesh.interfaces
-            between = 0 if interfaces is None else np.count_nonzero(interfaces.interface_nodes & ~boundary)
-            counts = np.count_nonzero(boundary), pinned, summary.free_nodes, summary.locked_inverted
+            between = 0 if interfaces is None else int(np.sum(interfaces.interface_nodes & ~boundary))
+            counts = int(np.sum(boundary)), pinned, summary.free_nodes, summary.locked_inverted
             self.panel.set_nodes(*counts, between)
 
     def _classify_boundary(self) -> None:

@@ -7,6 +7,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QWidget
 
 from hexmend_app.theme.palette import MUTED, RIM, Role
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -108,12 +109,8 @@ class _Mark(QWidget):
 
 def _entry(colour: str | Role | None, line: bool, text: str) -> QWidget:
     entry = QWidget()
-    layout = QHBoxLayout(entry)
-    layout.setContentsMargins(0, 0, 0, 0)
-    layout.setSpacing(4)
-    if colour is not None:
-        layout.addWidget(_Mark(colour, line))
-    layout.addWidget(_text(text), 1)
+    marks = [] if colour is None else [_Mark(colour, line)]
+    fill(QHBoxLayout(entry), *marks, (_text(text), 1), margins=(0, 0, 0, 0), spacing=4)
     return entry
 
 

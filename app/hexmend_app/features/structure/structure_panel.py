@@ -102,7 +102,7 @@ class StructurePanel(QWidget):
             return
         self._between = between
         self._counts = counts
-        fixed = [(BOUNDARY, False, tr("{count:,} boundary", count=boundary))] if boundary else []
+        fixed: list[Entry] = [(BOUNDARY, False, tr("{count:,} boundary", count=boundary))] if boundary else []
         if between:
             fixed.append((BOUNDARY, False, tr("{count:,} between materials", count=between)))
         if pinned:
@@ -117,7 +117,7 @@ class StructurePanel(QWidget):
 
     def set_curved(self, mid_nodes: np.ndarray | None) -> None:
         """Show the number of hexes with mid-nodes, (m, 19) int32; None if the mesh has none."""
-        count = 0 if mid_nodes is None else np.count_nonzero((mid_nodes >= 0).any(axis=1))
+        count = 0 if mid_nodes is None else int((mid_nodes >= 0).any(axis=1).sum())
         self.layers["curved"].set_entries([(None, False, counted(count, "hex"))] if count else [])
 
     def set_classes(self, classes: BoundaryClasses | None, error: BaseException | None = None) -> None:
@@ -137,7 +137,7 @@ class StructurePanel(QWidget):
     def _show_locked(self) -> None:
         """Show the number of locked hexes and, once known, how many of them sliding frees."""
         locked, classes = self._counts[-1] if self._counts else 0, self._classes
-        entries = [(LOCKED, False, tr("of {hexes}", hexes=counted(locked, "hex")))] if locked else []
+        entries: list[Entry] = [(LOCKED, False, tr("of {hexes}", hexes=counted(locked, "hex")))] if locked else []
         if locked and classes is not None and classes.locked == locked:
             entries.append((None, False, tr("{freed:,} freed by sliding", freed=classes.freed)))
         self.layers["locked"].set_entries(entries)
@@ -152,7 +152,7 @@ def _by_valence(valence: np.ndarray) -> list[Entry]:
     """Return the counts of edges by valence; valences without a colour are merged."""
     numbers, counts = np.unique(valence, return_counts=True)
     pairs = list(zip(numbers, counts, strict=True))
-    entries = [
+    entries: list[Entry] = [
         (VALENCES[n], True, tr("{count:,} of {hexes}", count=count, hexes=n)) for n, count in pairs if n in VALENCES
     ]
     rest = [(n, count) for n, count in pairs if n not in VALENCES]

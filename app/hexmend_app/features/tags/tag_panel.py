@@ -9,7 +9,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QTableWidget,
     QTableWidgetItem,
@@ -17,7 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.theme.style import note, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import labelled, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.hex_table import shape_table
 from hexmend_app.widgets.wording import figure
@@ -110,22 +110,10 @@ class TagPanel(QWidget):
         return table
 
     def _lay_out(self) -> None:
-        head, foot = QHBoxLayout(), QHBoxLayout()
-        label = QLabel(tr("Tag as"))
-        label.setBuddy(self._name)
-        head.addWidget(label)
-        head.addWidget(self._name, 1)
-        for button in (self._hex, self._shown, self._listed):
-            head.addWidget(button)
-        foot.addWidget(self._hint, 1)
-        for button in (self._isolate, self._remove):
-            foot.addWidget(button)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 4, 8, 4)
-        layout.setSpacing(4)
-        layout.addLayout(head)
-        layout.addWidget(self._table, 1)
-        layout.addLayout(foot)
+        label = labelled(tr("Tag as"), self._name)
+        head = fill(QHBoxLayout(), label, (self._name, 1), self._hex, self._shown, self._listed, spacing=4)
+        foot = fill(QHBoxLayout(), (self._hint, 1), self._isolate, self._remove, spacing=4)
+        fill(QVBoxLayout(self), head, (self._table, 1), foot, margins=(8, 4, 8, 4), spacing=4)
 
     @property
     def name(self) -> str:

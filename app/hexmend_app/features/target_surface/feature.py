@@ -85,5 +85,5 @@ class FeatureTargetSurface(Feature):
         smoother = stage.smoother
         if smoother.slides or "boundary" not in {one.name for one in declared(smoother)}:
             return
-        stage = Stage(replace(smoother, boundary="slide"), stage.stop)
+        stage = Stage(replace(smoother, boundary="slide"), stage.stop)  # type: ignore[call-arg]
         self.session.run_setup.choose(stage, tr("The boundary is now set to slide."))

@@ -38,8 +38,8 @@ class FeatureTimeline(Feature):
         timeline = self._timeline = session.timeline
         self._seen = ChangeTracker()
         bar = self.panel = TimelineBar()
-        bar.run_chosen.connect(lambda at: timeline.choose(session.history.records[at]))
-        bar.number_chosen.connect(lambda number: timeline.go_soon(timeline.record, number))
+        bar.runs.activated.connect(lambda at: timeline.choose(session.history.records[at]))
+        bar.slider.valueChanged.connect(lambda number: timeline.go_soon(timeline.record, number))
         bar.delete_requested.connect(lambda: timeline.delete(timeline.record))
         bar.limit_changed.connect(self._set_limit)
         bar.speed_changed.connect(self._set_speed)
@@ -94,12 +94,12 @@ class FeatureTimeline(Feature):
             self.panel.set_runs([_text(record) for record in history.records])
         record = timeline.record
         if record is not None:
-            self.panel.set_run(history.records.index(record))
+            self.panel.runs.setCurrentIndex(history.records.index(record))
             active = self._smoothing.busy and record is self._smoothing.record
             if self._seen.changed("track", record, record.newest, history.bytes, active, len(record.pauses)):
                 self.panel.set_labels(record.unit, record.labels())
                 self.panel.set_track(record.newest, history.recorded_numbers(record), record.pauses, history.bytes)
-                self.panel.set_deletable(not active)
+                self.panel.delete.setEnabled(not active)
         self.panel.set_number(self._number)
         self._show_reading()
 

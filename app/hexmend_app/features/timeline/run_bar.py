@@ -11,7 +11,8 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 from hexmend.iteration import Outcome
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import AMBER, BETTER, BLUE, MUTED, WORSE
-from hexmend_app.theme.style import tint
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import bold, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -67,16 +68,10 @@ class RunBar(QWidget):
         self._buttons = {name: ActionButton(with_text=name == "run") for name in _BUTTONS}
         self._state = _State()
         self._state.setAccessibleName(tr("State of the run"))
-        font = self._state.font()
-        font.setBold(True)
-        self._state.setFont(font)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
+        self._state.setFont(bold(self._state.font()))
         for button in self._buttons.values():
             button.setAutoRaise(True)
-            row.addWidget(button)
-        row.addWidget(self._state)
+        fill(QHBoxLayout(self), *self._buttons.values(), self._state, margins=(0, 0, 0, 0), spacing=4)
         self._buttons["run"].reserve_width(map(tr, _FACES), around=16)
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal, SignalInstance
 from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
 from hexmend_app.features.timeline.run_bar import RunBar
 from hexmend_app.features.timeline.track_slider import TrackSlider
-from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import set_help, tabular, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -37,18 +38,12 @@ class TimelineBar(QWidget):
 
     Signals
     -------
-    run_chosen(int)
-        The user has selected a run, by its index in the list.
-    number_chosen(int)
-        The user has selected an iteration of the run.
     delete_requested
         The user wants to delete the run.
     limit_changed(int), speed_changed(int)
         In megabytes, and in iterations per second.
     """
 
-    run_chosen = Signal(int)
-    number_chosen = Signal(int)
     delete_requested = Signal()
     limit_changed = Signal(int)
     speed_changed = Signal(int)
@@ -56,41 +51,27 @@ class TimelineBar(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.run_bar = RunBar()
-        self._runs = ComboBox()
-        let_shrink(self._runs, 5)
-        self._runs.activated.connect(self.run_chosen)
-        set_help(self._runs, tr("Run"), tr("Run shown in the timeline."))
+        self.runs = ComboBox()
+        let_shrink(self.runs, 5)
+        set_help(self.runs, tr("Run"), tr("Run shown in the timeline."))
         self._buttons = {name: ActionButton() for name in _STEPS}
         self._branch = ActionButton()
         for button in (*self._buttons.values(), self._branch):
             button.setAutoRaise(True)
-        self._slider = TrackSlider()
-        self._slider.setMinimumWidth(_LEAST_TRACK)
-        self._slider.valueChanged.connect(self.number_chosen)
-        set_help(self._slider, tr("Iteration"), tr("Displayed iteration."))
+        self.slider = TrackSlider()
+        self.slider.setMinimumWidth(_LEAST_TRACK)
+        set_help(self.slider, tr("Iteration"), tr("Displayed iteration."))
         self._at = QLabel()
         self._at.setFont(tabular(self._at.font()))
         self._at.setAccessibleName(tr("Iteration shown"))
-        self._more = QToolButton()
-        self._more.setIcon(icon("cog-outline"))
-        self._more.setAutoRaise(True)
+        self._more = tool_button("cog-outline")
         self._more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._more.setMenu(self._menu())
         set_help(self._more, tr("Timeline settings"), tr("Memory limit and playback speed."))
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(8, 0, 8, 0)
-        layout.setSpacing(4)
-        layout.addWidget(self.run_bar)
-        layout.addSpacing(8)
-        layout.addWidget(self._runs)
-        layout.addSpacing(4)
+        row = fill(QHBoxLayout(self), self.run_bar, 8, self.runs, 4, margins=(8, 0, 8, 0), spacing=4)
         for button in self._buttons.values():
-            layout.addWidget(button)
-        layout.addSpacing(4)
-        layout.addWidget(self._slider, 1)
-        layout.addSpacing(4)
-        for widget in (self._at, self._branch, self._more):
-            layout.addWidget(widget)
+            row.addWidget(button)
+        fill(row, 4, (self.slider, 1), 4, self._at, self._branch, self._more, margins=(8, 0, 8, 0), spacing=4)
         self.set_runs(())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -101,22 +82,18 @@ class TimelineBar(QWidget):
 
     def set_runs(self, names: Sequence[tuple[str, str]]) -> None:
         """List the names and tooltips of runs without sending a signal."""
-        with QSignalBlocker(self._runs):
-            self._runs.clear()
+        with QSignalBlocker(self.runs):
+            self.runs.clear()
             for at, (name, help) in enumerate(names):
-                self._runs.addItem(name)
-                self._runs.setItemData(at, help, Qt.ItemDataRole.ToolTipRole)
-        for widget in (self._runs, self._slider):
+                self.runs.addItem(name)
+                self.runs.setItemData(at, help, Qt.ItemDataRole.ToolTipRole)
+        for widget in (self.runs, self.slider):
             widget.setEnabled(bool(names))
         if not names:
-            self._runs.setPlaceholderText(tr("No runs"))
+            self.runs.setPlaceholderText(tr("No runs"))
             self.set_labels("iteration", ())
             self.set_track(0, np.zeros(1, np.int64), {}, 0)
             self.set_number(None)
-
-    def set_run(self, at: int) -> None:
-        """Select a run in the list."""
-        self._runs.setCurrentIndex(at)
 
     def set_track(self, newest: int, kept: np.ndarray, marks: Mapping[int, str], used: int) -> None:
         """Show the iterations of the run.
@@ -132,7 +109,7 @@ class TimelineBar(QWidget):
         used : int
             Memory of all runs in bytes.
         """
-        self._slider.set_track(newest, kept, marks)
+        self.slider.set_track(newest, kept, marks)
         stored = (
             ""
             if len(kept) == newest + 1
@@ -140,8 +117,8 @@ class TimelineBar(QWidget):
         )
         pauses = "".join(f"<br>{number}: {sentence}" for number, sentence in marks.items())
         tip = f"<qt>{counted(newest, self._unit)}.{stored}{pauses}</qt>"
-        if tip != self._slider.toolTip():
-            self._slider.setToolTip(tip)
+        if tip != self.slider.toolTip():
+            self.slider.setToolTip(tip)
         self._used.setText(tr("In use: {count}", count=size(used)))
 
     def set_labels(self, unit: str, labels: Sequence[str]) -> None:
@@ -150,28 +127,24 @@ class TimelineBar(QWidget):
 
     def set_number(self, number: int | None) -> None:
         """Show the number of the displayed iteration; None if it is not in the run."""
-        newest = self._slider.maximum()
-        if number is not None and not self._slider.isSliderDown():
-            with QSignalBlocker(self._slider):
-                self._slider.setValue(number)
+        newest = self.slider.maximum()
+        if number is not None and not self.slider.isSliderDown():
+            with QSignalBlocker(self.slider):
+                self.slider.setValue(number)
         shown = "–" if number is None else number
         if self._labels:
             self._at.setText("–" if number is None else self._labels[number])
         else:
-            self._at.setText(tr("{number} of {newest}", number=shown, newest=newest) if self._runs.count() else "")
+            self._at.setText(tr("{number} of {newest}", number=shown, newest=newest) if self.runs.count() else "")
         # the width of the longest text keeps the slider in place under the pointer
         longest = max(self._labels, key=len) if self._labels else f"{max(newest, 999)} of {max(newest, 999)}"
         self._at.setMinimumWidth(self._at.fontMetrics().horizontalAdvance(longest))
 
-    def set_settings(self, limit: int, speed: int) -> None:
+    def set_settings(self, limit: int, speed: float) -> None:
         """Show the memory limit in MB and the playback speed in iterations per second."""
         for group, value in ((self._limits, limit), (self._speeds, speed)):
             for action in group.actions():
                 action.setChecked(action.data() == value)
-
-    def set_deletable(self, on: bool) -> None:
-        """Enable or disable deleting the run."""
-        self._delete.setEnabled(on)
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:
         """Show the actions "first", "back", "play", "on", "newest" and "branch"."""
@@ -191,11 +164,11 @@ class TimelineBar(QWidget):
         menu.addSection(tr("Playback speed"))
         self._speeds = self._options(menu, SPEEDS, lambda n: tr("{n} iterations per second", n=n), self.speed_changed)
         menu.addSeparator()
-        self._delete = menu.addAction(tr("Delete this run"), self.delete_requested.emit)
+        self.delete = menu.addAction(tr("Delete this run"), self.delete_requested.emit)
         return menu
 
     def _options(
-        self, menu: QMenu, values: Iterable[int], text_of: Callable[[int], str], chosen: Signal
+        self, menu: QMenu, values: Iterable[int], text_of: Callable[[int], str], chosen: SignalInstance
     ) -> QActionGroup:
         group = QActionGroup(menu)
         for value in values:

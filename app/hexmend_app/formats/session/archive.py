@@ -7,7 +7,6 @@ of its text. An array that occurs several times in the tree is written once, and
 from __future__ import annotations
 
 import json
-import os
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -26,7 +25,7 @@ _KINDS = "biufcSU"
 _CHUNK = 1 << 24
 
 
-def write_archive(path: str | os.PathLike[str], format: str, version: int, data: Any) -> None:
+def write_archive(path: str | Path, format: str, version: int, data: Any) -> None:
     """Write a tree of None, bool, int, float, str, list, dict with str keys, and arrays.
 
     Parameters
@@ -51,12 +50,12 @@ def write_archive(path: str | os.PathLike[str], format: str, version: int, data:
     description = encode_description(path, format, version, data, number)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
         archive.writestr(DESCRIPTION, description)
-        for number, array in arrays.values():
-            with archive.open(f"{ARRAYS}/{number}.npy", "w", force_zip64=True) as member:
+        for at, array in arrays.values():
+            with archive.open(f"{ARRAYS}/{at}.npy", "w", force_zip64=True) as member:
                 write_array(member, array)
 
 
-def encode_description(path: Path, format: str, version: int, data: Any, number: Callable[[np.ndarray], int]) -> str:
+def encode_description(path: Any, format: str, version: int, data: Any, number: Callable[[np.ndarray], int]) -> str:
     """Encode the description of a tree as JSON.
 
     Parameters
@@ -85,12 +84,12 @@ def write_array(member: IO[bytes], array: np.ndarray) -> None:
         np.lib.format.write_array(member, array, version=(1, 0), allow_pickle=False)
         return
     np.lib.format.write_array_header_1_0(member, np.lib.format.header_data_from_array_1_0(array))
-    data = memoryview(array.reshape(-1).view(np.uint8))
+    data = array.reshape(-1).view(np.uint8).data
     for at in range(0, len(data), _CHUNK):
         member.write(data[at : at + _CHUNK])
 
 
-def read_archive(path: str | os.PathLike[str], format: str, version: int) -> Any:
+def read_archive(path: str | Path, format: str, version: int) -> Any:
     """Read a zip file from `write_archive`, or a folder from `hexmend_app.formats.session.folder`.
 
     Parameters

@@ -135,7 +135,7 @@ def _decode_fields(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
     }
 
 
-def _decode_surface(data: Any) -> TargetSurface:
+def _decode_surface(data: Any) -> Any:
     from hexmend.boundary import SkinSurface  # late, for a quick start of commands
 
     check_fields("the surface that the boundary slides on", data, {"points", "faces", "name"})

@@ -5,7 +5,6 @@ The file is an archive, see `hexmend_app.formats.session`. The viewer defines th
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -45,7 +44,7 @@ class SessionContent:
     window: Any
 
 
-def write_session(path: str | os.PathLike[str], meshes: Sequence[Mesh], now: int, window: Any) -> None:
+def write_session(path: str | Path, meshes: Sequence[Mesh], now: int, window: Any) -> None:
     """Write a session. For an atomic replacement call it in `atomic_write`.
 
     Parameters
@@ -90,7 +89,7 @@ def _tree(meshes: Sequence[Mesh], now: int, window: Any) -> dict[str, Any]:
     return {"meshes": [mesh_to_data(mesh) for mesh in meshes], "now": now, "window": window}
 
 
-def read_session(path: str | os.PathLike[str]) -> SessionContent:
+def read_session(path: str | Path) -> SessionContent:
     """Read a session from a file, or from the folder of a `SessionFolder`.
 
     Parameters
@@ -119,7 +118,7 @@ def read_shown_mesh(path: Path) -> Mesh:
 
 
 @contextmanager
-def _opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, int]]:
+def _opened(path: str | Path) -> Iterator[tuple[Any, int]]:
     """Context manager that gives a session's data and index shown; invalid meshes become a `FileError`."""
     if not Path(path).is_dir():
         check_readable(Path(path), "a session")

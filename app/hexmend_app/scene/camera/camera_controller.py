@@ -152,5 +152,5 @@ class CameraController:
         camera, pose = self.camera, pose_of(self.camera)
         forward = np.array(camera.GetDirectionOfProjection())
         scale = distance * np.tan(np.radians(camera.GetViewAngle()) / 2) if zoom else pose.scale
-        position, focal = (tuple(map(float, point)) for point in (place - distance * forward, place))
+        position, focal = (tuple(point.tolist()) for point in (place - distance * forward, place))
         return Flight(camera, replace(pose, position=position, focal=focal, scale=float(scale)))

@@ -28,7 +28,7 @@ def direction_of(name: str | Vector, up: str) -> Vector:
     if name == "iso":
         return _CORNERS[up]
     sign = -1.0 if name.startswith("-") else 1.0
-    return tuple(sign * c for c in UPS[name[1:]][0])
+    return tuple((sign * np.array(UPS[name[1:]][0])).tolist())
 
 
 def up_in(direction: Vector, up: str) -> Vector:

@@ -12,7 +12,7 @@ _MARGIN = 0.04
 def bounds_of(places: np.ndarray) -> tuple[float, float, float, float, float, float]:
     """Return the bounds of points, (k, 3): x low, x high, y low, y high, z low, z high."""
     low, high = places.min(axis=0), places.max(axis=0)
-    return tuple(float(c) for pair in zip(low, high, strict=True) for c in pair)
+    return tuple(np.column_stack([low, high]).ravel().astype(float).tolist())
 
 
 def fit(camera: vtkCamera, places: np.ndarray, aspect: float) -> None:

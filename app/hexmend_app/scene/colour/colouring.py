@@ -22,7 +22,9 @@ OUTSIDE, OPENED = (0xF2, 0xF2, 0xEF), (0xF6, 0xC9, 0x4C)
 #: Colours of invalid hexes: magenta of the inverted ones, which no colour map contains, and a lighter magenta of those
 #: that are invalid inside. Colours of changes use magenta for newly invalid hexes, a duller magenta for hexes that are
 #: still invalid, and yellow for repaired hexes.
-INVERTED, INVALID_INSIDE = (tuple(bytes.fromhex(one[1:])) for one in (palette.INVERTED, palette.INVALID_INSIDE))
+INVERTED, INVALID_INSIDE = (
+    (red, green, blue) for red, green, blue in map(bytes.fromhex, (palette.INVERTED[1:], palette.INVALID_INSIDE[1:]))
+)
 _STILL, _MENDED = (0x8E, 0x4B, 0x76), (0xF0, 0xE4, 0x42)
 
 

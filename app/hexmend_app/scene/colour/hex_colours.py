@@ -35,7 +35,7 @@ class HexColours:
         """Compute the values and the colouring of a frame."""
         self._frame = frame
         mesh, figures, colours, movement = frame.mesh, frame.figures, frame.look.colours, frame.movement
-        self.kinds, title, names = invalid_kinds(figures), "", ()
+        self.kinds, title, names = invalid_kinds(figures), "", tuple[str, ...]()
         if colours.metric == MATERIAL.name:
             self.values, names = material_values(mesh), material_names(mesh)
         elif colours.metric not in DISPLACEMENT_QUANTITIES:

@@ -16,7 +16,7 @@ _SHADING = {"ambient": 0.5, "diffuse": 0.5, "specular": 0.0}
 
 
 def add_coloured(
-    plotter: pv.Plotter, add: Callable[..., Any], data: pv.DataSet, values: np.ndarray, kinds: np.ndarray, by: Colouring
+    plotter: Any, add: Callable[..., Any], data: pv.DataSet, values: np.ndarray, kinds: np.ndarray, by: Colouring
 ) -> None:
     """Add a data set with coloured cells to a plotter, with its colour bar and axes.
 

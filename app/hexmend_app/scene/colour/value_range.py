@@ -50,4 +50,4 @@ def declared_range(metric: str, range: Range) -> tuple[float, float] | None:
     declared = colour_quantity(metric).full_range if range is Range.FULL else colour_quantity(metric).acceptable
     if metric in _POSITIVE and range is Range.FULL:
         declared = 0.0, declared[1]
-    return tuple(map(float, declared)) if np.isfinite(declared).all() else None
+    return (float(declared[0]), float(declared[1])) if np.isfinite(declared).all() else None

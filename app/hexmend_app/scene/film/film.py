@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Generator, Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -46,7 +46,7 @@ def pictures(
     movement: Displacement | None = None,
     chart: bool = False,
     before: bool = False,
-) -> Iterator[Image.Image]:
+) -> Generator[Image.Image]:
     """Generate the pictures of film frames, drawn off screen with the same camera.
 
     Parameters

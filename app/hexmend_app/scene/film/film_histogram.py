@@ -101,7 +101,7 @@ def draw_histogram(
     bars = [(2 * i, counts.special[i], s.colour) for i, s in enumerate(colouring.special_colours)]
     rows = (2 * np.arange(BINS) + 1) * len(colouring.table) // (2 * BINS)
     for i, count in enumerate(counts.bins.tolist()):
-        bars.append((2 * special + i, count, tuple(map(int, colouring.table[rows[i]]))))
+        bars.append((2 * special + i, count, tuple(colouring.table[rows[i]].tolist())))
     for i, count, colour in bars:
         if count:
             x = left + i * bar_width

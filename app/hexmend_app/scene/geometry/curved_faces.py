@@ -79,7 +79,8 @@ class CurvedFaces:
             Colours of the faces.
         """
         places, normals = self._evaluated(points)
-        poly = pv.PolyData.from_regular_faces(places, np.arange(len(places)).reshape(-1, 4))
+        cells: np.ndarray = np.arange(len(places)).reshape(-1, 4)
+        poly = pv.PolyData.from_regular_faces(places, cells)
         if len(places):
             set_normals(poly, normals)
             set_edge_flags(poly, np.tile(_pieces(self.divisions)[1], len(self._corners)))
@@ -90,7 +91,7 @@ class CurvedFaces:
         if not len(self._corners):
             return
         places, normals = self._evaluated(points)
-        poly.point_data[NORMALS][:] = normals
+        poly.point_data[NORMALS][:] = normals  # type: ignore[index]
         poly.GetPointData().GetArray(NORMALS).Modified()
         set_points(poly, places)
         if colours is not None:

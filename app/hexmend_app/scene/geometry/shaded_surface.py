@@ -23,8 +23,8 @@ def shaded_surface(poly: pv.PolyData, light: np.ndarray | None) -> pv.PolyData:
         Ambient light at each corner, polygon by polygon; None for full light.
     """
     polygons = Polygons.of(poly)
-    corners, counts = len(polygons.places), np.diff(polygons.start)
-    cells = pv.CellArray.from_arrays(polygons.start, np.arange(corners))
+    corners: np.ndarray = np.arange(len(polygons.places))
+    counts, cells = np.diff(polygons.start), pv.CellArray.from_arrays(polygons.start, corners)
     separated = pv.PolyData(polygons.points[polygons.places], faces=cells)
     colours = np.repeat(colours_of(poly), counts, axis=0)
     separated.point_data[SHADED] = colours if light is None else shaded(colours, light)

@@ -89,10 +89,10 @@ class Skin:
         """
         keep = self._kept(keep)
         if np.count_nonzero(keep) <= WHOLE:
-            return Faces(*self._faces_of(keep, keep, True), shrink)
+            return Faces(*skin.faces_of(self._hexes, self._neighbours, keep, keep, True), shrink)
         outer = np.empty(len(keep), bool)
         skin.outer(self._neighbours, keep, outer)
-        return Faces(*self._faces_of(keep, outer, fine), shrink, True)
+        return Faces(*skin.faces_of(self._hexes, self._neighbours, keep, outer, fine), shrink, True)
 
     def opened(self, faces: Faces, keep: np.ndarray | None = None) -> np.ndarray:
         """Return True for faces inside the mesh, whose adjacent hex is hidden, (k,) bool.
@@ -115,6 +115,3 @@ class Skin:
     def _kept(self, keep: np.ndarray | None) -> np.ndarray:
         """Return the mask of kept hexes, (m,) bool; raise `MeshError` if its length is wrong."""
         return self._all if keep is None else as_bools(keep, "keep", len(self._hexes))
-
-    def _faces_of(self, keep: np.ndarray, chosen: np.ndarray, hidden: bool) -> tuple[np.ndarray, ...]:
-        return skin.faces_of(self._hexes, self._neighbours, keep, chosen, hidden)

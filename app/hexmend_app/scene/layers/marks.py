@@ -109,7 +109,7 @@ class Marks:
             self.nodes, index = np.empty(0, np.int64), curves.chains
         width = index.shape[1]
         rows = np.column_stack([np.full(len(cells), width), index]).ravel()
-        self.poly = pv.PolyData(self._places(points), **{"lines" if width > 1 else "verts": rows})
+        self.poly = pv.PolyData(self._places(points), **{"lines" if width > 1 else "verts": rows})  # type: ignore[arg-type]
         self.poly.cell_data[_COLOURS] = colours
         for actor in (self._rims, self.filled):
             actor.GetMapper().SetInputData(self.poly)

@@ -158,7 +158,7 @@ class MeshLayer:
             surface.divide_edges(self._divisions)
         # Back faces take a third of the frame time, but invalid hexes may turn them towards the viewer.
         self._invalid = frame.figures.n_invalid
-        self.skin.cull(self._invalid == 0)
+        self.skin.actor.GetProperty().SetBackfaceCulling(self._invalid == 0)
         self._replace(frame, keep, colours)
         self.outline_invalid()
 

@@ -84,7 +84,7 @@ class OverlayLayers:
         self._dark = dark
         for layer in (self.selection, self.ghosts, *self.optional.values(), self.outline):
             if layer is not None:
-                layer.set_dark(dark)
+                layer.set_dark(dark)  # type: ignore[attr-defined]
 
     def set_fast(self, fast: bool) -> None:
         """Omit details in fast frames, or draw everything again."""
@@ -164,7 +164,7 @@ class OverlayLayers:
             self.outline = None
         own = self.ghosts, self.structure, self.arrows, self.selection, self.measurement
         for layer in (*own, *self.optional.values()):
-            layer.hide()
+            layer.hide()  # type: ignore[attr-defined]
 
     def _attempt(self, name: str, draw: Callable[..., object], *values: object) -> None:
         """Draw a layer unless it has failed before; hide and report a layer that fails."""

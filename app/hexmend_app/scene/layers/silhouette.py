@@ -66,7 +66,7 @@ class Silhouette:
         self._nodes, index = np.unique(cells, return_inverse=True)
         self._cells = cells = index.reshape(cells.shape) if self._curves is None else self._curves.chains
         points = self._places(mesh.points)
-        self._poly = _lines(points, cells) if lines else pv.PolyData.from_regular_faces(points, cells)
+        self._poly = _lines(points, cells) if lines else pv.PolyData.from_regular_faces(points, cells)  # type: ignore[arg-type]
         self._renderer = renderer
         self.actor, self._sharp = flat_actor(renderer, pixel_ratio), flat_actor(renderer, _BOLD * pixel_ratio)
         self.actor.GetMapper().SetInputData(self._poly)

@@ -101,10 +101,6 @@ class Surface:
         """True while the surface is drawn."""
         return bool(self.actor.GetVisibility())
 
-    def cull(self, on: bool) -> None:
-        """Turn culling of back faces on or off."""
-        self.actor.GetProperty().SetBackfaceCulling(on)
-
     def show_edges(self, on: bool) -> None:
         """Show or hide the edges of the polygons."""
         self._edges = on
@@ -125,7 +121,7 @@ def quads(points: np.ndarray, faces: np.ndarray, colours: np.ndarray, hexes: np.
     return coloured(pv.PolyData.from_regular_faces(points, faces), colours, hexes)
 
 
-def coloured(data: pv.DataSet, colours: np.ndarray, hexes: np.ndarray) -> pv.DataSet:
+def coloured(data: pv.PolyData, colours: np.ndarray, hexes: np.ndarray) -> pv.PolyData:
     """Set the colours of cells, (k, 3) uint8, and the hexes that they belong to, (k,) int32; return the dataset."""
     if len(colours):  # VTK rejects empty arrays
         data.cell_data[_COLOURS] = colours
@@ -159,7 +155,7 @@ def set_points(data: pv.DataSet, points: np.ndarray) -> None:
     """Overwrite the points in place and notify VTK."""
     if not len(points):
         return
-    data.points[:] = points
+    data.points[:] = points  # type: ignore[index]  # PyVista's annotation names integers only
     data.GetPoints().Modified()
     data.Modified()
 
@@ -168,6 +164,6 @@ def set_colours(data: pv.DataSet, colours: np.ndarray) -> None:
     """Overwrite the colours of cells in place and notify VTK."""
     if not len(colours):
         return
-    data.cell_data[_COLOURS][:] = colours
+    data.cell_data[_COLOURS][:] = colours  # type: ignore[index]
     data.GetCellData().GetArray(_COLOURS).Modified()
     data.Modified()

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from hexmend_app.picture.page import PT_PER_INCH
 from hexmend_app.scene.page.fonts import FAMILY
 from hexmend_app.scene.page.layout import Layout, Rectangle
 
 if TYPE_CHECKING:
+    import numpy as np
     from matplotlib.axes import Axes
-    from PIL import Image
 
 #: Colours of letters and lines on a bright and on a dark background.
 _DARK, _BRIGHT = "#1f2630", "#e3e7ed"
@@ -35,7 +35,7 @@ class Drawing:
         #: Width of a line, in pixels.
         self.line = max(1.0, self.letters.height / 14)
 
-    def image(self, image: Image.Image, box: Rectangle) -> None:
+    def image(self, image: Any, box: Rectangle) -> None:
         """Draw a picture in a rectangle of its size."""
         from matplotlib.image import AxesImage
 
@@ -107,7 +107,7 @@ class Drawing:
 
         self._axes.add_patch(Polygon(corners, closed=True, facecolor=colour, edgecolor="none", alpha=alpha, zorder=3))
 
-    def gradient(self, box: Rectangle, colours: Sequence[Sequence[float]], *, upright: bool) -> None:
+    def gradient(self, box: Rectangle, colours: np.ndarray, *, upright: bool) -> None:
         """Draw a gradient from left to right, or from bottom to top.
 
         The area of each colour extends to the end of the gradient and is covered by the next, which avoids seams.

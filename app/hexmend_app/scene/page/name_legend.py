@@ -21,7 +21,7 @@ def name_entries(names: Sequence[str], table: Iterable[Iterable[int]], most: int
     >>> name_entries(("a", "b", "c"), [(1, 1, 1), (2, 2, 2), (3, 3, 3)], 2)
     [('a', (1, 1, 1)), ('and 2 more', None)]
     """
-    entries: list[Entry] = [(name, tuple(map(int, rgb))) for name, rgb in zip(names, table, strict=True)]
+    entries: list[Entry] = [(name, (int(r), int(g), int(b))) for name, (r, g, b) in zip(names, table, strict=True)]
     if len(entries) <= most:
         return entries
     first = entries[: max(most - 1, 0)]

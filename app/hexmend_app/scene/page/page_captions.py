@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from string import ascii_lowercase
 from typing import NamedTuple
 
 import numpy as np
@@ -36,7 +37,7 @@ def draw_captions(drawing: Drawing, layout: Layout) -> None:
     if not layout.captions:
         return
     captions = list(_captions(layout))
-    shares = [_largest_share(drawing, caption) for caption in captions]
+    shares = [next((one for one in _SHARES if _fits(drawing, caption, one)), 0.0) for caption in captions]
     common = min((share for share in shares if share), default=0.0)
     for caption, share in zip(captions, shares, strict=True):
         _draw(drawing, caption, common if share else _SHARES[-1])
@@ -53,7 +54,7 @@ def _captions(layout: Layout) -> Iterator[_Caption]:
     with_figures = scene.page.figures and len(shown) > 1
     for number, panel in enumerate(layout.panels):
         box = layout.place(number)
-        letter = f"({_letter(number)})" if scene.page.captions is Captions.LETTERS else ""
+        letter = f"({ascii_lowercase[number]})" if scene.page.captions is Captions.LETTERS else ""
         first = meshes[panel.mesh - 1]
         middle = box.top - layout.caption / 2
         width = box.width if panel.wipe is None else panel.wipe.at * box.width
@@ -63,11 +64,6 @@ def _captions(layout: Layout) -> Iterator[_Caption]:
             other, edge = meshes[panel.wipe.mesh - 1], box.left + round(panel.wipe.at * box.width)
             name, figures = panel.wipe.caption or other.name, other.text if with_figures else ""
             yield _Caption(edge, middle, box.width - width, name, figures)
-
-
-def _largest_share(drawing: Drawing, caption: _Caption) -> float:
-    """Return the largest fraction of the font size at which a caption fits, 0 if there is none."""
-    return next((share for share in _SHARES if _fits(drawing, caption, share)), 0.0)
 
 
 def _fits(drawing: Drawing, caption: _Caption, share: float) -> bool:
@@ -86,7 +82,3 @@ def _draw(drawing: Drawing, caption: _Caption, share: float) -> None:
     if figures:
         left = caption.left + 2 * gap + share * drawing.letters.width(name, bold=True)
         drawing.text(left, caption.middle, figures, share=share)
-
-
-def _letter(number: int) -> str:
-    return "abcdefghijklmnopqrstuvwxyz"[number]

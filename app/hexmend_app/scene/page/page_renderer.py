@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PIL import Image
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 FORMATS = {".png": "PNG", ".tif": "TIFF", ".tiff": "TIFF", ".pdf": "pdf", ".svg": "svg"}
 
 #: Settings of vector formats: reproducible files, in which texts remain texts.
-_VECTORS = {"svg.hashsalt": "hexmend", "svg.fonttype": "none", "pdf.fonttype": 42, "image.composite_image": False}
+_VECTORS: Any = {"svg.hashsalt": "hexmend", "svg.fonttype": "none", "pdf.fonttype": 42, "image.composite_image": False}
 _DATES = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
 #: Difference from the background above which a pixel counts as drawn, 0 to 255.
@@ -96,7 +96,7 @@ class PageRenderer:
         from PIL.PngImagePlugin import PngInfo
 
         resolution = self._layout.scene.page.resolution
-        options = {"dpi": (resolution, resolution)}
+        options: dict[str, Any] = {"dpi": (resolution, resolution)}
         if kind == "TIFF":
             options["compression"] = "tiff_lzw"
         elif texts:
@@ -119,8 +119,8 @@ class PageRenderer:
 
         layout, page = self._layout, self._layout.scene.page
         # Slightly more than whole pixels, so that rounding does not drop a pixel.
-        inches = [(side + 1e-3) / page.resolution for side in layout.size]
-        figure = Figure(figsize=inches, dpi=page.resolution, facecolor="none")
+        width, height = ((side + 1e-3) / page.resolution for side in layout.size)
+        figure = Figure(figsize=(width, height), dpi=page.resolution, facecolor="none")
         axes = figure.add_axes((0, 0, 1, 1), xlim=(0, layout.size[0]), ylim=(layout.size[1], 0), autoscale_on=False)
         axes.axis("off")
         drawing = Drawing(axes, layout)

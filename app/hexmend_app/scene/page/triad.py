@@ -60,7 +60,7 @@ def draw_axes(drawing: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner
             place = end + _BEYOND * letter * unit
             if page.ground is not None:
                 drawing.lines((x, y, *end), colour=page.ground, width=_HALO)
-                drawing.fill(_circle(*place, _DISC * letter), page.ground, alpha=_HALO_OPACITY)
+                drawing.fill(_circle(place[0], place[1], _DISC * letter), page.ground, alpha=_HALO_OPACITY)
             drawing.lines((x, y, *base), colour=colour, width=1.6)
             drawing.fill([tuple(end), tuple(base + sideways), tuple(base - sideways)], colour)
         else:
@@ -68,7 +68,7 @@ def draw_axes(drawing: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner
             if axes[axis, 2] < 0:
                 continue  # its end points away from the viewer
             place = np.array([x - 0.55 * letter, y + 0.6 * letter])
-        drawing.text(*place, "XYZ"[axis], anchor="mm", bold=True, colour=colour, share=0.9)
+        drawing.text(place[0], place[1], "XYZ"[axis], anchor="mm", bold=True, colour=colour, share=0.9)
 
 
 def _circle(x: float, y: float, radius: float) -> list[tuple[float, float]]:

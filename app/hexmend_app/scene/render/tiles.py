@@ -64,8 +64,8 @@ class Tiles:
             return cls(size, fine, size, 0)
         side = max(4, min(_MAX_SIDE, isqrt(at_once)) // fine)
         around = min(ceil(_OVERLAP * pixel_ratio / fine), side // 4)
-        inner = tuple(ceil(length / ceil(length / (side - 2 * around))) for length in size)
-        return cls(size, fine, inner, around)
+        width, height = (ceil(length / ceil(length / (side - 2 * around))) for length in size)
+        return cls(size, fine, (width, height), around)
 
     @property
     def drawn(self) -> tuple[int, int]:

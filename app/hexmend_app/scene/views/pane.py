@@ -30,7 +30,8 @@ class Pane:
     def __init__(self, window: vtkRenderWindow, camera: vtkCamera | None = None):
         self.window = window
         self.renderer = vtkRenderer()
-        self._background, self._ends, self._fast = "#000000", None, False
+        self._background, self._fast = "#000000", False
+        self._ends: tuple[str, str] | None = None
         self.renderer.DitherGradientOff()  # its steps are of one level, and noise makes screenshots twice as large
         self.renderer.UseOITOff()  # translucent actors are drawn in their order: see `HexEdges`
         self.renderer.SetActiveCamera(vtkCamera() if camera is None else camera)

@@ -70,6 +70,7 @@ class Viewport:
         self.filters = filters
         self._fast = self.coarse_cuts = False
         self._coarse_cut = False  # True while a cut is drawn coarsely
+        self._keep: np.ndarray | None = None
         pane.window.SetMultiSamples(0)
         self.colours = HexColours()
         self.mesh_layer = MeshLayer(pane, pixel_ratio)

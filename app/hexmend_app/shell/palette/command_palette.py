@@ -9,7 +9,7 @@ from PySide6.QtGui import QBrush, QColor, QIcon, QKeyEvent, QPainter, QPaintEven
 from PySide6.QtWidgets import QDialog, QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from hexmend_app.shell.palette.ranking import PaletteEntry, ranked
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import GREY, MUTED, note, on_theme_change, set_help
 from hexmend_app.translation import tr
 
@@ -57,10 +57,7 @@ class CommandPalette(QDialog):
         self._list.header().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self._list.header().setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
         self._nothing = note(tr("No matches."))
-        layout = on_grid(QVBoxLayout(self))
-        layout.setContentsMargins(8, 8, 8, 8)
-        for part in (self._field, self._list, self._nothing):
-            layout.addWidget(part)
+        fill(QVBoxLayout(self), self._field, self._list, self._nothing, margins=(8, 8, 8, 8))
         self.resize(_WIDTH, 380)
         self._field.textChanged.connect(self._fill)
         self._field.returnPressed.connect(self._run_entry)

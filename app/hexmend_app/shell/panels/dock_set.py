@@ -13,7 +13,7 @@ from hexmend_app.shell.panels import default_layout
 from hexmend_app.shell.panels.dock import Dock
 from hexmend_app.shell.panels.group_row import GroupRow
 from hexmend_app.shell.panels.tab_bars import TabBars
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.translation import tr
 
 #: Order of places in which panels are added and reached by Tab.
@@ -72,16 +72,13 @@ class DockSet(QObject):
         self._drawer_height = _DRAWER
         self._placed = self._restoring = False
         # The arrangement before all panels were hidden.
-        self._saved, self._shown_bars = QByteArray(), []
+        self._saved, self._shown_bars = QByteArray(), list[str]()
         self._offered: list[Dock] = []  # raised once they are visible
         self.centre = QWidget()
         self.centre.setMinimumSize(*_MINIMUM_VIEW)
-        self.view = QVBoxLayout(self.centre)
-        self.view.setContentsMargins(0, 0, 0, 0)
-        self.view.setSpacing(0)
+        self.view = fill(QVBoxLayout(self.centre), margins=(0, 0, 0, 0), spacing=0)
         self.bars = QWidget()
-        self._bar_layout = on_grid(QHBoxLayout(self.bars))
-        self._bar_layout.setContentsMargins(0, 0, 0, 0)
+        self._bar_layout = fill(QHBoxLayout(self.bars), margins=(0, 0, 0, 0))
         self.row = GroupRow(tr("Tasks"))
         main.setCentralWidget(self.centre)
         main.setDocumentMode(True)
@@ -211,7 +208,5 @@ class DockSet(QObject):
 def _wrapped(widget: QWidget) -> QWidget:
     """Return a container of a widget: the feature shows and hides the widget, the user the container."""
     container = QWidget()
-    layout = on_grid(QVBoxLayout(container))
-    layout.setContentsMargins(0, 0, 0, 0)
-    layout.addWidget(widget)
+    fill(QVBoxLayout(container), widget, margins=(0, 0, 0, 0))
     return container

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from PySide6.QtCore import QByteArray, QEvent, Qt
 from PySide6.QtWidgets import QApplication, QMainWindow
@@ -79,7 +80,7 @@ class Docks(DockSet):
         dock.raise_()
         if not dock.isFloating():  # for a floating dock, Qt returns its former neighbours
             for other in self._main.tabifiedDockWidgets(dock):
-                other.set_in_front(False)
+                other.set_in_front(False)  # type: ignore[attr-defined]  # all docks are a `Dock`
         dock.set_in_front(dock.isVisible())
 
     def close_panel(self, id: str) -> None:
@@ -172,7 +173,7 @@ class Docks(DockSet):
             "closed": [id for id in self.ids() if not self.is_open(id) and id not in shown],
         }
 
-    def restore(self, state: Mapping[str, object]) -> None:
+    def restore(self, state: Mapping[str, Any]) -> None:
         """Restore an arrangement with the drawer closed; one of another version or with invalid values is ignored.
 
         Parameters

@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from hexmend_app.feature import PanelGroup
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
@@ -40,9 +41,6 @@ class GroupRow(QWidget):
     def __init__(self, name: str, parent: QWidget | None = None):
         super().__init__(parent)
         self.setAccessibleName(name)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(8, 0, 8, 0)
-        row.setSpacing(0)
         self._buttons = {}
         for group in PanelGroup:
             button = self._buttons[group] = QToolButton()
@@ -50,7 +48,7 @@ class GroupRow(QWidget):
             button.setCheckable(True)
             button.setAutoRaise(True)
             button.clicked.connect(lambda _, group=group: self.clicked.emit(group))
-            row.addWidget(button)
+        fill(QHBoxLayout(self), *self._buttons.values(), margins=(8, 0, 8, 0), spacing=0)
         self.set_panels({}, None)
 
     def set_panels(self, titles: Mapping[PanelGroup, list[str]], front: PanelGroup | None) -> None:

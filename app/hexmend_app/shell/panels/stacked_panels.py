@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QApplication, QScrollArea, QVBoxLayout, QWidget
 
 from hexmend_app.feature import Panel
 from hexmend_app.shell.focus_changes import follow_focus
+from hexmend_app.theme.spacing import fill
 from hexmend_app.widgets.section import Section
 
 #: Extra width in pixels, for texts whose numbers grow.
@@ -34,12 +35,8 @@ class _StackArea(QScrollArea):
 def stack(panels: Sequence[Panel]) -> QScrollArea:
     """Return a scroll area with panels one below the other; all but the first can be collapsed under their titles."""
     page = QWidget()
-    layout = QVBoxLayout(page)
-    layout.setContentsMargins(4, 8, 4, 8)
-    layout.setSpacing(8)
-    for at, panel in enumerate(panels):
-        layout.addWidget(Section(panel.title, panel.widget, panel.help) if at else panel.widget)
-    layout.addStretch()
+    sections = (Section(panel.title, panel.widget, panel.help) for panel in panels[1:])
+    fill(QVBoxLayout(page), panels[0].widget, *sections, None, margins=(4, 8, 4, 8))
     scroll = _StackArea()
     scroll.setWidget(page)
     scroll.setWidgetResizable(True)

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QMainWindow, QTabBar, QToolButton, QW
 
 from hexmend_app.feature import PanelPlace
 from hexmend_app.shell.panels.dock import Dock
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, set_help
 from hexmend_app.translation import tr
 
@@ -98,12 +99,10 @@ class _DockButtons(QWidget):
         Returns the dock in front; None if there is none.
     """
 
-    def __init__(self, bar: QTabBar, in_front: Callable[[], Dock | None]):
+    def __init__(self, bar: QTabBar, in_front: Callable[..., Dock | None]):
         super().__init__(bar)
         self._bar, self._dock = bar, in_front
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 4, 0)
-        row.setSpacing(0)
+        row = fill(QHBoxLayout(self), margins=(0, 0, 4, 0), spacing=0)
         for name, title, help, act in (
             ("dock-window", tr("Float"), tr("Make the panel a window of its own."), self._float),
             ("close", tr("Close panel"), tr("Close the panel; the menu View > Panels opens it again."), self._close),

@@ -38,13 +38,13 @@ def application() -> QApplication:
     app = QApplication.instance() or QApplication(sys.argv[:1])
     QCoreApplication.setOrganizationName("Hexmend")
     QCoreApplication.setApplicationName("Hexmend")
-    app.setApplicationDisplayName("Hexmend")
-    app.setDesktopFileName("hexmend")
-    app.setWindowIcon(QIcon(str(resource("icon.svg"))))
+    QApplication.setApplicationDisplayName("Hexmend")
+    QApplication.setDesktopFileName("hexmend")
+    QApplication.setWindowIcon(QIcon(str(resource("icon.svg"))))
     apply_theme()
     if app.findChild(UiThreadGC) is None:
         UiThreadGC(app)
-    return app
+    return app  # type: ignore[return-value]
 
 
 def open_window(mesh: str | None = None) -> int:
@@ -58,7 +58,7 @@ def open_window(mesh: str | None = None) -> int:
 
     window = Window()
     report_unexpected_errors(window)
-    window.ready.connect(lambda: [feature.program_started() for feature in window.features.values()])
+    window.ready.connect(lambda: [f.program_started() for f in window.features.values()])  # type: ignore[func-returns-value]
     window.ready.connect(app.findChild(UiThreadGC).freeze)
     # A signal may arrive during painting: close the window afterwards.
     signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))

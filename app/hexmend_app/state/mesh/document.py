@@ -171,10 +171,6 @@ class Document(QObject):
         """Return True if the open mesh has a hex with this number; False for None."""
         return hex is not None and self.is_open and 0 <= hex < self.now.mesh.n_hexes
 
-    def has_node(self, node: int | None) -> bool:
-        """Return True if the open mesh has a node with this number; False for None."""
-        return node is not None and self.is_open and 0 <= node < self.now.mesh.n_nodes
-
     @property
     def name(self) -> str:
         """Name of the mesh for titles."""

@@ -38,7 +38,7 @@ class History:
         Oldest first.
     """
 
-    def __init__(self, limit: float = LIMIT):
+    def __init__(self, limit: int = LIMIT):
         self.records: list[RunRecord] = []
         self._limit = limit
         self._bytes = 0
@@ -204,31 +204,6 @@ class History:
         else:
             state = _state_with(mesh, record, points)
         self._moments[state] = RecordedIteration(record, number)
-        return state
-
-    def state_between(self, record: RunRecord, at: float, mesh: Mesh) -> State:
-        """Return a state between two recorded iterations, its nodes on straight lines from one to the other.
-
-        Parameters
-        ----------
-        record : RunRecord
-        at : float
-            Number of an iteration with a fraction; `iteration_of` says the nearest.
-        mesh : Mesh
-            The open mesh, whose `OWN_PARTS` the state gets.
-        """
-        with self._lock:
-            numbers = record.numbers()
-            above = min(int(np.searchsorted(numbers, at)), numbers.size - 1)
-            last = int(numbers[above])
-            if above == 0 or at >= last:
-                points = record.points(last)
-            else:
-                first = int(numbers[above - 1])
-                points, end = record.points(first), record.points(last)
-                points = points + (at - first) / (last - first) * (end - points)
-        state = _state_with(mesh, record, points)
-        self._moments[state] = RecordedIteration(record, round(at))
         return state
 
     def _free_slot(self) -> int:

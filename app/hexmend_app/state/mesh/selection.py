@@ -61,7 +61,8 @@ class Selection(QObject):
         """Select a hex and a node, or none; emit `changed` if the selection differs."""
         if not self._document.has_hex(hex):
             hex = node = None
-        if not self._document.has_node(node):
+        document = self._document
+        if node is None or not document.is_open or not 0 <= node < document.now.mesh.n_nodes:
             node = None
         if (hex, node) != (self.hex, self.node):
             self.hex, self.node = hex, node

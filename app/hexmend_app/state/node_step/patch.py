@@ -76,7 +76,7 @@ class Patch:
     def _energies(self, direction: np.ndarray, alpha: np.ndarray | float) -> np.ndarray:
         rows = np.zeros((np.size(alpha), 2))
         rows[:, 0] = alpha
-        local.energy_along(*self._patch, direction, self.delta, self.norm, rows, self._target)
+        local.energy_along(*self._patch, direction.tolist(), self.delta, self.norm, rows, self._target)
         return rows
 
 

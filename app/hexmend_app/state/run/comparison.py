@@ -96,7 +96,8 @@ class _ComparisonTask:
         try:
             mesh = with_more_rules(state.mesh, rules) if rules else state.mesh
         except HexmendError as error:
-            self.done += [_failure(smoother, error) for smoother in smoothers]
+            rows = [Row(one.name, one.values(), "failed", f"Failed: {error}") for one in smoothers]
+            self.done += [MethodResult(row, None) for row in rows]
             return
         for at, smoother in enumerate(smoothers):
             if task.cancelled.is_set():
@@ -118,11 +119,6 @@ def _result_of(row: Row, initial: Mesh) -> MethodResult:
     mesh = initial.with_points(row.mesh.points)
     figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
     return MethodResult(replace(row, mesh=mesh), State(mesh, figures, summarise(mesh, figures)))
-
-
-def _failure(smoother: Smoother, error: HexmendError) -> MethodResult:
-    """Return the result of a method that could not start."""
-    return MethodResult(Row(smoother.name, smoother.values(), "failed", f"Failed: {error}"), None)
 
 
 class Comparison(QObject):
@@ -167,7 +163,7 @@ class Comparison(QObject):
     @property
     def progress(self) -> ComparisonProgress | None:
         """Progress of the comparison; None if none is active."""
-        return self._work and self._work.progress
+        return None if self._work is None else self._work.progress
 
     @property
     def stop(self) -> StoppingCriteria:

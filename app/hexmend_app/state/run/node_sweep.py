@@ -40,7 +40,7 @@ class NodeSweep(QObject):
         document.mesh_replaced.connect(self._clear)
         document.points_moved.connect(self._on_moved)
 
-    def last_step_of(self, smoother: LocalDescent) -> NodeStep | None:
+    def last_step_of(self, smoother: object) -> NodeStep | None:
         """Return the last step if it was made by this method and led to the current mesh; otherwise None."""
         if self._state is None or self._document.now is not self._state or smoother != self._smoother:
             return None
@@ -49,7 +49,7 @@ class NodeSweep(QObject):
     @property
     def title(self) -> str | None:
         """Title of the change for undo; None while no sweep is active."""
-        return self.sweep and self.sweep.title
+        return None if self.sweep is None else self.sweep.title
 
     def advance(self, smoother: LocalDescent, count: int = 1) -> None:
         """Visit the next nodes of the active sweep, or of a new one."""

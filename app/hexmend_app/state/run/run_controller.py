@@ -55,6 +55,8 @@ class RunController(QObject):
         Why the last run ended; None if it failed.
     history : History
         Records of all runs.
+    pace : Pace
+        Pace at which the iterations of runs are shown.
     view : RunView
         Shows the run in the document.
 
@@ -92,8 +94,9 @@ class RunController(QObject):
         self.advice: Advice | None = None
         self.outcome: Outcome | None = None
         self._result: State | None = None  # recorded at the end of the last run
-        self.view = RunView(document, history, lambda: self._worker and self._worker.last, self)
+        self.view = RunView(document, history, lambda: None if self._worker is None else self._worker.last, self)
         self.phase = Phase.IDLE
+        self.pace = Pace.FASTEST
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
         self._timer.timeout.connect(self._update)
@@ -141,7 +144,6 @@ class RunController(QObject):
         """
         if self.busy or not self._document.is_open:
             return
-        self.view.eased.skip()
         before = self._document.now
         self.work, self._title = smoother, smoother.title
         self.record = self.history.begin(smoother.title, before)
@@ -152,9 +154,9 @@ class RunController(QObject):
         self.record.rules = rules
         self.record.settings = "; ".join(filter(None, (settings_text(smoother, stop), rules_text(rules))))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
-        self._worker.shows_every = self.view.pace is Pace.EVERY
+        self._worker.pace = self.pace
         self._worker.grant(iterations)
-        self.view.begin(self.record, before, iterations)
+        self.view.begin(self.record)
         self._set_phase(Phase.PREPARING)
         self._worker.task.start()
         self._timer.start()
@@ -167,11 +169,9 @@ class RunController(QObject):
 
     def set_pace(self, pace: Pace) -> None:
         """Set the pace at which the iterations of runs are shown."""
-        self.view.pace = pace
-        if pace is not Pace.EASED:
-            self.view.skip_easing()
+        self.pace = pace
         if self._worker is not None:
-            self._worker.shows_every = pace is Pace.EVERY
+            self._worker.pace = pace
 
     def break_at(self, breakpoints: Breakpoints) -> None:
         """Set the breakpoints at which runs pause."""
@@ -188,7 +188,6 @@ class RunController(QObject):
         """Pause after the current iteration."""
         if self._worker is not None:
             self._worker.grant(0)
-            self.view.skip_easing()
 
     def resume(self) -> None:
         """Resume the run, and show its iterations."""
@@ -200,7 +199,6 @@ class RunController(QObject):
     def step(self, iterations: int = 1) -> None:
         """Run some more iterations, show them, and pause."""
         if self._worker is not None:
-            self.view.skip_easing()
             self.view.following = True
             self._worker.grant_more(iterations)
             self._update()
@@ -227,7 +225,6 @@ class RunController(QObject):
 
         The function is called at once if no run is active; several functions are called in the order of the calls.
         """
-        self.view.skip_easing()
         if self._worker is None:
             then()
             return
@@ -244,7 +241,6 @@ class RunController(QObject):
 
     def close(self) -> None:
         """Cancel the run; nothing more of it is shown or recorded."""
-        self.view.eased.cancel()
         self._timer.stop()
         self._after_end.clear()
         if self._worker is not None:
@@ -282,7 +278,7 @@ class RunController(QObject):
         self.outcome = self.record.outcome = worker.task.result.outcome if error is None else None
         reached = None if last is None else RecordedIteration(self.record, last.iteration.number)
         message = worker.task.result.message if error is None else f"Failed: {error}."
-        self.history.finish(self.record, reached, last and last.state, message)
+        self.history.finish(self.record, reached, None if last is None else last.state, message)
         if error is not None:
             self.view.fail(self._title, last)
             self._set_phase(Phase.IDLE)

@@ -73,7 +73,7 @@ class RunSetup(QObject):
     @property
     def smoother(self) -> Smoother | None:
         """The method with its values; None while one of them is invalid."""
-        return self.stage and self.stage.smoother
+        return None if self.stage is None else self.stage.smoother
 
     def set(self, method: str, values: Mapping[str, Any], stage: Stage | None) -> None:
         """Set the input of forms: a method, its valid values, and the stage, None if a value is invalid."""
@@ -87,10 +87,6 @@ class RunSetup(QObject):
         if rules != self.rules:
             self.rules = rules
             self.changed.emit()
-
-    def keep_rules_of(self, mesh: Mesh) -> None:
-        """Drop the rules of sets that a mesh does not have."""
-        self.set_rules(self.rules.limited_to(set_names(mesh)))
 
     def follow_renamed_sets(self, before: Mapping[str, object], mesh: Mesh) -> None:
         """Give the rules of hex sets that a mesh has under another name that name.

@@ -18,6 +18,7 @@ from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.run.breakpoints import BreakpointHit, Breakpoints
+from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.tasks.task import Task
 
 
@@ -32,6 +33,9 @@ class IterationFrame:
 
 #: Seconds after which a worker that waits for its frame to be shown looks whether it still has to.
 _WAIT = 0.05
+
+#: Iterations of a run that are shown for a moment each at the pace `SLOW_START`, and the seconds of that.
+_SLOW_ITERATIONS, _SHOWN = 25, 0.1
 
 
 class Mailbox:
@@ -90,8 +94,8 @@ class Worker:
     metrics : frozenset of str
         Metrics to compute for every iteration.
     breakpoints : Breakpoints
-    shows_every : bool
-        Wait with the next iteration until the window has taken the last one.
+    pace : Pace
+        Pace at which the iterations are shown; the worker waits accordingly.
     """
 
     def __init__(
@@ -110,7 +114,7 @@ class Worker:
         self.advice: Advice | None = None
         self.metrics: frozenset[str] = frozenset()
         self.breakpoints = Breakpoints()
-        self.shows_every = False
+        self.pace = Pace.FASTEST
         self._inputs = (mesh, smoother, stop)
         self._rules = rules
         self._record = record
@@ -161,6 +165,8 @@ class Worker:
                 if iteration is not None:
                     self._record(iteration)
                     self._report(iteration, self._hit(before, iteration))
+                    if self.pace is Pace.SLOW_START and iteration.number <= _SLOW_ITERATIONS:
+                        self.task.cancelled.wait(_SHOWN)
             run.close()
             if run.best is not run.last:
                 self._report(run.best)
@@ -182,7 +188,7 @@ class Worker:
         moved = self._inputs[0].with_points(iteration.points)
         for metric in self.metrics:
             metric_values(metric, moved, iteration.quality)
-        self.mailbox.wait_until_taken(lambda: self.shows_every and not self.task.cancelled.is_set())
+        self.mailbox.wait_until_taken(lambda: self.pace is Pace.EVERY and not self.task.cancelled.is_set())
         self.last = IterationFrame(iteration, State(moved, iteration.quality, summarise(moved, iteration.quality)), hit)
         self.mailbox.put(self.last)
 

@@ -92,8 +92,7 @@ class Commands(QObject):
             start()
 
     def _start(self, stage: Stage, iterations: float = math.inf) -> None:
-        if self._session.editable:
-            self._session.end_previews()
+        if self._begin_edit():
             self._session.run_setup.active_stage = stage
             self.smoothing.start(stage.smoother, stage.stop, iterations, self._session.run_setup.rules)
 
@@ -114,23 +113,19 @@ class Commands(QObject):
         self.smoothing.end(self._reset)
 
     def _reset(self) -> None:
-        if not self._session.editable:
-            return
-        self._session.end_previews()
-        self.document.reset()
+        if self._begin_edit():
+            self.document.reset()
 
     def adopt_positions(self, title: str, state: State) -> None:
         """Move the nodes to their positions in another state, if the mesh is editable; pins and tags stay."""
-        if self._session.editable:
-            self._session.end_previews()
+        if self._begin_edit():
             mesh = self.document.now.mesh.with_points(state.mesh.points)
             self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
 
     def replace_mesh(self, title: str, state: State) -> bool:
         """Replace the open mesh as one change that can be undone; return False if the mesh is not editable."""
-        if not self._session.editable:
+        if not self._begin_edit():
             return False
-        self._session.end_previews()
         self.document.commit(title, state)
         return True
 
@@ -142,7 +137,7 @@ class Commands(QObject):
         """Pin all nodes except those of some hexes and of rings of hexes around them, if the mesh is editable."""
         self._amend("free a region", fix_outside, np.asarray(hexes, dtype=np.int64), rings)
 
-    def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:
+    def tag(self, name: str, hexes: Sequence[int] | np.ndarray, on: bool = True) -> None:
         """Add hexes to a tag or remove them from it, if the mesh is editable; an empty tag is deleted."""
         before = self.document.now.mesh.hex_sets.get(name, ())
         after = with_tag(self.document.now.mesh, name, hexes, on).hex_sets.get(name, ())
@@ -159,8 +154,7 @@ class Commands(QObject):
 
     def slide_on(self, surface: TargetSurface, path: Path) -> None:
         """Let the boundary slide on a surface that was read from a file, if the mesh is editable."""
-        if self._session.editable:
-            self._session.end_previews()
+        if self._begin_edit():
             now = self.document.now
             state = replace(now, mesh=now.mesh.sliding_on(surface, check=False))
             self.document.commit("set target surface", state, edit=Edit(now, sliding_on_file, (str(path.absolute()),)))
@@ -179,8 +173,7 @@ class Commands(QObject):
 
     def _amend(self, title: str, change: Callable[..., Mesh], *values: object) -> None:
         """Change pins or tags of the mesh by a function of the core, which the script of the changes calls."""
-        if self._session.editable:
-            self._session.end_previews()
+        if self._begin_edit():
             now = self.document.now
             mesh = change(now.mesh, *values)
             summary = now.summary if mesh.pinned is now.mesh.pinned else summarise(mesh, now.figures)
@@ -202,12 +195,17 @@ class Commands(QObject):
 
     def undo(self) -> None:
         """Undo the last change, if the mesh is editable."""
-        if self._session.editable:
-            self._session.end_previews()
+        if self._begin_edit():
             self.document.undo()
 
     def redo(self) -> None:
         """Redo the change that was undone last, if the mesh is editable."""
+        if self._begin_edit():
+            self.document.redo()
+
+    def _begin_edit(self) -> bool:
+        """End previews and return True if the mesh can be edited."""
         if self._session.editable:
             self._session.end_previews()
-            self.document.redo()
+            return True
+        return False

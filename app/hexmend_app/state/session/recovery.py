@@ -85,7 +85,6 @@ class Recovery(QObject):
         session.data_changed.connect(self._on_change)
         for signal in (session.run.ended, session.run.failed):
             signal.connect(lambda _: self._on_run())
-        session.run.view.eased.active_changed.connect(self._on_eased)
         session.opener.began.connect(self._on_began)
         session.opener.ended.connect(lambda _: self._on_opened())
         session.opener.failed.connect(lambda *_: self._cancel_recovering())
@@ -121,14 +120,9 @@ class Recovery(QObject):
         self._timer.start()
         self._run_timer.start(RUN_PERIOD)
 
-    def _on_eased(self) -> None:
-        """Write what an eased run has put off."""
-        if not self._session.run.view.eased.active:
-            self._soon.start()
-
     def write(self) -> None:
         """Write the session if it has unsaved data and no run is active; if it is being written, write it again."""
-        if not (self._session.run.busy or self._session.run.view.eased.active):
+        if not self._session.run.busy:
             self._write(None)
 
     def _write_run(self) -> None:

@@ -139,7 +139,7 @@ def restore_picture(
         raise FileError(picture, f"shows another mesh than {path.name}: {error}", "Name its mesh.") from None
     names = _mesh_names(metadata)
     first, *rest = names
-    others = []
+    others: list[RestoredMesh] = []
     for number in rest:
         pictured, name = metadata.meshes[number - 1], names[number]
         if len(others) == MAX_SIDE_VIEWS:

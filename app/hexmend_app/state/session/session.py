@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, Signal, SignalInstance
 
 from hexmend_app.state.session.commands import Commands
 from hexmend_app.state.session.session_parts import SessionParts
@@ -68,7 +68,7 @@ class Session(SessionParts):
         self.changed.emit()
 
 
-def _signals(part: QObject) -> list[Signal]:
+def _signals(part: QObject) -> list[SignalInstance]:
     """Return the signals that a part of the state declares."""
     names = {name for cls in type(part).mro() if cls is not QObject for name, value in vars(cls).items()
              if isinstance(value, Signal)} - {"destroyed", "objectNameChanged"}  # fmt: skip

@@ -14,7 +14,8 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
 from hexmend.smoothers import METHODS, Smoother
-from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter
+from hexmend_app.codec.codec import Codec, TypeAdapter
+from hexmend_app.codec.conversion import DecodeError
 from hexmend_app.formats.session import SUFFIX, is_session
 from hexmend_app.formats.session.session_file import SessionFolder, read_session, write_session
 from hexmend_app.picture.named_cameras import NamedCameras
@@ -132,7 +133,7 @@ def _writing_codec(numbers: dict[Mesh, int]) -> Codec:
     return Codec({
         Mesh: TypeAdapter(partial(_number, numbers), _unused),
         State: TypeAdapter(lambda state: _number(numbers, state.mesh), _unused),
-        Smoother: TypeAdapter(_smoother_data, _unused),
+        Smoother: TypeAdapter(lambda smoother: {"method": smoother.name, "parameters": smoother.values()}, _unused),
     })  # fmt: skip
 
 
@@ -182,10 +183,6 @@ class _States:
                 self._figures[key] = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
             self._states[number] = State(mesh, self._figures[key], summarise(mesh, self._figures[key]))
         return self._states[number]
-
-
-def _smoother_data(smoother: Smoother) -> dict[str, Any]:
-    return {"method": smoother.name, "parameters": smoother.values()}
 
 
 def _smoother(data: Any) -> Smoother:

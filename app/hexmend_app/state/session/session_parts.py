@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.mesh.comparison_base import ComparisonBases
 from hexmend_app.state.mesh.document import Document
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 
     from hexmend_app.state.session.session_data import SessionData
 
-Part = TypeVar("Part")
+Part = TypeVar("Part", bound=Any)
 
 
 class SessionParts(QObject):
@@ -136,15 +137,13 @@ class SessionParts(QObject):
         return self.document.modified or (is_session and self.saved_cameras.modified)
 
     def end_previews(self) -> None:
-        """End what is shown on the way to a result: a run that is shown eased, and a sweep node by node."""
-        self.run.view.skip_easing()
+        """End a sweep node by node, of which a state on the way is shown."""
         self.node_sweep.leave()
 
     def to_data(self) -> SessionData:
         """Return the data for a session file; a mesh is open, and no run and no sweep is active."""
         from hexmend_app.state.session.session_data import SessionData
 
-        self.run.view.skip_easing()
         self.about_to_save.emit()
         return SessionData(**{part.name: part.to_data() for part in self._parts})
 
@@ -171,7 +170,7 @@ class SessionParts(QObject):
 
     def _drop_unknown_rules(self) -> None:
         if self.document.is_open:
-            self.run_setup.keep_rules_of(self.document.now.mesh)
+            self.run_setup.set_rules(self.run_setup.rules.limited_to(set_names(self.document.now.mesh)))
 
     def _follow_renamed_sets(self) -> None:
         if self.document.is_open:

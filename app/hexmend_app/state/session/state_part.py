@@ -8,7 +8,8 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.codec.codec import Codec, DecodeError
+from hexmend_app.codec.codec import Codec
+from hexmend_app.codec.conversion import DecodeError
 
 #: Types of the data of features' parts by name, each with its check: session files are checked before anything is
 #: restored. Functions of parts are not stored here, because they would keep closed windows alive.

@@ -99,7 +99,7 @@ def _switch(value: Any) -> bool:
 
 
 def _pace(value: Any) -> str:
-    if str(value) not in ("fastest", "eased", "every"):
+    if str(value) not in ("fastest", "slow-start", "every"):
         raise ValueError(value)
     return str(value)
 
@@ -121,7 +121,7 @@ FOLDER = Setting("folder", Path(), Path, str)
 HISTORY_MEGABYTES = Setting("history_megabytes", 512, _positive)
 ITERATIONS_PLAYED = Setting("iterations_played", 10, _positive)
 #: One of `hexmend_app.state.run.pace.Pace`.
-RUN_PACE = Setting("run_pace", "eased", _pace)
+RUN_PACE = Setting("run_pace", "slow-start", _pace)
 #: Key figures are shown in the view.
 KEY_FIGURES = Setting("key_figures", True, _switch, lambda on: "true" if on else "false")
 

@@ -91,7 +91,7 @@ def _read(path: Path, task: Task) -> State | SessionData:
         else:
             mesh = read(path)
             task.report(LoadProgress(LoadStage.MEASURING, path, mesh.n_hexes))
-            opened = State.of(mesh)
+            opened = State.of(mesh)  # type: ignore[assignment]
         task.report(LoadProgress(LoadStage.PREPARING, path, mesh.n_hexes))
         _ = mesh.topology.face_neighbours, mesh.topology.layers  # the view needs them to draw
     except HexmendError:

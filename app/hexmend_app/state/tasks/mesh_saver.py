@@ -126,7 +126,7 @@ class MeshSaver(QObject):
     @property
     def path(self) -> Path | None:
         """Path of the file that is being written; None if there is none."""
-        return self._saving and self._saving.path
+        return None if self._saving is None else self._saving.path
 
     def save(self, path: str | Path, rewrite: bool = False) -> SaveTask:
         """Save the mesh, with `rewrite` anew in any case, or the session if the path has the suffix of sessions."""

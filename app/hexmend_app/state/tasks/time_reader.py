@@ -116,7 +116,7 @@ class TimeReader(QObject):
 
     def _finish(self) -> None:
         if self._task.error is not None:
-            self._found.append(self._task.error)
+            self._found.append(self._task.error)  # type: ignore[arg-type]  # `_read` raises no other error
         self._task = self._state = self._record = None
         self.errors = tuple(self._found)
         self.ended.emit()

@@ -258,7 +258,3 @@ class ViewModel(QObject):
         """Restore the hex that was dug away last."""
         if self._dug:
             self.change(show={"hidden": self.look.show.hidden - {self._dug.pop()}})
-
-    def undig_all(self) -> None:
-        """Restore all hexes that were dug away."""
-        self.change(show={"hidden": frozenset()})

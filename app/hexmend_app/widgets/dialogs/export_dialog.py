@@ -23,8 +23,8 @@ from PySide6.QtWidgets import (
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import declared
-from hexmend.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, Chart, ChartStyle, chart_png
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, Chart, ChartStyle, chart_png
+from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
@@ -79,9 +79,7 @@ class ExportDialog(SaveDialog):
     def lay_out(self, preview: QWidget, *forms: QWidget) -> None:
         """Lay out a preview next to forms, title and names."""
         settings = QWidget()
-        column = on_grid(QVBoxLayout(settings))
-        for form in forms:
-            column.addWidget(form)
+        column = fill(QVBoxLayout(settings), *forms)
         rows = on_grid(QFormLayout())
         rows.addRow(tr("Title"), self.title)
         if self.names:
@@ -94,9 +92,7 @@ class ExportDialog(SaveDialog):
         column.addStretch()
         area = scrolled(settings)
         area.setMinimumWidth(max(280, settings.sizeHint().width() + 28))
-        upper = on_grid(QHBoxLayout())
-        upper.addWidget(preview, 1)
-        upper.addWidget(area)
+        upper = fill(QHBoxLayout(), (preview, 1), area)
         self.lay_out_below(upper)
         for line in (self.title, *self.names.values()):
             line.textEdited.connect(self.changed)

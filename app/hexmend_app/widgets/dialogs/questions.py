@@ -184,7 +184,7 @@ def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True, in_session: bo
     box = _question(parent, text, mesh if of_mesh and not in_session else session)
     box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
     box.setDefaultButton(buttons.Save)
-    return {buttons.Save: Answer.SAVE, buttons.Discard: Answer.DISCARD}.get(box.exec(), Answer.CANCEL)
+    return {buttons.Save: Answer.SAVE, buttons.Discard: Answer.DISCARD}.get(buttons(box.exec()), Answer.CANCEL)
 
 
 def ask_rewrite(parent: QWidget, path: Path, original: Path, lost: Sequence[str]) -> bool | None:

@@ -7,8 +7,8 @@ import re
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLayout, QPushButton, QVBoxLayout, QWidget
 
 from hexmend.errors import FileError, ParameterError
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import WORSE, note
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import WORSE, note, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.target_row import TargetRow
 
@@ -53,11 +53,7 @@ class SaveDialog(QDialog):
             buttons.addButton(button, QDialogButtonBox.ButtonRole.ResetRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        layout = on_grid(QVBoxLayout(self))
-        layout.addLayout(upper, 1)
-        layout.addWidget(self.target)
-        layout.addWidget(self._problem)
-        layout.addWidget(buttons)
+        fill(QVBoxLayout(self), (upper, 1), self.target, self._problem, buttons)
         self.refuse("")
 
     def check(self) -> None:
@@ -79,5 +75,4 @@ class SaveDialog(QDialog):
 
     def refuse(self, problem: str) -> None:
         """Show a problem; "" hides it."""
-        self._problem.setText(problem)
-        self._problem.setVisible(bool(problem))
+        show_text(self._problem, problem)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QEventLoop, Qt, QTimer
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
 
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.translation import tr
 
 #: Milliseconds until the dialog is shown, and between two checks.
@@ -44,9 +44,7 @@ class WaitingDialog(QDialog):
             buttons.addButton(leave, QDialogButtonBox.ButtonRole.AcceptRole)
             buttons.accepted.connect(self.accept)
         buttons.button(QDialogButtonBox.StandardButton.Cancel).setDefault(True)  # so that Enter does not press `leave`
-        layout = on_grid(QVBoxLayout(self))
-        for part in (label, bar, buttons):
-            layout.addWidget(part)
+        fill(QVBoxLayout(self), label, bar, buttons)
         self._over = over
         self._timer = QTimer(self, interval=_PERIOD)
         self._timer.timeout.connect(self._check)

@@ -114,4 +114,4 @@ def editor_for(declaration: Parameter) -> Editor:
         return ChoiceEditor(declaration)
     if declaration.suggestions:
         return SuggestedText(declaration)
-    return {bool: Switch, str: Text}.get(declaration.type, NumberBox)(declaration)
+    return {bool: Switch, str: Text}.get(declaration.type, NumberBox)(declaration)  # type: ignore[return-value]

@@ -10,7 +10,7 @@ class FocusedWheel:
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Change the value if the input has the focus."""
-        if self.hasFocus():
-            super().wheelEvent(event)
+        if self.hasFocus():  # type: ignore[attr-defined]  # of the widget that this is mixed into
+            super().wheelEvent(event)  # type: ignore[misc]
         else:
             event.ignore()

@@ -8,7 +8,7 @@ from enum import StrEnum
 from typing import Any
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFormLayout, QLabel, QWidget
+from PySide6.QtWidgets import QFormLayout, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
@@ -17,9 +17,9 @@ from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.codec.value_text import parse_value
 from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.theme.style import WORSE, labelled, note, set_help, show_text
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.editors import Editor, Text, editor_for
+from hexmend_app.widgets.inputs.editors import Text, editor_for
 from hexmend_app.widgets.wording import name_in_words
 
 
@@ -49,8 +49,8 @@ class KeyForm(QWidget):
     def __init__(self, table: ConfigTable, names: Sequence[str], parent: QWidget | None = None):
         super().__init__(parent)
         self._kind = type(table)
-        self._keys = {option.field: option for option in options_of(self._kind) if option.field in names}
-        self.editors: dict[str, Editor] = {}
+        self._keys = {option.field: option for option in options_of(type(table)) if option.field in names}  # type: ignore[arg-type]
+        self.editors: dict[str, Any] = {}
         layout = on_grid(QFormLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         for name in names:
@@ -58,10 +58,8 @@ class KeyForm(QWidget):
             editor = self.editors[name] = _editor(option)
             editor.changed.connect(self._on_changed)
             title = tr(name_in_words(option.name)) + (f" ({tr(option.unit)})" if option.unit else "")
-            set_help(editor, title, tr(helps(self._kind)[name]))
-            label = QLabel(title)
-            label.setBuddy(editor)
-            layout.addRow(label, editor)
+            set_help(editor, title, tr(helps(self._kind)[name]))  # type: ignore[arg-type]
+            layout.addRow(labelled(title, editor), editor)
         self._problem = note("", WORSE)
         self._problem.hide()
         layout.addRow(self._problem)
@@ -72,7 +70,7 @@ class KeyForm(QWidget):
         for name, editor in self.editors.items():
             value = getattr(table, name)
             editor.set_value(_text(value) if isinstance(editor, Text) else value)
-        self._show_problem("")
+        show_text(self._problem, "")
 
     def table(self, base: ConfigTable) -> ConfigTable:
         """Return a copy of `base` with the values of the form.
@@ -92,17 +90,13 @@ class KeyForm(QWidget):
     def _on_changed(self) -> None:
         try:
             self.table(self._kind())
-            self._show_problem("")
+            show_text(self._problem, "")
         except ParameterError as error:
-            self._show_problem(str(error))
+            show_text(self._problem, str(error))
         self.changed.emit()
 
-    def _show_problem(self, problem: str) -> None:
-        self._problem.setText(problem)
-        self._problem.setVisible(bool(problem))
 
-
-def _editor(option: Option) -> Editor:
+def _editor(option: Option) -> Any:
     kind, name = option.kind, option.name
     if kind is bool or kind in (int, float):
         return editor_for(Parameter(name, kind, option.default, option.low, option.high, None, "", ""))
@@ -110,7 +104,7 @@ def _editor(option: Option) -> Editor:
         return editor_for(Parameter(name, str, option.default, None, None, None, "", "", suggestions=option.offered))
     if isinstance(kind, type) and issubclass(kind, StrEnum):
         return editor_for(Parameter(name, str, option.default.value, None, None, tuple(kind), "", ""))
-    editor = editor_for(Parameter(name, str, "", None, None, None, "", ""))
+    editor: Any = editor_for(Parameter(name, str, "", None, None, None, "", ""))
     editor.setPlaceholderText(tr("automatic") if option.default in (None, "") else _text(option.default))
     return editor
 

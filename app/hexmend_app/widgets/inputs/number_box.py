@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPalette
@@ -11,7 +12,7 @@ from PySide6.QtWidgets import QAbstractSpinBox, QHBoxLayout, QLabel, QWidget
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.theme.palette import MUTED
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import on_theme_change, set_variant, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
@@ -62,15 +63,12 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
         suffix.setFont(smaller(suffix.font()))
         suffix.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         on_theme_change(suffix, lambda: _colour_unit(suffix))
-        layout = on_grid(QHBoxLayout(line))
-        layout.setContentsMargins(0, 0, 4, 0)
-        layout.addStretch()
-        layout.addWidget(suffix)
+        fill(QHBoxLayout(line), None, suffix, margins=(0, 0, 4, 0))
         width = suffix.sizeHint().width() + 6 if unit else 2
         line.setTextMargins(0, 0, width, 0)
         self.setMinimumWidth(width + self.fontMetrics().horizontalAdvance("0.00000") + 34)
 
-    def value(self) -> float | int | str:
+    def value(self) -> Any:
         """Return the last valid value: a number, a declared word or a percentage."""
         return self._value
 

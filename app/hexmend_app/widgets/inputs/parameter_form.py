@@ -10,13 +10,13 @@ from typing import Any
 
 import shiboken6
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QFont, QFontMetrics
+from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import BLUE, WORSE, icon, note, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import BLUE, WORSE, bold, note, set_help, show_text, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
 from hexmend_app.widgets.inputs.number_box import LONGEST_UNIT, NumberBox
@@ -40,8 +40,7 @@ class _Row:
         font.setBold(modified)
         self.label.setFont(font)
         self.reset.setVisible(modified)
-        self.problem.setText(self.editor.problem)
-        self.problem.setVisible(bool(self.editor.problem))
+        show_text(self.problem, self.editor.problem)
 
     @property
     def is_needed(self) -> bool:
@@ -99,7 +98,7 @@ class ParameterForm(QWidget):
         self._grid.setColumnStretch(1, 1)
         self.none = note(tr("No parameters."))
         self._defaults = self._button(tr("Defaults"), "restore", tr("Reset all parameters to their defaults."), False)
-        self._defaults.clicked.connect(self._reset_all)
+        self._defaults.clicked.connect(lambda: self._reset(self.rows.values()))
         explain = tr("Show the help of each parameter.")
         self._explain = self._button(tr("Explain"), "help-circle-outline", explain, False)
         self._explain.setCheckable(True)
@@ -107,27 +106,16 @@ class ParameterForm(QWidget):
         self._advanced = self._button(tr("Advanced"), "tune-variant", tr("Show the advanced parameters as well."))
         self._advanced.setCheckable(True)
         self._advanced.toggled.connect(self._show_rows)
-        foot = on_grid(QHBoxLayout())
-        foot.addWidget(self._advanced)
-        foot.addStretch()
-        foot.addWidget(self._explain)
-        foot.addWidget(self._defaults)
-        layout = on_grid(QVBoxLayout(self))
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addLayout(self._grid)
-        layout.addWidget(self.none)
-        layout.addLayout(foot)
+        foot = fill(QHBoxLayout(), self._advanced, None, self._explain, self._defaults)
+        fill(QVBoxLayout(self), self._grid, self.none, foot, margins=(0, 0, 0, 0))
         self.set_declarations(declarations)
 
     @staticmethod
     def _button(text: str, icon_name: str, help: str, with_text: bool = True) -> QToolButton:
-        button = QToolButton()
+        button = tool_button(icon_name)
         button.setText(text)
-        button.setIcon(icon(icon_name))
         style = Qt.ToolButtonStyle
         button.setToolButtonStyle(style.ToolButtonTextBesideIcon if with_text else style.ToolButtonIconOnly)
-        button.setAutoRaise(True)
-        button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(button, text, help)
         return button
 
@@ -175,10 +163,7 @@ class ParameterForm(QWidget):
         label.setMinimumWidth(_longest_word_width(label, name))
         label.setBuddy(editor)
         label.setToolTip(editor.toolTip())
-        reset = QToolButton()
-        reset.setIcon(icon("restore", BLUE))
-        reset.setAutoRaise(True)
-        reset.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        reset = tool_button("restore", BLUE)
         set_help(reset, tr("Reset {name}", name=name), tr("Reset to the default, {default}.", default=escape(shown)))
         row = _Row(declaration, label, editor, reset, note("", WORSE), note(help))
         editor.changed.connect(self._on_changed)
@@ -224,9 +209,6 @@ class ParameterForm(QWidget):
             self.rows[name].editor.setFocus(Qt.FocusReason.OtherFocusReason)
             return
 
-    def _reset_all(self) -> None:
-        self._reset(self.rows.values())
-
     def _reset(self, rows: Iterable[_Row]) -> None:
         for row in rows:
             row.editor.set_value(row.declaration.default)
@@ -253,9 +235,7 @@ class ParameterForm(QWidget):
 def _longest_word_width(label: QLabel, text: str) -> int:
     """Return the minimum width of a wrapped text in bold, in pixels."""
     label.ensurePolished()
-    bold = QFont(label.font())
-    bold.setBold(True)
-    metrics = QFontMetrics(bold)
+    metrics = QFontMetrics(bold(label.font()))
     return max(metrics.horizontalAdvance(word) for word in text.split()) + 2
 
 

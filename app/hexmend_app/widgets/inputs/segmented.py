@@ -8,7 +8,8 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
-from hexmend_app.theme.style import set_help, set_variant, smaller
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import bold, set_help, set_variant, smaller
 
 
 def _stop_at_checked(button: QAbstractButton, checked: bool) -> None:
@@ -39,9 +40,6 @@ class Segmented(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self._group = QButtonGroup(self)
         self._buttons: dict[str, QPushButton] = {}
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
         options = list(options)
         for at, (key, text, help) in enumerate(options):
             button = QPushButton(text)
@@ -52,12 +50,10 @@ class Segmented(QWidget):
             button.clicked.connect(lambda _=False, key=key: self.chosen.emit(key))
             # The checked button is bold; its width must not depend on that.
             button.setFont(smaller(button.font()))
-            font = button.font()
-            font.setBold(True)
-            button.setMinimumWidth(QFontMetrics(font).horizontalAdvance(text) + 12)
+            button.setMinimumWidth(QFontMetrics(bold(button.font())).horizontalAdvance(text) + 12)
             self._group.addButton(button)
             self._buttons[key] = button
-            layout.addWidget(button)
+        fill(QHBoxLayout(self), *self._buttons.values(), margins=(0, 0, 0, 0), spacing=0)
         self._group.buttonToggled.connect(_stop_at_checked)
         for button in self._buttons.values():
             _stop_at_checked(button, False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSlider, QSpinBox, QWidget
 
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help, tabular
 
 
@@ -38,10 +38,7 @@ class SliderBox(QWidget):
         self._box.setSuffix(suffix)
         self._box.setFont(tabular(self._box.font()))
         self._box.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        layout = on_grid(QHBoxLayout(self))
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self._slider, 1)
-        layout.addWidget(self._box)
+        fill(QHBoxLayout(self), (self._slider, 1), self._box, margins=(0, 0, 0, 0))
         self.setFocusProxy(self._slider)
         for part in (self._slider, self._box):
             part.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -85,7 +82,7 @@ class SliderBox(QWidget):
 
     def eventFilter(self, part: QObject, event: QEvent) -> bool:
         """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
-        if event.type() == QEvent.Type.Wheel and not part.hasFocus():
+        if event.type() == QEvent.Type.Wheel and not part.hasFocus():  # type: ignore[attr-defined]
             event.ignore()
             return True
         return super().eventFilter(part, event)

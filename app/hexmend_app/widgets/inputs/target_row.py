@@ -6,10 +6,10 @@ from contextlib import suppress
 from pathlib import Path
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLineEdit, QPushButton, QWidget
 
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import labelled, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_replacing, folder, named, remember_folder
 
@@ -45,13 +45,7 @@ class TargetRow(QWidget):
         self.line.textChanged.connect(lambda: self.edited.emit())
         browse = QPushButton(tr("Browse…"))
         browse.clicked.connect(self._browse)
-        row = on_grid(QHBoxLayout(self))
-        row.setContentsMargins(0, 0, 0, 0)
-        label = QLabel(tr("File"))
-        label.setBuddy(self.line)
-        row.addWidget(label)
-        row.addWidget(self.line, 1)
-        row.addWidget(browse)
+        fill(QHBoxLayout(self), labelled(tr("File"), self.line), (self.line, 1), browse, margins=(0, 0, 0, 0))
 
     @property
     def empty(self) -> bool:

@@ -48,15 +48,13 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--surface",
         metavar="FILE",
-        help="let the boundary slide on this surface and not on its own: STL, OBJ, PLY, VTP or VTK; implies "
-        "--boundary slide",
+        help="let the boundary slide on this surface: STL, OBJ, PLY, VTP or VTK; implies --boundary slide",
     )
     parser.add_argument(
         "--surface-tolerance",
         metavar="X",
-        help="largest distance of the boundary from the surface in mean edge lengths, or in per cent of the diagonal "
-        "such as 0.5%%: 0 to stay on it, or one of the words auto (default) and unlimited; the same as "
-        "--set surface_tolerance=X",
+        help="largest distance of the boundary from the surface, in mean edge lengths or such as 0.5%% of the "
+        "diagonal, or auto (default) or unlimited",
     )
 
 
@@ -65,8 +63,7 @@ def add_motion(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--interfaces",
         choices=("keep", "slide", "free"),
-        help="nodes between materials: keep them like the boundary (default), let them slide on the interface, or let "
-        "them move freely",
+        help="nodes between materials: keep them like the boundary (default), let them slide, or let them move freely",
     )
     add_repeated(parser, "--fix", "SET", "fix the nodes of this set")
     add_repeated(parser, "--slide", "SET", "let the nodes of this set slide even if the boundary is fixed")
@@ -78,7 +75,7 @@ def add_motion(parser: argparse.ArgumentParser) -> None:
         metavar=("SET", "OTHER"),
         action="append",
         default=[],
-        help="move the nodes of two sets as one, such as the two sides of a periodic cell",
+        help="move the nodes of two sets as one, such as opposite sides of a cell",
     )
 
 
@@ -123,8 +120,8 @@ def _add_boundary(parser: argparse.ArgumentParser) -> None:
     text = "keep the nodes of the boundary fixed (default) or let them slide on the surface"
     parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
     text = (
-        "the best shape that lowers no key figure (balanced, the default), the optimum of shape, the highest minimum "
-        "scaled Jacobian, or the longest explicit time step"
+        "the best shape that lowers no key figure (default), the optimum of shape, the highest minimum scaled "
+        "Jacobian, or the longest explicit time step"
     )
     parser.add_argument("--goal", choices=("balanced", "shape", "scaled-jacobian", "time-step"), help=text)
 
@@ -134,11 +131,11 @@ def _add_target(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--target",
         metavar="ideal|given-shape|given-size|given|FIELD",
-        help="target of the hexes: cubes, the given shape, size or both, or lengths from data of the "
-        "file or a formula in x, y, z (default: ideal, or given-shape for a mesh with boundary layers)",
+        help="target of the hexes: cubes, the given shape, size or both, or lengths from data or a formula in x, y, z "
+        "(default: ideal, or given-shape with layers)",
     )
     text = "keep the heights of boundary layers (default unless --target is given), leave them free, or keep those on "
-    text += "the walls given by these sets, whether or not heights grow (set:NAME for a set with the name keep)"
+    text += "the walls given by sets"
     parser.add_argument("--layers", metavar="keep|free|SET[,SET]", help=text)
 
 

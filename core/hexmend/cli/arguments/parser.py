@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any, NoReturn
+
+from hexmend.parameters import suggestion
 
 _MISSING = "the following arguments are required: "
 
@@ -51,26 +52,20 @@ class Parser(argparse.ArgumentParser):
         if action.choices is None or value in action.choices:
             return
         known = [str(one) for one in action.choices]
-        self.error(f"{_name(action)} {value} is unknown: {_nearest(str(value), known)}expected {' or '.join(known)}")
+        self.error(f"{_name(action)} {value} is unknown: {suggestion(str(value), known)}expected {' or '.join(known)}")
 
     def _unknown(self, word: str) -> str:
         """Return the sentence for a word that is neither an option nor the place of an argument."""
         if not word.startswith("-"):
             return f"{word!r} is one word too many"
         option = word.partition("=")[0]
-        hint = _nearest(option, self._option_string_actions).rstrip()
+        hint = suggestion(option, self._option_string_actions).rstrip()
         return f"there is no option {option}" + (f": {hint}" if hint else "")
 
     def _missing(self, names: Sequence[str]) -> str:
         """Return the sentence for arguments that are missing, each with its help."""
         missing = [one for one in self._actions if _identity(one) in names and one.nargs != "*"]
         return "missing: " + ", and ".join(f"{_usage(one)} ({one.help})" for one in missing)
-
-
-def _nearest(name: str, known: Iterable[str]) -> str:
-    names = {one.casefold(): one for one in known}
-    near = difflib.get_close_matches(name.casefold(), names, n=1)
-    return f"did you mean {names[near[0]]}? " if near else ""
 
 
 def _name(one: argparse.Action) -> str:

@@ -5,16 +5,12 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self, TypeVar
 
-from hexmend.cli.output.progress_line import progress_line
 from hexmend.cli.process.interrupts import ExitAfterIteration
-from hexmend.cli.process.terminal import redraws_lines
 from hexmend.io.storage.file_progress import watch_files
-from hexmend.run.progress import BAR_DELAY, LINE_INTERVAL, current_method, describe_iteration, describe_run
-from hexmend.signal_guard import uninterrupted
+from hexmend.run.progress import line_display, progress_display
 
 if TYPE_CHECKING:
     from hexmend.iteration import Iteration
@@ -35,7 +31,7 @@ class Progress:
     """
 
     def __enter__(self) -> Self:
-        self._display: _Live | _Lines | None = _Live() if redraws_lines() else _Lines()
+        self._display = progress_display(True)
         self._unwatched = watch_files(None)  # a file that is written meanwhile, such as a checkpoint, has no line
         self._unwatched.__enter__()
         self.signals = ExitAfterIteration()
@@ -45,17 +41,11 @@ class Progress:
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
         self.signals.__exit__(kind, error, trace)
         self._unwatched.__exit__(None, None, None)
-        if self._display is not None:
-            with suppress(OSError):
-                self._display.close()
+        self._display.close()
 
     def show(self, run: Run) -> bool:
         """Show the run's newest iteration; return False once a signal has asked it to end."""
-        if self._display is not None:
-            try:
-                self._display.show(run)
-            except OSError:  # the terminal has gone, and the run has not
-                self._display = None
+        self._display.show(run)
         return not self.signals.asked
 
 
@@ -90,35 +80,8 @@ def follow(run: Run, watch: Callable[[Iteration], object] = lambda iteration: No
             print("Interrupted: the result so far is kept.", file=sys.stderr)
 
 
-class _Live:
-    """A line that changes in place and is removed at the end."""
-
-    def __init__(self):
-        self._due = monotonic() + BAR_DELAY
-        self._line = self._run = self._task = None
-
-    @uninterrupted  # a line that is drawn in part could not be removed
-    def show(self, run: Run) -> None:
-        if self._line is None:
-            if monotonic() < self._due:
-                return
-            self._line = progress_line("{task.fields[method]} {task.completed:,} of {task.total:,}: {task.description}")
-            self._line.start()
-        if run is not self._run:
-            if self._task is not None:
-                self._line.remove_task(self._task)
-            self._run = run
-            self._task = self._line.add_task("", total=run.max_iterations, method="")
-        words = {"method": current_method(run), "description": describe_iteration(run)}
-        self._line.update(self._task, total=run.max_iterations, completed=run.last.number, **words)
-
-    def close(self) -> None:
-        if self._line is not None:
-            self._line.stop()
-
-
 def show_count(items: Iterable[_Item], total: int, text: str) -> Iterator[_Item]:
-    """Yield items, and show on a terminal how many of them are done, from `BAR_DELAY` on.
+    """Yield items, and show on a terminal how many of them are done.
 
     Parameters
     ----------
@@ -128,36 +91,10 @@ def show_count(items: Iterable[_Item], total: int, text: str) -> Iterator[_Item]
     text : str
         Description, such as "drawing frames".
     """
-    if not redraws_lines():
-        yield from items
-        return
-    due, line = monotonic() + BAR_DELAY, None
+    display = line_display(lambda number: f"{text}: {number:,} of {total:,}", lambda number: number / total)
     try:
         for number, item in enumerate(items, 1):
-            if line is None and monotonic() >= due:
-                line = progress_line("{task.description}: {task.completed:,} of {task.total:,}", bar=True)
-                task = line.add_task(text, total=total)
-                line.start()
-            if line is not None:
-                line.update(task, completed=number)
+            display.show(number)
             yield item
     finally:
-        if line is not None:
-            line.stop()
-
-
-class _Lines:
-    """Plain lines for a log."""
-
-    def __init__(self):
-        self._due: float | None = None
-
-    def show(self, run: Run) -> None:
-        if self._due is None:  # the interval begins after the preparations for the first iteration
-            self._due = monotonic() + LINE_INTERVAL
-        if monotonic() >= self._due:
-            print(describe_run(run), file=sys.stderr, flush=True)
-            self._due = monotonic() + LINE_INTERVAL
-
-    def close(self) -> None:
-        pass
+        display.close()

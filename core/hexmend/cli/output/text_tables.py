@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import shutil
+import sys
 from collections.abc import Mapping, Sequence
+from textwrap import fill
 
-from hexmend.cli.process.terminal import shows_colours
 from hexmend.quality import METRICS, REGRESSION_KEYS, SUMMARY_QUANTITIES, MetricStatistics, Summary, regressions
 from hexmend.quantity import format_count, format_quality
-from hexmend.terminal_text import WorsenedText, printable
+from hexmend.report.tables import Table
+from hexmend.terminal_text import WorsenedText, printable, shows_colours
+
+#: Characters of a line where standard output is no terminal, and has no width of its own.
+_PIPE_WIDTH = 100
+
+#: Characters between two columns.
+_GAP = 3
 
 
 def print_summaries(
@@ -52,6 +61,16 @@ def print_spreads(spreads: Mapping[str, MetricStatistics]) -> None:
     print_columns(["Metric", "Min", "Mean", "Max", "Acceptable", "Outside", "Infinite"], rows)
 
 
+def print_table(table: Table) -> None:
+    """Print a table with its title and notes, split into parts one below the other on a narrow terminal."""
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else _PIPE_WIDTH
+    print(table.title)
+    for part in table.parts(width, _GAP):
+        print_columns(part.head, part.rows)
+    for note in table.notes:
+        print(fill(note, width, break_long_words=False, break_on_hyphens=False))
+
+
 def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> None:
     """Print rows in columns, the first aligned left and the others right, with a line below the head.
 
@@ -65,7 +84,7 @@ def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> 
         return f"{red}{cell:>{width}}{reset}" if isinstance(cell, WorsenedText) else cell.rjust(width)
 
     def line(row: Sequence[str]) -> str:
-        return "  " + "   ".join([row[0].ljust(widths[0]), *map(painted, row[1:], widths[1:])])
+        return "  " + (" " * _GAP).join([row[0].ljust(widths[0]), *map(painted, row[1:], widths[1:])])
 
     print()
     if head:

@@ -14,7 +14,6 @@ import os
 import signal
 import sys
 
-from hexmend.cli.process.signal_timer import comes_from_timer, send_later, send_now
 from hexmend.signal_guard import ON_RETURN, is_interruptible, uninterrupted
 from hexmend.terminal_text import is_dumb
 
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
 #: Ctrl-C, a request to terminate, and a terminal that was closed.
 ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
-#: The signal of the timer; None on Windows, where `signal_timer` takes its place.
+#: The signal of the timer; None on Windows, where every exception is raised at once.
 _ALARM = getattr(signal, "SIGALRM", None)
 
 #: Seconds until the next attempt to raise an exception that would have been lost.
@@ -150,9 +149,6 @@ class CleanExit:
             signal.raise_signal(waiting)  # to the block around this one
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
-        if comes_from_timer():
-            self._on_alarm(number, frame)
-            return
         self._count += 1
         self.number = self.number or number
         self._answer(self._count, number, frame)
@@ -166,7 +162,7 @@ class CleanExit:
 
     def _raise(self, number: int, frame: FrameType | None) -> None:
         """Raise an exception, or set the timer if it would be lost now."""
-        if not is_interruptible(frame):
+        if _ALARM is not None and not is_interruptible(frame):
             self._delay(number, _RETRY, retries=True)
             return
         if self._delays:
@@ -175,16 +171,15 @@ class CleanExit:
 
     def _wait(self, number: int) -> None:
         """Raise an exception if the block has not ended after the grace."""
-        if not (self._delays and _delayed):
+        if _ALARM is None:
+            self._raise(number, None)
+        elif not (self._delays and _delayed):
             self._delay(number, self.grace)
 
     def _delay(self, number: int, seconds: float, retries: bool = False) -> None:
         global _delayed, _retries
         _delayed, _retries, self._delays = number, retries, number != 0
-        if _ALARM is not None:
-            signal.setitimer(signal.ITIMER_REAL, seconds)
-        else:
-            send_later(number, seconds)
+        signal.setitimer(signal.ITIMER_REAL, seconds)
 
     def _on_alarm(self, alarm: int, frame: FrameType | None) -> None:
         global _delayed
@@ -196,7 +191,7 @@ class CleanExit:
 
     def _on_unraisable(self, unraisable: Any) -> None:
         """Raise again an exception that was lost in a callback, such as `__del__`."""
-        if isinstance(unraisable.exc_value, KeyboardInterrupt):
+        if isinstance(unraisable.exc_value, KeyboardInterrupt) and _ALARM is not None:
             self._delay(getattr(unraisable.exc_value, "number", signal.SIGINT), _RETRY, retries=True)
         else:
             self._unraisable(unraisable)
@@ -242,10 +237,7 @@ class FinishWriting(CleanExit):
 def _raise_waiting() -> None:
     """Raise the exception that was waiting for the end of an `uninterrupted` function."""
     if _delayed and _retries:
-        if _ALARM is not None:
-            signal.raise_signal(_ALARM)
-        else:
-            send_now(_delayed)
+        signal.raise_signal(_ALARM)
 
 
 ON_RETURN.append(_raise_waiting)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
@@ -167,7 +167,7 @@ def hex_blocks(mesh: Mesh) -> Iterator[tuple[Block, np.ndarray]]:
             yield Block(kind, nodes, data, {name: members for name, members in sets.items() if members.size}), chosen
 
 
-def concatenate_data(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
+def concatenate_data(parts: Sequence[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
     """Concatenate the data of several blocks, name by name.
 
     Cells of a block without the name get NaN in real and complex arrays, else zero. Arrays of one name whose rows have

@@ -57,6 +57,18 @@ class RaggedArray:
         """Length of each row, (k,) int64."""
         return np.diff(self.start)
 
+    @classmethod
+    def of_counted_rows(cls, values: np.ndarray) -> tuple[RaggedArray, bool]:
+        """Take apart numbers (j,) int64 of which each row begins with its length; False if they end within a row."""
+        starts, at, view = [], 0, memoryview(np.ascontiguousarray(values))
+        while at < values.size and view[at] >= 0:
+            starts.append(at)
+            at += 1 + view[at]
+        begins = np.array(starts, np.int64)
+        is_item = np.ones(values.size, bool)
+        is_item[begins] = False
+        return cls(np.concatenate([[0], np.cumsum(values[begins])]), values[is_item]), at == values.size
+
 
 def cells_from_faces(
     faces: RaggedArray, cells: RaggedArray, turned: np.ndarray

@@ -7,7 +7,7 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from hexmend.io.storage.atomic_files import AtomicFiles
+from hexmend.io.storage.atomic import AtomicFiles
 
 
 class LocatedCoordinates(Protocol):

@@ -13,7 +13,7 @@ from hexmend.errors import FileError
 from hexmend.io.base.format import Format
 from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates, LocatedFiles
 from hexmend.io.coordinates.original import Original, difference
-from hexmend.io.storage.atomic_files import atomic_files
+from hexmend.io.storage.atomic import atomic_files
 from hexmend.mesh.mesh import Mesh
 
 _LOGGER = logging.getLogger(__name__)

@@ -1,15 +1,18 @@
-"""Atomic replacement of files."""
+"""Atomic replacement of a file, or of several that belong together: all of them, or none."""
 
 from __future__ import annotations
 
 import os
+import shutil
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.storage.temporary_files import TemporaryFile, flush_file, flush_folder
+from hexmend.signal_guard import uninterrupted
 
 
 @contextmanager
@@ -37,28 +40,8 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
         Where the folder is missing or not writable, `path` is a folder, a named pipe, a link to itself or read-only,
         or the disk is full.
     """
-    path = Path(path)
-    temporary: TemporaryFile | None = None
-    try:
-        if is_stream(path):
-            yield path
-            return
-        target, mode = writable_target(path)
-        temporary = TemporaryFile(target)
-        temporary.create(mode)
-        yield temporary.path
-        flush_file(temporary.path)
-        os.replace(temporary.path, target)
-        flush_folder(target.parent)
-    except OSError as error:
-        own = (path,) if temporary is None else (path, temporary.path, temporary.lock_path)
-        if error.filename is not None and Path(error.filename) not in own:
-            raise  # of another file, which the block uses
-        problem = f"cannot be written: {error.strerror or error}"
-        raise FileError(path, problem, "Check free space and permissions, or choose another folder.") from None
-    finally:
-        if temporary is not None:
-            temporary.remove()
+    with atomic_files() as files:
+        yield files.add(Path(path))
 
 
 def check_writable(path: str | os.PathLike[str]) -> None:
@@ -117,3 +100,170 @@ def writable_target(path: Path) -> tuple[Path, int | None]:
     if not os.access(target, os.W_OK):
         raise FileError(path, "cannot be written: the file is read-only", "Make it writable or choose another name.")
     return target, stat.S_IMODE(target.stat().st_mode)
+
+
+@dataclass(frozen=True)
+class _Replacement:
+    """File to be replaced, its temporary file, and the one that keeps its old content until all are replaced."""
+
+    path: Path
+    target: Path
+    temporary: TemporaryFile
+    backup: TemporaryFile | None
+
+
+class AtomicFiles:
+    """Files that are replaced together; see `atomic_files`."""
+
+    def __init__(self) -> None:
+        self._replacements: list[_Replacement] = []
+        self._named: dict[Path, Path] = {}  # path given by the user, by all that errors of the system may name
+
+    def add(self, path: Path) -> Path:
+        """Add a file to be replaced, and return a temporary file with the same suffix, to be written.
+
+        A file that was added before has the same temporary file again.
+
+        Parameters
+        ----------
+        path : Path
+
+        Raises
+        ------
+        FileError
+            Where the file cannot be replaced, see `atomic_write`.
+        """
+        if is_stream(path):
+            return path
+        target, mode = writable_target(path)
+        for one in self._replacements:
+            if one.target == target:
+                return one.temporary.path
+        temporary, backup = TemporaryFile(target), None if mode is None else TemporaryFile(target)
+        self._replacements.append(_Replacement(path, target, temporary, backup))  # to be removed if creation fails
+        with _named(path):
+            temporary.create(mode)
+        self._named |= dict.fromkeys((path, target, temporary.path, temporary.lock_path), path)
+        return temporary.path
+
+    def commit(self) -> None:
+        """Replace all files, those that were added first last.
+
+        Raises
+        ------
+        FileError
+            If one of them cannot be replaced; those that were replaced before it have their old content again.
+        """
+        for one in self._replacements:
+            with _named(one.path):
+                flush_file(one.temporary.path)
+        if len(self._replacements) > 1:
+            for one in self._replacements:
+                with _named(one.path):
+                    _keep(one)
+        self._replace()
+        for folder in dict.fromkeys(one.target.parent for one in self._replacements):
+            flush_folder(folder)
+
+    @uninterrupted
+    def _replace(self) -> None:
+        done: list[_Replacement] = []
+        for one in reversed(self._replacements):
+            try:
+                os.replace(one.temporary.path, one.target)
+            except OSError as error:
+                problem = f"cannot be replaced: {error.strerror or error}{_restore(done)}"
+                raise FileError(
+                    one.path, problem, "Check free space and permissions, or choose another folder."
+                ) from None
+            done.append(one)
+
+    def path_of(self, error: OSError) -> Path | None:
+        """Return the path that an error is about: the first where the error names none, None for another file's."""
+        names = [name for name in (error.filename, error.filename2) if name is not None]  # both of one that is copied
+        if not names:
+            return next(iter(self._named.values()), None)
+        return next((self._named[Path(name)] for name in names if Path(name) in self._named), None)
+
+    @uninterrupted
+    def remove(self) -> None:
+        """Remove the temporary files that are left."""
+        for one in self._replacements:
+            one.temporary.remove()
+            if one.backup is not None:
+                one.backup.remove()
+
+
+@contextmanager
+def atomic_files() -> Iterator[AtomicFiles]:
+    """Context manager that replaces files at its end, all of them or none.
+
+    All new files are on the disk before the first is renamed. If the block raises, or a file cannot be replaced, all
+    old files are there as before.
+
+    Yields
+    ------
+    AtomicFiles
+
+    Raises
+    ------
+    FileError
+        Where a file cannot be written.
+    """
+    files = AtomicFiles()
+    try:
+        yield files
+        files.commit()
+    except OSError as error:
+        path = files.path_of(error)
+        if path is None:
+            raise  # of another file, which the block uses
+        with _named(path):
+            raise
+    finally:
+        files.remove()
+
+
+@contextmanager
+def _named(path: Path) -> Iterator[None]:
+    """Context manager in which errors of the system become errors of a file."""
+    try:
+        yield
+    except OSError as error:
+        problem = f"cannot be written: {error.strerror or error}"
+        raise FileError(path, problem, "Check free space and permissions, or choose another folder.") from None
+
+
+def _keep(one: _Replacement) -> None:
+    """Keep the old content of a file: by another name where the file system has links, else in a copy."""
+    if one.backup is None:
+        return
+    one.backup.create(None)
+    one.backup.path.unlink()
+    try:
+        os.link(one.target, one.backup.path)
+    except OSError:
+        shutil.copy2(one.target, one.backup.path)
+
+
+def _restore(done: list[_Replacement]) -> str:
+    """Restore the old files; returns words about them for a message, "" if there are none.
+
+    The old content of a file that cannot be restored stays in its backup, which the message names.
+    """
+    kept, names = [], [one.path.name for one in done]
+    for one in reversed(done):
+        try:
+            if one.backup is None:
+                one.target.unlink()
+            else:
+                os.replace(one.backup.path, one.target)
+        except OSError:
+            if one.backup is None:
+                kept.append(f"{one.path.name} stays as a new file")
+            else:
+                one.backup.release()
+                kept.append(f"{one.path.name} cannot be restored: its old content is in {one.backup.path}")
+    if kept:
+        return f", and {', and '.join(kept)}"
+    return f"; {', '.join(names)} {'is' if len(names) == 1 else 'are'} as before" if names else ""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
 from hexmend.kernels import threads
@@ -35,29 +35,6 @@ def parallel_map(function: Callable[[T], R], items: Sequence[T]) -> Iterator[R]:
     if count == 1 or len(items) < 2:
         yield from map(function, items)
         return
-    for begin in range(0, len(items), count):
-        batch = items[begin : begin + count]
-        results: list[R | BaseException] = [None] * len(batch)  # type: ignore[list-item]
-
-        def compute(k: int, batch: Sequence[T] = batch, results: list = results) -> None:
-            try:
-                results[k] = function(batch[k])
-            except BaseException as error:  # raised again below, in the order of the items
-                results[k] = error
-
-        others = []
-        for k in range(1, len(batch)):
-            thread = threading.Thread(target=compute, args=(k,))
-            try:
-                thread.start()
-            except RuntimeError:  # the system has no more threads
-                compute(k)
-            else:
-                others.append(thread)
-        compute(0)
-        for thread in others:
-            thread.join()
-        for result in results:
-            if isinstance(result, BaseException):
-                raise result
-            yield result
+    with ThreadPoolExecutor(count) as pool:
+        for begin in range(0, len(items), count):
+            yield from pool.map(function, items[begin : begin + count])

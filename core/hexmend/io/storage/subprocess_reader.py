@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-import json
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import fields
 from importlib import import_module
 from pathlib import Path
 from time import monotonic
-
-import numpy as np
+from typing import IO, NamedTuple
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import Block, Content
+from hexmend.io.base.content import Content
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.storage.file_progress import (
     FileAction,
     FileProgress,
-    advance,
     file_operation,
     report,
     stage,
     watch_files,
 )
+from hexmend.terminal_text import printable
 
 #: Time limit of a reader in seconds, and further seconds for each megabyte of the file.
 SECONDS, SECONDS_PER_MB = 60.0, 0.5
@@ -58,7 +56,7 @@ def run_reader(reader: str, path: Path) -> Content:
     """
     size = os.path.getsize(path)
     with tempfile.TemporaryDirectory(prefix="hexmend-") as folder:
-        answer, log = Path(folder) / "answer.npz", Path(folder) / "stderr"
+        answer, log = Path(folder) / "answer", Path(folder) / "stderr"
         program = f"import sys; sys.path[:] = sys.argv[4:]; from {__name__} import main; main(*sys.argv[1:4])"
         limit = SECONDS + SECONDS_PER_MB * size / 1e6
         try:
@@ -70,26 +68,23 @@ def run_reader(reader: str, path: Path) -> Content:
         except subprocess.TimeoutExpired:
             raise FileError(path, f"is not read within {limit:.0f} seconds", DAMAGED) from None
         if process.returncode == 1:  # an unexpected exception
-            raise FileError(path, f"its reader fails ({_last_line(log)})", "Write the file again, and report this.")
+            with open(log, "rb") as errors:
+                reason = last_line(errors)
+            raise FileError(path, f"its reader fails ({reason})", "Write the file again, and report this.")
         if process.returncode or not answer.exists():
             raise FileError(path, "ends the library that reads it", DAMAGED)
-        with np.load(answer, allow_pickle=False) as arrays, stage(_CHILDS_SHARE, 1.0):
-            message = json.loads(arrays["message"].tobytes())
-            if "problem" in message:
-                raise FileError(path, message["problem"], message["remedy"])
-            return decode(message["content"], _ReportedArrays(arrays, os.path.getsize(answer)))
+        with open(answer, "rb") as file, stage(_CHILDS_SHARE, 1.0):
+            result = pickle.load(file)  # of our own process, which has no other rights than this one
+    if isinstance(result, Failure):
+        raise FileError(path, result.problem, result.remedy)
+    return result
 
 
-class _ReportedArrays:
-    """Arrays of an answer, by name, of which each is reported when it has been read."""
+class Failure(NamedTuple):
+    """Answer of a subprocess that could not read the file."""
 
-    def __init__(self, arrays: Mapping[str, np.ndarray], total: int):
-        self._arrays, self._total = arrays, total
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        values = self._arrays[name]
-        advance(values.nbytes, self._total)
-        return values
+    problem: str
+    remedy: str
 
 
 def _wait(process: subprocess.Popen, limit: float, answer: Path) -> None:
@@ -121,18 +116,20 @@ def _share_file(answer: Path) -> Path:
 
 
 def main(reader: str, path: str, answer: str) -> None:
-    """Entry point of the subprocess: read the file and write the answer, a file .npz."""
-    _limit_memory(Path(path))
+    """Entry point of the subprocess: read the file and write the answer, a pickled one."""
+    limit_memory("RLIMIT_AS", MEMORY + MEMORY_PER_BYTE * os.path.getsize(path))
+    limit_memory("RLIMIT_CORE", 0)
     module, _, function = reader.partition(":")
-    arrays: dict[str, np.ndarray] = {}
+    result: object
     try:
         with _stored_progress(Path(path), _share_file(Path(answer))):
-            message = {"content": encode(getattr(import_module(module), function)(Path(path)), arrays)}
+            result = getattr(import_module(module), function)(Path(path))
     except MemoryError:
-        message = {"problem": "needs more memory than a file of its size should", "remedy": DAMAGED}
+        result = Failure("needs more memory than a file of its size should", DAMAGED)
     except FileError as error:
-        message = {"problem": error.problem, "remedy": error.remedy}
-    np.savez(answer, message=np.frombuffer(json.dumps(message).encode(), np.uint8), **arrays)
+        result = Failure(error.problem, error.remedy)
+    with open(answer, "wb") as file:
+        pickle.dump(result, file, pickle.HIGHEST_PROTOCOL)
 
 
 @contextmanager
@@ -147,55 +144,19 @@ def _stored_progress(path: Path, target: Path) -> Iterator[None]:
         yield
 
 
-def encode(value: object, arrays: dict[str, np.ndarray]) -> object:
-    """Convert a content to values for JSON; its arrays are added to `arrays` under names."""
-    if isinstance(value, np.ndarray | np.generic):
-        name = f"a{len(arrays)}"
-        arrays[name] = np.asarray(value)
-        return {"array": name}
-    if isinstance(value, Content | Block):
-        kind = type(value).__name__.lower()
-        return {kind: {field.name: encode(getattr(value, field.name), arrays) for field in fields(value)}}
-    if isinstance(value, dict):
-        return {"items": [[name, encode(item, arrays)] for name, item in value.items()]}
-    if isinstance(value, list | tuple):
-        return [encode(item, arrays) for item in value]
-    return value
+def last_line(errors: IO[bytes]) -> str:
+    """Return the last line of a process's error output, short and printable."""
+    errors.seek(max(0, errors.seek(0, os.SEEK_END) - 2000))
+    lines = errors.read().decode(errors="replace").split("\n")
+    return printable(next((line for line in reversed(lines) if line.strip()), "it gave no reason"))[:300]
 
 
-def decode(value: object, arrays: object) -> object:
-    """Reverse `encode`."""
-    if isinstance(value, list):
-        return [decode(item, arrays) for item in value]
-    if not isinstance(value, dict):
-        return value
-    ((kind, inside),) = value.items()
-    if kind == "array":
-        return arrays[inside]
-    if kind == "items":
-        return {name: decode(item, arrays) for name, item in inside}
-    parts = {name: decode(item, arrays) for name, item in inside.items()}
-    if kind == "block":
-        return Block(**parts)
-    return Content(**{**parts, "blocks": tuple(parts["blocks"]), "notes": tuple(parts["notes"])})
-
-
-def _last_line(path: Path) -> str:
-    """Last line of a process's error output, printable and of 200 characters at most."""
-    with open(path, "rb") as file:
-        file.seek(max(0, os.path.getsize(path) - 2000))
-        lines = file.read().decode(errors="replace").split("\n")
-    last = next((line for line in reversed(lines) if line.strip()), "no reason is given")
-    return "".join(letter if letter.isprintable() else " " for letter in last)[:200]
-
-
-def _limit_memory(path: Path) -> None:
+def limit_memory(kind: str, size: int) -> None:
+    """Limit a kind of this process's memory, such as "RLIMIT_AS", to a number of bytes, where the system can."""
     try:
         import resource
     except ImportError:  # Windows has none
         return
-    limit = MEMORY + MEMORY_PER_BYTE * os.path.getsize(path)
-    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-    limit = limit if hard == resource.RLIM_INFINITY else min(limit, hard)
-    resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
+    number = getattr(resource, kind)
+    hard = resource.getrlimit(number)[1]
+    resource.setrlimit(number, (size if hard == resource.RLIM_INFINITY else min(size, hard), hard))

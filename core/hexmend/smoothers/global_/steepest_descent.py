@@ -26,8 +26,7 @@ class GlobalSteepestDescent(GlobalDescent):
     step_unit: str = parameter(
         "edge",
         choices=("edge", "mesh"),
-        help="Unit of length in which the first trial step is taken: the mean edge length, so that it means the same "
-        "on every mesh, or that of the mesh's points as in A.2 and A.5.",
+        help="Unit of length of the first trial step: the mean edge length, or that of the points (A.2, A.5).",
         advanced=True,
     )
 

@@ -37,12 +37,6 @@ class LocalOptimiser(Optimiser):
         help="Unit of length for delta: the patch's mean edge length, or its extent of two edges (Table 4.4).",
         advanced=True,
     )
-    initial_step: float = parameter(
-        1.0, low=1e-6, high=1e3, help="First trial step α of the line search (A.5).", advanced=True
-    )
-    max_backtracks: int = parameter(
-        100, low=1, high=200, help="Backtracks of a step after which the node does not move.", advanced=True
-    )
 
     @property
     def repeats(self) -> int:

@@ -18,16 +18,14 @@ class MendSettings(ObjectiveSmoother):
         "balanced",
         choices=("balanced", "shape", "scaled-jacobian", "time-step"),
         titles=("Balanced", "Best mean shape", "Minimum scaled Jacobian", "Longest time step"),
-        help="balanced: the best mean shape above floors of the minimum scaled Jacobian and q(H), which rise first; "
-        "shape: minimise (3.3); scaled-jacobian: then also maximise the minimum scaled Jacobian; time-step: or the "
-        "smallest explicit time step, the least height of a hex.",
+        help="balanced: the best shape that lowers no key figure; shape: the minimum of (3.3); scaled-jacobian: the "
+        "highest minimum scaled Jacobian; time-step: the longest explicit time step.",
     )
     p: float = parameter(
         AUTO,
         low=1,
         high=32,
-        help="Exponent of the objective (3.3): the higher, the more the worst hexes count; auto: 1 with goal balanced "
-        "and no target, else 2.",
+        help="Exponent of the objective (3.3); auto: 1 with goal balanced and no target, else 2.",
         automatic=AUTO,
         advanced=True,
     )
@@ -35,8 +33,7 @@ class MendSettings(ObjectiveSmoother):
         1.0,
         low=1,
         high=32,
-        help="If higher than p, p is doubled at the optimum up to this value, for the worst hexes; not with goal "
-        "balanced.",
+        help="p is doubled at the optimum up to this value, for the worst hexes; not with goal balanced.",
         advanced=True,
     )
     initial_epsilon: float = parameter(

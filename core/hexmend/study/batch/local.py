@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Generator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from itertools import islice
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any
 
 from hexmend.kernels import cores, cores_for
@@ -36,20 +35,14 @@ class Local:
         jobs = max(1, min(self._jobs or cores(), len(tasks)))
         threads = self._threads or cores_for(jobs)
         memory_mb, ending = (available() or 0) // jobs >> 20, threading.Event()
-        remaining = iter(tasks)
-        running: dict[Future[dict[str, Any]], Task] = {}
-
-        def begin(pool: ThreadPoolExecutor) -> None:
-            for task in islice(remaining, jobs - len(running)):
-                future = pool.submit(run_task, task, memory_mb=memory_mb, threads=threads, cancelled=ending.is_set)
-                running[future] = task
-
         with ThreadPoolExecutor(jobs) as pool:
+            running = {
+                pool.submit(run_task, task, memory_mb=memory_mb, threads=threads, cancelled=ending.is_set): task
+                for task in tasks
+            }
             try:
-                begin(pool)
-                while running:
-                    for future in wait(running, return_when=FIRST_COMPLETED).done:
-                        yield running.pop(future), future.result()
-                        begin(pool)  # only now, when the answer is stored: an interrupted study keeps it
+                for future in as_completed(list(running)):
+                    yield running.pop(future), future.result()
             finally:
                 ending.set()
+                pool.shutdown(cancel_futures=True)

@@ -13,6 +13,7 @@ from dataclasses import asdict
 from time import monotonic
 from typing import IO, Any
 
+from hexmend.io.storage.subprocess_reader import last_line
 from hexmend.study.batch.process_group import end_group
 from hexmend.study.batch.table_columns import Status, answer, is_answer
 from hexmend.study.batch.task import Task
@@ -111,7 +112,7 @@ def _answer(status: int, output: IO[bytes], errors: IO[bytes]) -> dict[str, Any]
             return row
     except ValueError:
         pass
-    last = _last_line(errors)
+    last = last_line(errors)
     if any(word in last for word in _NO_MEMORY):
         return answer(Status.MEMORY, f"It needed more memory than it may have: {last}")
     return answer(Status.LOST, f"Its process ended {_ending(status)}: {last}")
@@ -122,11 +123,3 @@ def _ending(status: int) -> str:
         return f"with status {status}"
     name = signal.Signals(-status).name if -status in set(signal.Signals) else f"signal {-status}"
     return f"by {name}" + (", as the system ends what takes all memory" if name == "SIGKILL" else "")
-
-
-def _last_line(errors: IO[bytes]) -> str:
-    """Return the last line of the errors of a process, short and printable."""
-    errors.seek(max(0, errors.seek(0, os.SEEK_END) - 2000))
-    lines = errors.read().decode(errors="replace").split("\n")
-    last = next((line for line in reversed(lines) if line.strip()), "it gave no reason.")
-    return "".join(letter if letter.isprintable() else "?" for letter in last)[:300]

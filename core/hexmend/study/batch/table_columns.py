@@ -1,4 +1,4 @@
-"""Columns of the table of a study: one declaration for CSV, Parquet, the check of stored rows, and docs."""
+"""Columns of the table of a study: one declaration for CSV, Parquet and the check of stored rows."""
 
 from __future__ import annotations
 
@@ -30,58 +30,36 @@ class Status(StrEnum):
 
 @dataclass(frozen=True)
 class Column:
-    """Column with name, type and a sentence of help."""
+    """Column with name and type; study-many.md describes them."""
 
     name: str
     type: type
-    help: str
 
 
-def _figures(when: str, description: str) -> tuple[Column, ...]:
-    return tuple(
-        Column(f"{key}_{when}", _TYPES[key], f"{label[:1].upper()}{label[1:]}, {description}.")
-        for key, label in ((key, SUMMARY_QUANTITIES[key].label) for key in CHANGED_FIGURES)
-    ) + (Column(f"objective_p1_{when}", float, f"Objective with p = 1, Σ η, {description}."),)
+def _columns(type_: type, names: str) -> tuple[Column, ...]:
+    return tuple(Column(name, type_) for name in names.split())
 
 
-#: Columns that the client fills: mesh and case of the row.
-PLACE = (
-    Column("mesh", str, "The mesh file, as given on the command line."),
-    Column("case", str, "Name of the case: the method with its values from the lists."),
-    Column("method", str, "The method's name, or a recipe's title."),
-    Column("parameters", str, "All values of the method, as `name=value` words; empty for a recipe."),
-    Column("mesh_hash", str, "SHA-256 of the mesh file."),
-    Column("key", str, "Key of the task; its result is `tasks/KEY.json`."),
-)
+def _figures(when: str) -> tuple[Column, ...]:
+    return (*(Column(f"{key}_{when}", _TYPES[key]) for key in CHANGED_FIGURES), Column(f"objective_p1_{when}", float))
+
+
+#: Columns that the client fills: mesh and case of the row, SHA-256 of the mesh file, key of the task.
+PLACE = _columns(str, "mesh case method parameters mesh_hash key")
 
 #: Columns that the process of a task fills.
 ANSWER = (
-    Column("status", str, f"End of the task: {', '.join(Status)}."),
-    Column("reason", str, "Reason if there is no result, as a sentence."),
-    Column("hexes", int, "Number of hexes."),
-    Column("nodes", int, "Number of nodes of hexes."),
-    Column("free_nodes", int, "Number of nodes that are not fixed."),
-    *_figures("before", "of the initial mesh"),
-    *_figures("after", "of the result"),
-    Column(
-        "boundary_distance",
-        float,
-        "Largest distance between the boundaries of the initial mesh and the result, in per cent of the diagonal of "
-        "its bounding box; with a surface, between that and the result.",
-    ),
-    Column(
-        "worse", str, "Quantities that became worse: inverted, invalid, q_min, scaled_jacobian, q_of_target, layers."
-    ),
-    Column("outcome", str, "Reason for the end of the run, as in `smooth --json`."),
-    Column("message", str, "The reason with its figures, in sentences."),
-    Column("iterations", int, "Iterations until the run ended."),
-    Column("kept", int, "Number of the iteration that is the result."),
-    Column("seconds", float, "Seconds in the method, without its preparation."),
-    Column("setup_seconds", float, "Seconds of the preparation of the method."),
-    Column("task_seconds", float, "Seconds of the whole process, including start, reading and writing."),
-    Column("threads", int, "Number of threads of the task."),
-    Column("peak_mb", float, "Peak memory of the process in MiB."),
-    Column("output", str, "The mesh file that was written, with `--write-meshes`."),
+    *_columns(str, "status reason"),
+    *_columns(int, "hexes nodes free_nodes"),
+    *_figures("before"),
+    *_figures("after"),
+    Column("boundary_distance", float),
+    *_columns(str, "worse outcome message"),
+    *_columns(int, "iterations kept"),
+    *_columns(float, "seconds setup_seconds task_seconds"),
+    Column("threads", int),
+    Column("peak_mb", float),
+    Column("output", str),
 )
 
 COLUMNS = PLACE + ANSWER

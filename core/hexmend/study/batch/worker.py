@@ -11,6 +11,7 @@ from typing import Any
 from hexmend import kernels
 from hexmend.errors import FileError, HexmendError
 from hexmend.io import read, read_surface, write
+from hexmend.io.storage.subprocess_reader import limit_memory
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import measure, objective, summarise
@@ -32,7 +33,8 @@ def main(version: str) -> None:
     with open(0, encoding="utf-8", closefd=False) as lines:
         request = json.loads(lines.readline())
     threading.Thread(target=_exit_with_client, daemon=True).start()
-    limit_memory(request["memory_mb"])
+    if request["memory_mb"]:
+        limit_memory("RLIMIT_DATA", request["memory_mb"] << 20)  # private, writable memory; Linux since 4.7
     output.write(json.dumps(run(Task(**request["task"]), version), allow_nan=False))
     output.flush()
 
@@ -65,18 +67,6 @@ def run(task: Task, version: str) -> dict[str, Any]:
     except Exception as error:  # fails this task only
         status, reason = Status.FAILED, f"{type(error).__name__}: {error}".rstrip(": ")
     return answer(status, reason, **row, peak_mb=round(peak_mb(), 1))
-
-
-def limit_memory(megabytes: int) -> None:
-    """Limit the private, writable memory of this process in MiB (RLIMIT_DATA, Linux since 4.7); 0 sets no limit."""
-    try:
-        import resource
-    except ImportError:  # Windows has none
-        return
-    if megabytes:
-        hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
-        limit = megabytes << 20 if hard == resource.RLIM_INFINITY else min(megabytes << 20, hard)
-        resource.setrlimit(resource.RLIMIT_DATA, (limit, hard))
 
 
 class _Mismatch(Exception):

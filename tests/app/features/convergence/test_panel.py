@@ -192,8 +192,8 @@ def test_tooltips_give_values_and_the_nearest_stored_iteration(panel):
 
 def test_runs_are_hidden_and_deleted_in_the_legend(panel):
     toggled, forgotten = [], []
-    panel.toggled.connect(lambda record, on: toggled.append((record.name, on)))
-    panel.forget_requested.connect(lambda record: forgotten.append(record.name))
+    panel.legend.toggled.connect(lambda record, on: toggled.append((record.name, on)))
+    panel.legend.forget_requested.connect(lambda record: forgotten.append(record.name))
     row = panel.legend.rows[BRANCH]
     assert row.box.text() == "local-sd"
     assert panel.legend.rows[TRUNK].box.font().bold()

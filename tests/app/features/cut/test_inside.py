@@ -50,7 +50,7 @@ def type_into(box, text):
 
 def test_slider_and_spin_box_show_the_same_number_of_layers(panel):
     emitted = []
-    panel.peel_changed.connect(emitted.append)
+    panel.peel.changed.connect(emitted.append)
     named(panel, QSlider, PEEL).setFocus()
     QTest.keyClick(named(panel, QSlider, PEEL), Qt.Key.Key_Right)
     assert named(panel, QSpinBox, PEEL).value() == 1
@@ -80,9 +80,9 @@ def test_buttons_are_enabled_if_hexes_are_isolated_or_dug_away(panel):
     assert panel.isolated.text() == "1 hex isolated"
     assert panel.dug.text() == "3 hexes hidden"
     emitted = []
-    panel.all_requested.connect(lambda: emitted.append("all"))
-    panel.undo_requested.connect(lambda: emitted.append("undo"))
-    panel.restore_requested.connect(lambda: emitted.append("restore"))
+    panel.all_button.clicked.connect(lambda: emitted.append("all"))
+    panel.undo_button.clicked.connect(lambda: emitted.append("undo"))
+    panel.restore_button.clicked.connect(lambda: emitted.append("restore"))
     for button in buttons:
         QTest.mouseClick(button, LEFT)
     assert emitted == ["all", "undo", "restore"]

@@ -39,8 +39,8 @@ def test_the_number_of_bins_is_set_in_the_menu(histogram, data):
 
 def test_snapshots_are_drawn_renamed_and_removed(histogram, data):
     signals = []
-    histogram.renamed.connect(lambda *signal: signals.append(signal))
-    histogram.removed.connect(lambda slot: signals.append(slot))
+    histogram.legend.renamed.connect(lambda *signal: signals.append(signal))
+    histogram.legend.removed.connect(lambda slot: signals.append(slot))
     half = data[0] / 2, np.zeros(2000, bool)
     snapshots = [(0, "laplacian 5", *half), (3, "now", *data)]
     histogram.set_snapshots(snapshots)

@@ -12,6 +12,7 @@ from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh import metric_cache
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History
+from hexmend_app.state.run import worker
 from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
@@ -78,6 +79,17 @@ def test_a_run_that_waits_to_be_shown_can_be_closed_and_let_go_on(document, smoo
     before = smoothing.record.newest
     qtbot.waitUntil(lambda: smoothing.record.newest > before + 5)
     smoothing.set_pace(Pace.EVERY)
+    smoothing.close()
+    wait_for_dropped()
+    assert not running()
+
+
+def test_a_slow_start_shows_an_iteration_for_a_moment_and_can_be_closed(document, smoothing, qtbot, monkeypatch):
+    monkeypatch.setattr(worker, "_SHOWN", PATIENCE)
+    smoothing.set_pace(Pace.SLOW_START)
+    with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
+        smoothing.start(LocalSteepestDescent(), SLOW)
+    assert smoothing.record.newest == 1
     smoothing.close()
     wait_for_dropped()
     assert not running()

@@ -3,7 +3,7 @@
 import pytest
 from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox
 
-from hexmend.report.charts import ChartStyle
+from hexmend_app.report.charts import ChartStyle
 from hexmend_app.report.histogram import Histogram, Outline
 from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, TableDialog
 

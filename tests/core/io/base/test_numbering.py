@@ -7,11 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import io
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block
 from hexmend.io.base.numbering import element_ids, find_ids, node_ids, runs, set_combinations
-from tests.core.grids import grid
 
 numbers = st.lists(st.integers(-(10**9), 10**9), min_size=1, max_size=20, unique=True)
 
@@ -56,27 +54,3 @@ def test_combinations_are_the_sets_that_each_is_in(sets):
     )
     for k in range(6):
         assert set(found[which[k]]) == {name for name, members in sets.items() if k in members}
-
-
-@pytest.mark.parametrize("suffix", [".inp", ".msh", ".bdf"])
-@pytest.mark.parametrize(
-    ("ids", "why"),
-    [
-        (np.arange(8), "some below 1"),
-        (np.array([1, 2, 3, 4, 5, 6, 7, 7]), "some given twice"),
-        (np.arange(8) + 1.0, "no whole numbers"),
-        (np.arange(8) + 2**31 - 7, "some of 2^31 and above"),
-        (np.arange(8) * 5 + 3, ""),
-    ],
-)
-def test_ids_that_are_not_kept_are_named_before_they_are_lost(ids, why, suffix, tmp_path):
-    mesh = grid(8, 1, 1)
-    whole = np.arange(mesh.n_nodes) + 50
-    mesh = mesh.replace(node_data={"id": whole}, hex_data={"id": ids})
-    why = why.replace("2^31", "100,000,000") if suffix == ".bdf" else why  # ids of Nastran have 8 digits at most
-    assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == ([f"ids of elements ({why})"] if why else [])
-    mesh = grid(1).replace(node_data={"id": ids}, hex_data={"id": np.array([4])})
-    assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == ([f"ids of nodes ({why})"] if why else [])
-    if not why:
-        io.write(tmp_path / f"a{suffix}", mesh)
-        np.testing.assert_array_equal(io.read(tmp_path / f"a{suffix}").node_data["id"], ids)

@@ -27,20 +27,6 @@ def test_a_number_takes_64_bits_only_where_32_do_not_hold_it(number, tmp_path):
         assert (tmp_path / "a.nc").read_bytes()[:4] == b"CDF\x05"
 
 
-@pytest.mark.parametrize("suffix", [".exo", ".med"])
-@pytest.mark.parametrize(("data", "label"), [("node_data", "nodes"), ("hex_data", "elements")])
-def test_ids_that_signed_numbers_cannot_hold_are_left_out_and_reported(data, label, suffix, tmp_path):
-    mesh = grid(2)
-    largest = np.arange(mesh.n_nodes if label == "nodes" else mesh.n_hexes).astype(np.uint64) + np.uint64(2**63 - 100)
-    for above in (0, 100):
-        numbered = mesh.replace(**{data: {"id": largest + np.uint64(above)}})
-        lost = [f"ids of {label} (some of 2^63 and above)"] if above else []
-        assert io.unsupported_data(tmp_path / f"a{suffix}", numbered) == lost
-        io.write(tmp_path / f"a{suffix}", numbered)
-        read = getattr(io.read(tmp_path / f"a{suffix}"), data)
-        assert {name: values.tolist() for name, values in read.items()} == ({} if above else {"id": largest.tolist()})
-
-
 @pytest.mark.parametrize("length", [5, 31, 32, 33, 80])
 def test_every_text_ends_with_a_zero_byte_as_programs_in_c_expect(length, tmp_path):
     from scipy.io import netcdf_file

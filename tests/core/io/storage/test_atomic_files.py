@@ -6,7 +6,7 @@ import os
 import pytest
 
 from hexmend.errors import FileError
-from hexmend.io.storage.atomic_files import atomic_files
+from hexmend.io.storage.atomic import atomic_files
 
 
 @pytest.fixture

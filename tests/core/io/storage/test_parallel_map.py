@@ -1,7 +1,5 @@
 """A function over many items in several threads: in their order, and the first error is raised."""
 
-import threading
-
 import pytest
 
 from hexmend.io.storage import parallel_map as maps
@@ -25,13 +23,3 @@ def test_results_are_in_the_order_of_the_items_and_so_are_errors():
     assert list(parallel_map(square, [])) == []
     with pytest.raises(ValueError, match="-1 is negative"):
         list(parallel_map(square, [1, 2, 3, -1, -2]))
-
-
-@pytest.mark.usefixtures("threads")
-def test_without_threads_it_is_slower_and_that_is_all(monkeypatch):
-    class NoThread(threading.Thread):
-        def start(self):
-            raise RuntimeError("can't start new thread")
-
-    monkeypatch.setattr(threading, "Thread", NoThread)
-    assert list(parallel_map(square, range(10))) == [k**2 for k in range(10)]

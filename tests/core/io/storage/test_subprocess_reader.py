@@ -1,11 +1,9 @@
 """Reading in another process: what comes back, and what is said where nothing does."""
 
-import numpy as np
 import pytest
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import Block, Content
-from hexmend.io.storage.subprocess_reader import decode, encode, run_reader
+from hexmend.io.storage.subprocess_reader import run_reader
 
 READERS = """
 import os, signal
@@ -15,25 +13,6 @@ def fails(path): raise ZeroDivisionError
 def refuses(path): raise FileError(path, "has a hole in it", "Mend it.")
 def swallows(path): bytearray(1 << 50)
 """
-
-
-def test_a_content_is_the_same_when_unpacked():
-    one = Content(
-        np.eye(3),
-        (Block("hex", np.arange(8)[None], {"id": np.array([4])}, {"a b": np.array([0])}),),
-        {"t": np.arange(3.0)},
-        {"wall": np.array([1])},
-        field_data={"title": ["made elsewhere"]},
-        notes=("This was done.",),
-    )
-    arrays = {}
-    other = decode(encode(one, arrays), arrays)
-    np.testing.assert_array_equal(other.points, one.points)
-    np.testing.assert_array_equal(other.blocks[0].nodes, one.blocks[0].nodes)
-    assert other.blocks[0].data["id"].tolist() == [4]
-    assert other.blocks[0].sets["a b"].tolist() == [0]
-    assert other.notes == one.notes
-    assert other.field_data == {"title": ["made elsewhere"]}
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,6 @@ from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.optimise.maxmin.corner_values import gradients, scaled_jacobians
 from hexmend.optimise.maxmin.linear_program import MOVE_COST
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
-from hexmend.optimise.maxmin.slp_config import SLPConfig
 from hexmend.optimise.maxmin.slp_step import ActiveCorners
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid, scrambled
@@ -50,13 +49,6 @@ def one_free_node(seed):
     """A cube of eight hexes, its boundary rough, so that corners of several hexes hold each other."""
     mesh = grid(2)
     return mesh.with_points(mesh.points + np.random.default_rng(seed).uniform(-0.25, 0.25, mesh.points.shape))
-
-
-def with_locked_corner(mesh):
-    """The mesh with its first node pushed so far in that the corner there, all of whose nodes are fixed, is inverted."""
-    points = mesh.points.copy()
-    points[0] += 0.7 * (points[mesh.hexes[0, 6]] - points[0])
-    return mesh.with_points(points)
 
 
 @pytest.mark.slow
@@ -100,47 +92,6 @@ def test_corners_at_the_end_hold_each_other(seed):
         way = random.uniform(-1, 1, mesh.points.shape) * size * mesh.free[:, None]
         there = scaled_jacobians(raising.points + reach * way, mesh.hexes)[limit.hexes, limit.corners]
         assert there.min() < values.min() + 3 * MOVE_COST * reach + 10 * reach**2
-
-
-def test_at_a_maximum_no_step_raises_the_least_and_nowhere_before():
-    mesh = one_free_node(2)
-    raising = MaxMinOptimiser(mesh, mesh.points, config=SLPConfig(promise=0.0))
-    assert not raising.at_maximum
-    for step in raising.steps():
-        if not isinstance(step, ActiveCorners):
-            assert not raising.at_maximum
-    assert raising.at_maximum
-    assert steepest(mesh, raising.points, step) < MOVE_COST
-    list(raising.steps(target=-1.0))  # solves no program
-    assert raising.at_maximum
-    raising.move_to(mesh.points)
-    assert not raising.at_maximum
-
-
-@pytest.mark.parametrize(("share", "limits"), [(0.02, True), (np.inf, False)])
-def test_a_narrow_band_limits_the_least(share, limits):
-    mesh = slid(cylinder(16, 3), 0.25, 3)
-    sliding = SlidingBoundary(mesh, max_deviation=share * mesh.mean_edge_length)
-    raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    assert limits == any(raising.band_limits for _ in raising.steps())
-
-
-@given(seeds)
-def test_settled_corners_do_not_fall_while_others_rise(seed):
-    mesh = one_free_node(seed)
-    raising = MaxMinOptimiser(mesh, mesh.points)
-    _, first = raised(raising)
-    at = first.hexes, first.corners
-    held = raising.corners.values[at]
-    raising.freeze(first)
-    assert raising.corners.frozen[at].all()
-    assert raising.corners.active_minimum >= first.least
-    _, second = raised(raising)
-    assert second.least >= first.least
-    np.testing.assert_array_equal(raising.corners.values[at], held)
-    assert raising.corners.movable_minimum >= first.least
-    movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
-    assert raising.corners.movable_minimum == scaled_jacobians(raising.points, mesh.hexes)[movable].min()
 
 
 @given(seeds, st.integers(0, 7), st.integers(0, 7))

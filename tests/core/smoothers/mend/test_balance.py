@@ -1,7 +1,5 @@
 """Goal balanced: of a sound mesh no figure falls, tangled ones are untangled, and a boundary that slides ends no lower."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -136,24 +134,6 @@ def test_beside_a_locked_hex_no_figure_of_the_others_falls():
     assert "The minimum scaled Jacobian of the corners that can be moved reached" in result.message
 
 
-def test_figures_of_a_hex_that_stays_inverted_do_not_count_but_those_of_the_others():
-    mesh = with_locked_corner(make("five-side", size=60))
-    start = measure(mesh.points, mesh.hexes)
-    (locked,) = np.flatnonzero(start.inverted)
-    mend = Mend()
-
-    def ranked(name, hexes, factor):
-        values = getattr(start, name).copy()
-        values[hexes] *= factor
-        return mend.rank(start, replace(start, **{name: values}))
-
-    others = np.delete(np.arange(mesh.n_hexes), locked)
-    assert ranked("q", locked, 0.5) == mend.rank(start, start)
-    for name in ("q", "scaled_jacobian"):
-        assert ranked(name, others, 0.99) > mend.rank(start, start)
-        assert ranked(name, others, 1.01) == mend.rank(start, start)
-
-
 def test_the_result_is_said_with_what_was_possible():
     mesh = make("five-side", size=100)
     result = smooth(mesh, Mend())
@@ -195,10 +175,10 @@ def test_a_run_that_is_cut_while_the_boundary_slides_keeps_the_result_with_the_b
             assert getattr(cut.after, name) >= getattr(fixed.after, name) - 1e-9, (limit, fixed.after, cut.after)
 
 
-SLOW = [pytest.param(name, marks=pytest.mark.slow) for name in ("CAD4.vtk", "bunny.vtk")]
+SLOW = [pytest.param(name, marks=pytest.mark.slow) for name in ("bridge-sharp", "CAD4.vtk", "bunny.vtk")]
 
 
-@pytest.mark.parametrize("name", ["bridge-sharp", "five-side", "pave3.e.vtk", "hex_5_tangled.vtk", *SLOW])
+@pytest.mark.parametrize("name", ["five-side", "pave3.e.vtk", "hex_5_tangled.vtk", *SLOW])
 def test_nothing_falls_in_meshes_of_others_and_of_the_gallery(sample_mesh, name):
     result = smooth(sample_mesh(name), Mend())
     assert result.after.inverted == result.after.locked_inverted

@@ -79,19 +79,6 @@ def test_a_tolerance_in_per_cent_is_that_of_the_diagonal():
     assert absolute_tolerance(mesh, "unlimited") == np.inf
 
 
-def test_freed_nodes_are_judged_by_nothing_and_the_others_as_before():
-    sliding = SlidingBoundary(grid(3))
-    node = np.flatnonzero(sliding.node_class == NodeClass.PATCH)[:1]
-    freed = sliding.without_nodes(node, 0.5)
-    assert not freed.slides(node).any()
-    assert freed.mesh.free[node].all()
-    assert freed.nodes.size == sliding.nodes.size - 1
-    points = sliding.mesh.points.copy()
-    points[node] = 2 * points[node] - points.mean(axis=0)
-    assert not freed.flipped_quads(sliding.mesh.points, points).size
-    np.testing.assert_array_equal(freed.project(points[freed.nodes]), points[freed.nodes])
-
-
 SMALL = {
     "ball": lambda: slid(ball(4), 0.5, 3),
     "cylinder": lambda: slid(cylinder(16, 3), 0.5, 3),
@@ -109,9 +96,8 @@ def check_freedom(mesh):
         assert slides.after.scaled_jacobian_min >= fixed.after.scaled_jacobian_min - MAXMIN.regained
 
 
-@pytest.mark.parametrize(
-    "name", ["cylinder", *(pytest.param(n, marks=pytest.mark.slow) for n in ("five-side", "ball", "block"))]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["cylinder", "five-side", "ball", "block"])
 def test_a_boundary_that_slides_ends_no_lower_than_a_fixed_one(name):
     check_freedom(SMALL[name]())
 
@@ -170,7 +156,7 @@ def test_hexes_that_untangling_leaves_inverted_are_raised_from_where_the_fewest_
     assert result.after.scaled_jacobian_min > 0.1
 
 
-def check_tolerances(mesh, tolerances=(0.0, 0.03, 0.1, 0.3, 1.0)):
+def check_tolerances(mesh, tolerances):
     """Check that the least is no lower with a larger tolerance."""
     ends = [
         smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance=tolerance)).after
@@ -188,10 +174,19 @@ def test_a_larger_tolerance_ends_no_lower(name):
     check_tolerances(SMALL[name](), (0.0, 0.1, 1.0))
 
 
+REAL_TOLERANCES = {
+    "block_in.mesh": (0.0, 0.03, 0.1, 0.3, 1.0),
+    "mid2FemPer.vtk": (0.0, 0.03, 0.1, 0.3, 1.0),
+    "spring.mesh": (0.0, 0.03, 0.1, 0.3, 1.0),
+    "bunnyPer.vtk": (0.1, 0.3),  # nodes have left the surface: a run within 0.3 alone ends at 0.2415
+    "cap_in.mesh": (0.3, 1.0),  # the cap is raised with nodes off the surface: within 1 alone it ends lower
+}
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["block_in.mesh", "mid2FemPer.vtk", "spring.mesh"])
+@pytest.mark.parametrize("name", REAL_TOLERANCES)
 def test_a_larger_tolerance_of_a_real_boundary_ends_no_lower(real_mesh, name):
-    check_tolerances(read(real_mesh(name)))
+    check_tolerances(read(real_mesh(name)), REAL_TOLERANCES[name])
 
 
 def knob():
@@ -205,35 +200,13 @@ def knob():
     return Mesh(np.vstack([mesh.points, above]), np.vstack([mesh.hexes, [*on_face, *top]]))
 
 
+@pytest.mark.slow
 def test_a_result_with_an_inverted_hex_is_no_better_than_one_without():
     """Within smaller tolerances the hex stays inverted, and the least of the corners that can be moved is 1."""
     settings = {"goal": "scaled-jacobian", "boundary": "slide", "surface_tolerance": 0.3, "keep_last": True}
     result = smooth(knob(), "mend", **settings)
     assert result.after.inverted == 0
     assert result.after.scaled_jacobian_min > 0.95
-
-
-@pytest.mark.slow
-def test_where_nodes_have_left_the_surface_a_larger_tolerance_ends_no_lower(real_mesh):
-    """A run within 0.3 alone ends at 0.2415."""
-    check_tolerances(read(real_mesh("bunnyPer.vtk")), (0.1, 0.3))
-
-
-@pytest.mark.slow
-def test_a_tolerance_above_that_by_default_begins_at_its_result(real_mesh):
-    """The cap is raised with nodes off the surface: a run within 1 alone ends lower, at 0.538 for 0.559."""
-    check_tolerances(read(real_mesh("cap_in.mesh")), (0.3, 1.0))
-
-
-@pytest.mark.slow
-def test_the_boundary_is_no_further_away_than_pays():
-    """A wider band is used only where the least gains a hundredth by it."""
-    mesh = SMALL["five-side"]()
-    narrow, wide = (
-        smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance=tolerance))
-        for tolerance in (3 * MAXMIN.bands[0], 0.3)
-    )
-    np.testing.assert_array_equal(narrow.mesh.points, wide.mesh.points)
 
 
 @pytest.mark.slow

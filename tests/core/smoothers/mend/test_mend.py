@@ -1,5 +1,7 @@
 """The default method: it untangles what can be untangled, and never makes a mesh worse."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -12,6 +14,7 @@ from hexmend.quality import corner_determinants, measure, summarise
 from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.inversion import locked_corners
+from tests.core.boundary.solids import wavy
 from tests.core.grids import grid, scrambled
 
 Mend = METHODS["mend"]
@@ -132,13 +135,17 @@ def test_higher_p_lifts_the_worst_hex():
     assert again.after.q_min == pytest.approx(raised.after.q_min, rel=1e-3)
 
 
+def test_a_run_at_its_optimum_has_no_iteration_that_only_repeats_the_last():
+    steps = list(itertools.islice(METHODS["mend"](goal="shape").steps(wavy(grid(3), 0.2)), 300))
+    assert 2 < len(steps) < 300
+    assert all((one.points != other.points).any() for one, other in itertools.pairwise(steps))
+
+
 @pytest.mark.parametrize(
     "name",
     ["hex_5_tangled.vtk", *(pytest.param(name, marks=pytest.mark.slow) for name in ("CAD4Per.vtk", "bunny.vtk"))],
 )
 def test_real_meshes_end_at_the_lower_bound(name, real_mesh):
-    from hexmend.io import read
-
     result = smooth(read(real_mesh(name)), "mend")
     assert result.after.inverted == result.after.locked_inverted
 

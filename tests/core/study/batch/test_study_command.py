@@ -162,10 +162,6 @@ def test_an_interrupted_study_writes_the_finished_tasks(laboratory, number):
 
 @pytest.mark.parametrize(("words", "status", "said"), [
     (["recipe.toml"], 2, "no mesh is named"),
-    (["thesis", "cube.vtk"], 2, "the study of the thesis generates its meshes"),
-    (["thesis", "--jobs", "2"], 2, "--jobs is an option of a recipe's study"),
-    (["thesis"], 2, "add  -o DIR"),
-    (["recipe.toml", "cube.vtk", "--quick"], 2, "--quick is an option of the thesis's"),
     (["thesys", "cube.vtk"], 2, "'thesys' is not a study"),
     (["recipe.toml", "cube.vtk", "--jobs", "0"], 2, "--jobs 0 is too small"),
     (["recipe.toml", "cube.vtk", "--jobs", "2", "--scheduler", "tcp://none:1"], 2, "leave out one of them"),

@@ -93,7 +93,7 @@ class StructureLayers:
         """Set the same mesh with other positions: classes that were not given are computed anew when needed."""
         self._positions = mesh
         if not self._given:
-            self._kinds = None
+            self.set_kinds(None)
 
     def set_pins(self, pinned: np.ndarray | None) -> None:
         """Set the pinned nodes of the same mesh, (n,) bool; `move` draws them."""

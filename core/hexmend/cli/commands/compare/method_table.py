@@ -16,12 +16,13 @@ from hexmend.cli.arguments.run_arguments import (
     with_surface,
 )
 from hexmend.cli.output.progress import Progress
-from hexmend.cli.output.rich_tables import print_table
+from hexmend.cli.output.text_tables import print_table
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.io import Original, read, write_as_given, writer_for
 from hexmend.io.format_lookup import copy_suffix
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.report import comparison_rows, output_folder, record_table, write_documents
+from hexmend.report.comparison import comparison_rows, record_table
+from hexmend.report.documents import output_folder, write_documents
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare

@@ -78,7 +78,7 @@ def _print_json(
     layers: list[dict[str, Any]],
     locking: Locking | None,
 ) -> None:
-    from hexmend.report import to_json  # not loaded for a report in words
+    from hexmend.report.records import to_json  # not loaded for a report in words
 
     answer = summary.to_dict()
     if args.metrics:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from hexmend.cli.output.parameter_list import print_parameters
-from hexmend.report import to_json
+from hexmend.report.records import to_json
 from hexmend.smoothers import METHODS
 
 

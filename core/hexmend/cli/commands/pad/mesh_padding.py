@@ -13,7 +13,7 @@ from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.io import read, writer_for
 from hexmend.padding import Padding, pad
-from hexmend.report import record, write_json
+from hexmend.report.records import record, write_json
 from hexmend.run import iterate
 
 

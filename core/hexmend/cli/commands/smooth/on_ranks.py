@@ -17,7 +17,6 @@ from hexmend.cli.commands.smooth.agreement import AgreedError, agreed
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.commands.smooth.divided_source import DividedSource
 from hexmend.cli.commands.smooth.whole_source import WholeSource
-from hexmend.cli.output.progress import LINE_INTERVAL
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.errors import HexmendError, ParameterError
@@ -27,9 +26,10 @@ from hexmend.kernels import cores, cores_for, set_threads, threads
 from hexmend.ranks.launching import local_ranks
 from hexmend.ranks.rank_run import RankRun
 from hexmend.ranks.rank_stages import check_method
-from hexmend.report import write_json
+from hexmend.report.records import write_json
 from hexmend.run import StoppingCriteria
 from hexmend.run.memory import peak_mb, release_freed
+from hexmend.run.progress import LINE_INTERVAL
 from hexmend.smoothers import Smoother
 
 if TYPE_CHECKING:

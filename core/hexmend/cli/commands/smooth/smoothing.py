@@ -31,7 +31,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality.selection import hexes_in_set
-from hexmend.report import record, write_history, write_json
+from hexmend.report.records import record, write_history, write_json
 from hexmend.run import iterate
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe

@@ -5,20 +5,21 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 
 from hexmend import __version__
-from hexmend.cli.output.rich_tables import print_table
-from hexmend.cli.output.study_progress import TaskProgress
+from hexmend.cli.output.text_tables import print_table
 from hexmend.cli.process.interrupts import CleanExit, FinishWriting
 from hexmend.errors import HexmendError, ParameterError
-from hexmend.report import output_folder
 from hexmend.report.batch import cases_table, failures, write_batch_study, write_parquet
+from hexmend.report.documents import output_folder
+from hexmend.run.progress import line_display
 from hexmend.study.batch.cluster import Cluster
 from hexmend.study.batch.local import Local
 from hexmend.study.batch.mesh_files import find_meshes
 from hexmend.study.batch.plan import read_plan
-from hexmend.study.batch.runner import StudyResult, Workers, run_study
+from hexmend.study.batch.runner import StudyProgress, StudyResult, Workers, run_study
 from hexmend.study.batch.store import Store
 from hexmend.study.batch.table_columns import COLUMNS
 from hexmend.study.machine import machine
@@ -40,13 +41,22 @@ def run(args: argparse.Namespace) -> int:
     store = Store(output_folder(folder / "tasks"))
     meshes_to = output_folder(folder / "meshes") if args.write_meshes else None
     with FinishWriting():
-        with CleanExit() as signals, TaskProgress() as progress:
-            options = {"again": args.again, "meshes_to": meshes_to, "watch": progress.show}
+        shown = line_display(_describe, lambda count: (count.reused + count.done) / max(count.tasks, 1), plain=True)
+        with CleanExit() as signals, closing(shown):
+            options = {"again": args.again, "meshes_to": meshes_to, "watch": shown.show}
             study = run_study(plan, meshes, store, workers, version=__version__, **options)
         _write_report(folder, study)
     if study.interrupted:
         return signals.status
     return 3 if study.progress.failed else 0
+
+
+def _describe(count: StudyProgress) -> str:
+    """Return the numbers of tasks that are done and that failed, and the latest task, as text."""
+    text = f"{count.reused + count.done:,} of {count.tasks:,} tasks"
+    if count.failed:
+        text += f", {count.failed:,} without a result"
+    return f"{text}: {count.last}" if count.last else text
 
 
 def _meshes(names: Sequence[str]) -> list[Path]:

@@ -15,7 +15,7 @@ from hexmend.io.formats.abaqus.included_output import write_files
 from hexmend.io.formats.abaqus.includes import read_deck
 from hexmend.io.formats.abaqus.model import Instance, Part, placement
 from hexmend.io.formats.abaqus.sets import name_key
-from hexmend.io.storage.atomic_files import AtomicFiles
+from hexmend.io.storage.atomic import AtomicFiles
 
 #: Characters of a real number that Abaqus and CalculiX read.
 _WIDTH = 20

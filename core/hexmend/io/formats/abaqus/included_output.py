@@ -16,7 +16,7 @@ from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.deck_file import DeckFile, Reference
 from hexmend.io.formats.abaqus.includes import included_files
-from hexmend.io.storage.atomic_files import AtomicFiles
+from hexmend.io.storage.atomic import AtomicFiles
 
 
 def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: AtomicFiles) -> tuple[str, ...]:

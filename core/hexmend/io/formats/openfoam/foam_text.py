@@ -22,11 +22,11 @@ def write_poly_mesh(folder: Path, mesh: PolyTopology, encoding: str) -> None:
     binary = encoding == "binary"
     counts = f"nPoints: {len(mesh.points)} nCells: {mesh.n_cells} nFaces: {len(mesh.owner)}"
     note = f"{counts} nInternalFaces: {len(mesh.neighbour)}"
-    _write(folder / "points", "vectorField", encoding, _vectors(mesh.points, binary))
+    _write(folder / "points", "vectorField", encoding, _list(mesh.points, _SCALAR, binary))
     kind = "faceCompactList" if binary else "faceList"
     _write(folder / "faces", kind, encoding, _compact(mesh.loops) if binary else _faces(mesh.loops))
-    _write(folder / "owner", "labelList", encoding, _labels(mesh.owner, binary), note)
-    _write(folder / "neighbour", "labelList", encoding, _labels(mesh.neighbour, binary), note)
+    _write(folder / "owner", "labelList", encoding, _list(mesh.owner, _LABEL, binary), note)
+    _write(folder / "neighbour", "labelList", encoding, _list(mesh.neighbour, _LABEL, binary), note)
     _write(folder / "boundary", "polyBoundaryMesh", "ascii", _boundary(mesh.patches))
     zones = {"cellZones": mesh.cell_zones, "faceZones": mesh.face_zones, "pointZones": mesh.point_zones}
     for name, members in zones.items():
@@ -50,25 +50,15 @@ def _write(path: Path, kind: str, encoding: str, body: Iterator[bytes], note: st
         file.write(_RULE)
 
 
-def _vectors(points: np.ndarray, binary: bool) -> Iterator[bytes]:
-    yield b"%d\n(" % len(points)
-    if binary:
-        yield points.astype(_SCALAR).tobytes()
-    else:
-        yield b"\n"
-        for part in row_chunks(len(points)):
-            yield vector_rows(points[part])
-    yield b")\n"
-
-
-def _labels(values: np.ndarray, binary: bool) -> Iterator[bytes]:
+def _list(values: np.ndarray, dtype: np.dtype, binary: bool) -> Iterator[bytes]:
+    """Yield a list of labels (k,) or vectors (k, 3); `dtype` is that of binary numbers."""
     yield b"%d\n(" % len(values)
     if binary:
-        yield values.astype(_LABEL).tobytes()
+        yield values.astype(dtype).tobytes()
     else:
         yield b"\n"
         for part in row_chunks(len(values)):
-            yield format_rows(values[part])
+            yield vector_rows(values[part]) if values.ndim > 1 else format_rows(values[part])
     yield b")\n"
 
 
@@ -84,8 +74,8 @@ def _faces(loops: np.ndarray) -> Iterator[bytes]:
 
 
 def _compact(loops: np.ndarray) -> Iterator[bytes]:
-    yield from _labels(np.concatenate([[0], np.cumsum(4 - (loops[:, 3] < 0))]), True)
-    yield from _labels(loops[loops >= 0], True)
+    yield from _list(np.concatenate([[0], np.cumsum(4 - (loops[:, 3] < 0))]), _LABEL, True)
+    yield from _list(loops[loops >= 0], _LABEL, True)
 
 
 def _boundary(patches: list[Patch]) -> Iterator[bytes]:
@@ -104,7 +94,7 @@ def _zones(name: str, zones: Mapping[str, object], binary: bool) -> Iterator[byt
     for title, members in zones.items():
         faces, flips = members if name == "faceZones" else (members, None)
         yield f"{title}\n{{\n    type {name[:-1]};\n    {ZONE_FILES[name]} List<label> ".encode()
-        yield from _labels(faces, binary)
+        yield from _list(faces, _LABEL, binary)
         yield b";\n"
         if flips is not None:
             yield b"    flipMap List<bool> %d\n(" % len(flips)

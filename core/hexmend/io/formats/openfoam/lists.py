@@ -74,7 +74,10 @@ def read_faces(file: FoamFile) -> RaggedArray:
     values = cursor.read_numbers_to("faces", span.end, np.int64)
     if values.size == 5 * span.count and (values[::5] == 4).all():  # quads alone
         return RaggedArray(4 * np.arange(span.count + 1), values.reshape(-1, 5)[:, 1:].ravel())
-    return _rows(file, values, span.count)
+    rows, whole = RaggedArray.of_counted_rows(values)
+    if len(rows) != span.count or not whole:
+        raise file.error(f"faces holds {len(rows):,} whole faces: expected {span.count:,}")
+    return rows
 
 
 def find_list(file: FoamFile, label: str, dtype: np.dtype, width: int) -> Span:
@@ -158,17 +161,3 @@ def _uniform(file: FoamFile, label: str, expected: int | None) -> np.ndarray | N
     value = file.count(label)
     file.expect("}", label)
     return np.full(count, value, np.int64)
-
-
-def _rows(file: FoamFile, values: np.ndarray, count: int) -> RaggedArray:
-    """Rows that begin with their length."""
-    starts, at, view = [], 0, memoryview(np.ascontiguousarray(values))
-    while at < values.size and view[at] >= 0:
-        starts.append(at)
-        at += 1 + view[at]
-    if len(starts) != count or at != values.size:
-        raise file.error(f"faces holds {len(starts):,} whole faces: expected {count:,}")
-    begins = np.array(starts, np.int64)
-    is_node = np.ones(values.size, bool)
-    is_node[begins] = False
-    return RaggedArray(np.concatenate([[0], np.cumsum(values[begins])]), values[is_node])

@@ -96,17 +96,11 @@ def _read_lists(cursor: ByteCursor, name: str, limit: int) -> RaggedArray:
     count = _count(cursor, name)
     letter = _LETTER.search(cursor.data, cursor.pos)
     values = cursor.read_numbers_to(name, letter.start() if letter else len(cursor.data), np.int64)
-    starts, at, view = [], 0, memoryview(values)
-    while at < values.size and view[at] >= 0:
-        starts.append(at + 1)
-        at += 1 + view[at]
-    if len(starts) != count or at != values.size:
-        raise cursor.error(f"{name} holds {len(starts)} whole rows of {count} before {cursor.location}")
-    is_item = np.ones(values.size, bool)
-    is_item[np.array(starts, np.int64) - 1] = False
-    _check(cursor, name, values[is_item], limit)
-    lengths = values[~is_item]
-    return RaggedArray(np.concatenate([[0], np.cumsum(lengths)]), values[is_item])
+    rows, whole = RaggedArray.of_counted_rows(values)
+    if len(rows) != count or not whole:
+        raise cursor.error(f"{name} holds {len(rows)} whole rows of {count} before {cursor.location}")
+    _check(cursor, name, rows.values, limit)
+    return rows
 
 
 def _read_property(

@@ -1,20 +1,14 @@
 """Abaqus input files: written by Gmsh 4.15, written by hand, and written and read again."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from hexmend import io
 from hexmend.doctor import examine, repair
-from hexmend.errors import FileError
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
-from hexmend.quality import summarise
 from tests.core.grids import grid
-from tests.core.io.kept import middles_are_in_the_middle, with_everything
-
-FILES = Path(__file__).parents[2] / "files"
+from tests.core.io.kept import middles_are_in_the_middle
 
 #: Faces S1 to S6 as the manual numbers their corners.
 SIDES = ["1 2 3 4", "5 8 7 6", "1 5 6 2", "2 6 7 3", "3 7 8 4", "4 8 5 1"]
@@ -88,62 +82,12 @@ def test_the_27_nodes_of_a_hex_have_the_order_of_the_manual(tmp_path):
     middles_are_in_the_middle(read(f"*NODE\n{nodes}*ELEMENT, TYPE=C3D27\n1, {row}\n", tmp_path))
 
 
-@pytest.mark.parametrize(
-    ("file", "kinds"),
-    [("o1", {"line", "quad", "triangle", "wedge"}), ("o2i", {"line3", "quad8", "triangle6", "wedge15"})],
-)
-def test_a_file_of_gmsh_is_read(file, kinds):
-    mesh = io.read(FILES / f"gmsh-{file}.inp")
-    assert mesh.n_hexes == 2
-    assert summarise(mesh).inverted == 0
-    assert {one.kind for one in mesh.cells} == kinds
-    assert mesh.hex_sets["block_one"].tolist() == [0, 1]
-    middles_are_in_the_middle(mesh)
-
-
 def test_element_types_survive(tmp_path):
     deck = DECK + f"*NODE\n{cube(range(21, 29))}*ELEMENT, TYPE=C3D8I\n6, 21, 22, 23, 24, 25, 26, 27, 28\n"
     deck += "*ELEMENT, TYPE=M3D4\n7, 11, 12, 13, 14\n"
     io.write(tmp_path / "b.inp", read(deck, tmp_path))
     written = (tmp_path / "b.inp").read_text()
     assert [line.split("=")[1] for line in written.splitlines() if "*ELEMENT" in line] == ["C3D8R", "C3D8I", "M3D4"]
-
-
-def test_names_that_differ_only_in_case_stay_distinct(tmp_path):
-    mesh = with_everything().replace(
-        node_sets={"wall": np.array([1]), "Wall": np.array([2]), 'a "b", c': np.array([3])}
-    )
-    io.write(tmp_path / "a.inp", mesh)
-    again = io.read(tmp_path / "a.inp").node_sets
-    assert {name: members.tolist() for name, members in again.items()} == {"wall": [1], "Wall": [2], "a 'b', c": [3]}
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("\0" * 5000, "holds bytes that are not text"),
-        ("hello", "has no line that begins with *"),
-        ("*HEADING\n", "has no *NODE"),
-        ("*NODE\n1, 0, 0, x\n", "*NODE holds 'x' in row 4 of 4 (line 2)"),
-        ("*NODE\n1.5, 0, 0, 0\n", "has the number 1.5"),
-        (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7\n", "holds 8 numbers: expected 9 an element"),
-        (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 9\n", "node 9 is used"),
-        (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D4\n1, 1, 2, 4, 5\n", "holds no hexahedra, but 1 tetra cell"),
-        (f"*NODE\n{cube()}1, 0, 0, 0\n*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n", "node 1 is given twice"),
-        ("*INCLUDE, INPUT=nodes.inp\n", "reads 'nodes.inp', which does not exist"),
-        ("*NODE, INPUT=nodes.inp\n", "reads 'nodes.inp', which does not exist"),
-        ("*NODE\n1, 0, 0, 0\n*NGEN\n1, 5, 1\n", "*NGEN in line 3 generates nodes or elements from others"),
-        ("*NODE, SYSTEM=C\n1, 0, 0, 0\n", "has other coordinates than x, y and z"),
-        (DECK + "*NSET, NSET=x\nnowhere\n", "refers to the set 'NOWHERE'"),
-        (DECK + "*NSET, NSET=x\ny\n*NSET, NSET=y\nx\n", "is a member of itself"),
-        (DECK + "*NSET, NSET=x, GENERATE\n1, 5, 0\n", "expected first, last and step"),
-        ("*INSTANCE, NAME=a, PART=b\n", "refers to the part 'b', which does not exist"),
-    ],
-)  # fmt: skip
-def test_errors_name_the_problem(text, words, tmp_path):
-    with pytest.raises(FileError) as error:
-        read(text, tmp_path)
-    assert words in str(error.value)
 
 
 def test_a_generated_range_of_a_set_is_not_expanded(tmp_path):

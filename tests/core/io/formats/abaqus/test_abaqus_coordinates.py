@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from hexmend import io
 from hexmend.io import Original, write_as_given
-from hexmend.io.formats.abaqus.coordinates import locate
 from hexmend.mesh.hexahedron import UNIT_CUBE
 
 TAIL = "*Element, type=C3D8, elset=Body\n 5, 1, 2, 3, 4, 5, 6, 7, 8\n*Material, name=Steel\n*Elastic\n 210000., 0.3\n"
@@ -101,37 +100,36 @@ PARTS = """\
 NODES = "".join(f"{k}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 1))
 
 
+def written_as_given(source, mesh, points):
+    """The deck with other coordinates, read again, and how it was written."""
+    target = source.with_name("out.inp")
+    written = write_as_given(target, mesh.with_points(points), Original(source, mesh))
+    np.testing.assert_allclose(io.read(target).points, points, atol=1e-14)
+    return target, written
+
+
 @pytest.mark.parametrize("place", ["", "5., 0., 0.\n", "1., 2., 3.\n0., 0., 0., 0., 0., 1., 30.\n"])
 def test_nodes_of_a_placed_part_are_replaced_in_the_part(place, tmp_path):
     instances = f"*Instance, name=One, part=Block\n{place}*End Instance\n"
     mesh = read(tmp_path / "a.inp", PARTS.format(nodes=NODES, instances=instances))
     points = mesh.points.copy()
     points[2:6] += [0.125, 0.25, -0.125]
-    target = tmp_path / "b.inp"
-    assert write_as_given(target, mesh.with_points(points), Original(tmp_path / "a.inp", mesh)).replaced
-    np.testing.assert_allclose(io.read(target).points, points, atol=1e-14)
+    target, written = written_as_given(tmp_path / "a.inp", mesh, points)
+    assert written.replaced
     given, got = (path.read_text().split("\n") for path in (tmp_path / "a.inp", target))
     assert [k for k, (a, b) in enumerate(zip(given, got, strict=True)) if a != b] == [4, 5, 6, 7]
 
 
 def test_instances_that_move_alike_are_replaced_in_their_part_and_others_are_written_anew(tmp_path):
     instances = "".join(f"*Instance, name=I{k}, part=Block\n{3 * k}., 0., 0.\n*End Instance\n" for k in range(2))
-    source, target = tmp_path / "a.inp", tmp_path / "b.inp"
-    mesh = read(source, PARTS.format(nodes=NODES, instances=instances))
+    mesh = read(tmp_path / "a.inp", PARTS.format(nodes=NODES, instances=instances))
     points = mesh.points.copy()
     points[[3, 11]] += [0.1, 0.2, 0.3]
-    assert write_as_given(target, mesh.with_points(points), Original(source, mesh)).replaced
-    np.testing.assert_allclose(io.read(target).points, points, atol=1e-14)
+    assert written_as_given(tmp_path / "a.inp", mesh, points)[1].replaced
     points[3] += 0.1
-    written = write_as_given(target, mesh.with_points(points), Original(source, mesh))
+    _, written = written_as_given(tmp_path / "a.inp", mesh, points)
     assert not written.replaced
     assert "instances of the part 'Block'" in written.notes[0]
-    np.testing.assert_array_equal(io.read(target).points, points)
-
-
-def test_coordinates_are_located_as_they_are_read(real_mesh):
-    path = real_mesh("bunny_projected.inp")
-    np.testing.assert_array_equal(locate(path).points, io.read(path).points)
 
 
 def test_lines_with_more_and_fewer_fields_are_read_by_themselves(tmp_path):

@@ -52,19 +52,6 @@ def test_polyhedra_of_six_quads_are_hexes(offsets, tmp_path):
     assert back.notes == ()
 
 
-def test_vtk_reads_the_same_cells(tmp_path):
-    reader = pytest.importorskip("vtkmodules.vtkIOCGNSReader").vtkCGNSReader()
-    mesh = grid(2)
-    reader.SetFileName(str(written(tmp_path / "a.cgns", mesh.points, [("hex", mesh.hexes)])))
-    reader.Update()
-    zone = reader.GetOutput().GetBlock(0).GetBlock(0)
-    back = io.read(tmp_path / "a.cgns")
-    assert zone.GetNumberOfCells() == 8
-    for k, hex_ in enumerate(back.hexes):
-        ids = zone.GetCell(k).GetPointIds()
-        assert {ids.GetId(i) for i in range(ids.GetNumberOfIds())} == set(hex_.tolist())
-
-
 def test_other_kinds_are_kept_too(tmp_path):
     points = np.vstack([grid(1).points, [[0.5, 0.5, 2], [0.5, 0.5, 3], [2, 0, 0], [2, 0, 1]]])
     corners = grid(1).hexes[0]

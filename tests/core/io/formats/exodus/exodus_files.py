@@ -64,3 +64,20 @@ def rich() -> Mesh:
         cells=(Cells("quad", bare.hexes[:2, :4], {"t": np.array([1.5, 2])}, {"lid": np.array([1])}),),
         pinned=np.arange(27) == 13,
     )
+
+
+def on_hdf5(source, path, **options):
+    """The file on HDF5, as netCDF4 writes it; `options` are of the coordinates' datasets."""
+    import netCDF4
+
+    with netCDF4.Dataset(source) as one, netCDF4.Dataset(path, "w") as other:
+        one.set_auto_mask(False)
+        other.setncatts({name: one.getncattr(name) for name in one.ncattrs()})
+        for name, dimension in one.dimensions.items():
+            other.createDimension(name, None if dimension.isunlimited() else len(dimension))
+        for name, variable in one.variables.items():
+            kind = options.get("kind", variable.dtype) if name.startswith("coord") else variable.dtype
+            zlib = bool(options.get("zlib")) and name.startswith("coord")
+            copy = other.createVariable(name, kind, variable.dimensions, zlib=zlib)
+            copy.setncatts({key: variable.getncattr(key) for key in variable.ncattrs()})
+            copy[:] = variable[:]

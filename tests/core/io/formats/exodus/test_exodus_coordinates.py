@@ -6,25 +6,10 @@ import pytest
 from hexmend import io
 from hexmend.io import Original, write_as_given
 from hexmend.io.formats.exodus.netcdf3 import ClassicReader
-from tests.core.io.formats.exodus.exodus_files import rich
+from tests.core.io.formats.exodus.exodus_files import on_hdf5, rich
 from tests.core.io.kept import assert_same
 
 h5py = pytest.importorskip("h5py")
-
-
-def on_hdf5(source, path, **options):
-    """The file on HDF5, as netCDF4 writes it; `options` are of the coordinates' datasets."""
-    netCDF4 = pytest.importorskip("netCDF4")
-    with netCDF4.Dataset(source) as one, netCDF4.Dataset(path, "w") as other:
-        other.setncatts({name: one.getncattr(name) for name in one.ncattrs()})
-        for name, dimension in one.dimensions.items():
-            other.createDimension(name, None if dimension.isunlimited() else len(dimension))
-        for name, variable in one.variables.items():
-            kind = options.get("kind", variable.dtype) if name.startswith("coord") else variable.dtype
-            zlib = bool(options.get("zlib")) and name.startswith("coord")
-            copy = other.createVariable(name, kind, variable.dimensions, zlib=zlib)
-            copy.setncatts({key: variable.getncattr(key) for key in variable.ncattrs()})
-            copy[:] = variable[:]
 
 
 def moved(mesh):

@@ -8,7 +8,8 @@ from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
-from tests.core.io.formats.exodus.exodus_files import HEX27, letters, rich, written
+from tests.core.io.formats.exodus.exodus_files import HEX27, letters, on_hdf5, rich, written
+from tests.core.io.kept import assert_same
 
 
 def test_hexes_of_both_orders_keep_their_data_and_sets(tmp_path):
@@ -60,32 +61,15 @@ def test_vtk_reads_written_files(tmp_path):
 
 
 def test_a_file_on_hdf5_is_read_like_one_of_the_classic_format(tmp_path):
-    netCDF4 = pytest.importorskip("netCDF4")
+    pytest.importorskip("netCDF4")
     io.write(tmp_path / "classic.exo", rich())
-    with netCDF4.Dataset(tmp_path / "classic.exo") as one, netCDF4.Dataset(tmp_path / "new.exo", "w") as other:
-        one.set_auto_mask(False)
-        for name, dimension in one.dimensions.items():
-            other.createDimension(name, None if dimension.isunlimited() else len(dimension))
-        for name, values in one.variables.items():
-            copy = other.createVariable(name, values.dtype, values.dimensions, zlib=True)
-            copy.setncatts({key: values.getncattr(key) for key in values.ncattrs()})
-            copy[:] = values[:]
+    on_hdf5(tmp_path / "classic.exo", tmp_path / "new.exo", zlib=True)
     assert (tmp_path / "new.exo").read_bytes()[:4] == b"\x89HDF"
     mesh, back = io.read(tmp_path / "classic.exo"), io.read(tmp_path / "new.exo")
-    np.testing.assert_array_equal(back.hexes, mesh.hexes)
-    for kind in ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets"):
+    assert_same(back, mesh)
+    for kind in ("node_data", "hex_data"):
         for name, values in getattr(mesh, kind).items():
             np.testing.assert_array_equal(getattr(back, kind)[name], values, err_msg=name)
-
-
-@pytest.mark.parametrize("pins", [[], [1, 4]])
-@pytest.mark.parametrize("name", ["fixed", "Fixed"])
-def test_pins_and_sets_named_fixed_stay_distinct(name, pins, tmp_path):
-    mesh = grid(2).replace(node_sets={name: np.array([0, 9])}, pinned=np.isin(np.arange(27), pins))
-    io.write(tmp_path / "f.exo", mesh)
-    back = io.read(tmp_path / "f.exo")
-    assert np.flatnonzero(back.pinned if back.pinned is not None else []).tolist() == pins
-    assert {key: one.tolist() for key, one in back.node_sets.items()} == {name: [0, 9]}
 
 
 def test_ids_of_blocks_and_sets_are_kept(tmp_path):
@@ -126,31 +110,6 @@ def test_columns_with_the_names_of_other_data_are_renamed_together_and_that_is_r
     for title, values in {"v_2": vector, "v_x": scalar, "w_2": pair, "w_3": scalar, "free": vector}.items():
         np.testing.assert_array_equal(back.node_data[title], values)
     np.testing.assert_array_equal(back.hex_data["s_2"], mesh.hex_data["s"])
-
-
-def test_unsupported_data_and_names_are_reported(tmp_path):
-    names = [" lead", "lead", "S", "s", ""]
-    mesh = grid(2).replace(
-        node_data={"phase": np.arange(27) * 1j, " t": np.arange(27.0), "v": np.ones((27, 3)), "v_x": np.arange(27.0)},
-        hex_data={"label": np.array(list("abcdefgh"))},
-        node_sets={name: np.array([k]) for k, name in enumerate(names)},
-        hex_sets={name: np.array([k]) for k, name in enumerate(names)},
-        side_sets={"": np.array([[0, 0]])},
-    )
-    assert io.unsupported_data(tmp_path / "a.exo", mesh) == [
-        "point data that are not numbers (phase)",
-        "cell data that are not numbers (label)",
-        "names of point data as they are ( t, v)",
-        "names of sets as they are (,  lead)",
-    ]
-    io.write(tmp_path / "a.exo", mesh)
-    back = io.read(tmp_path / "a.exo")
-    for sets in (back.node_sets, back.hex_sets):
-        members = {name: one.tolist() for name, one in sets.items()}
-        assert members == {"lead 2": [0], "lead": [1], "S": [2], "s": [3], "unnamed": [4]}
-    assert list(back.side_sets) == ["unnamed"]
-    np.testing.assert_array_equal(back.node_data["t"], np.arange(27))
-    np.testing.assert_array_equal(back.node_data["v_x"], np.arange(27))
 
 
 @pytest.mark.parametrize(("most", "status"), [(9, 0), (2**31 - 1, 0), (2**31, 0x0400)])

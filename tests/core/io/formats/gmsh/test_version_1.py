@@ -1,9 +1,6 @@
 """Reading Gmsh's format of version 1."""
 
-import pytest
-
 from hexmend import io
-from hexmend.errors import FileError
 from hexmend.quality import summarise
 
 FIRST_VERSION = """\
@@ -39,19 +36,3 @@ def test_the_first_version_of_the_format_is_read(tmp_path):
         assert mesh.hex_sets["physical 100"].tolist() == [0]
         assert {one.kind: dict(one.sets) for one in mesh.cells} == {"quad": {"physical 1": [0]}, "tetra": {}}
         assert summarise(mesh).inverted == 0
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        (("$NOD\n9", "$NOD\n8"), r"\$NOD holds 37 numbers: expected 33 for 8 nodes"),
-        (("$ELM\n3", "$ELM\n4"), r"\$ELM holds 3 whole elements of 4"),
-        (("1000 8 10", "1000 9 10"), r"element 7 of type 5 has 9 nodes: expected 8"),
-        (("7 5 100", "7 99 100"), "has elements of the type 99, which is unknown"),
-        (("$ENDELM", ""), "ends without"),
-    ],
-)
-def test_errors_in_the_first_version_name_the_problem(change, words, tmp_path):
-    (tmp_path / "a.msh").write_text(FIRST_VERSION.replace(*change))
-    with pytest.raises(FileError, match=words):
-        io.read(tmp_path / "a.msh")

@@ -7,8 +7,6 @@ from hypothesis import strategies as st
 
 from hexmend import io
 from hexmend.io import Original, write_as_given
-from hexmend.io.formats.nastran.cards import real_field
-from hexmend.io.formats.nastran.grid_card import replace_in_card
 from hexmend.mesh.hexahedron import UNIT_CUBE
 
 HEAD = ["$ our model", "SOL 101", "CEND", "SUBCASE 1", "  LOAD = 5", "BEGIN BULK"]
@@ -107,11 +105,3 @@ def test_blocks_of_cards_are_replaced_too(layout, tmp_path):
     assert written.replaced
     assert any("GRID*" in note for note in written.notes) == (layout is small)
     np.testing.assert_allclose(io.read(tmp_path / "out.bdf").points, points, rtol=1e-11)
-
-
-def test_a_card_of_small_fields_becomes_a_large_one_with_all_its_fields():
-    text = real_field(1 / 3)
-    assert replace_in_card(small(7, 0.0, 0.0, 1.0), [text, None, None]) == [
-        f"GRID*   {7:<16}{'':16}{text:<16}0.0000",
-        f"*       {'1.0000':<32}456",
-    ]

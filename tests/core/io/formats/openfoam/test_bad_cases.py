@@ -5,8 +5,6 @@ import shutil
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from hexmend import io
 from hexmend.errors import FileError
@@ -114,28 +112,3 @@ def cases(tmp_path_factory):
             path.with_name(f"{path.name}.gz").write_bytes(gzip.compress(path.read_bytes()))
             path.unlink()
     return folder
-
-
-@pytest.mark.parametrize("encoding", ["ascii", "binary", "gzip"])
-@given(data=st.data())
-def test_cut_or_changed_files_give_a_mesh_or_a_clear_error(encoding, cases, data):
-    mesh = cases / encoding / "constant/polyMesh"
-    path = data.draw(st.sampled_from(sorted(mesh.iterdir())), label="file")
-    good = path.read_bytes()
-    content = bytearray(good)
-    if data.draw(st.booleans(), label="cut"):
-        content = content[: data.draw(st.integers(0, len(content) - 1), label="length")]
-    else:
-        for _ in range(data.draw(st.integers(1, 4), label="changes")):
-            content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
-    path.write_bytes(content)
-    try:
-        found = io.read(cases / encoding)
-    except FileError as error:
-        assert str(error).split(": ")[0] in {one.name for one in mesh.iterdir()} | {encoding, "polyMesh"}
-        assert "\n" not in str(error)
-    else:
-        assert found.n_hexes > 0
-        assert np.isfinite(found.points).all()
-    finally:
-        path.write_bytes(good)

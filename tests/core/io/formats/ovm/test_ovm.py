@@ -82,36 +82,6 @@ def test_other_polyhedra_are_left_out_and_said(tmp_path):
         io.read(tmp_path / "a.ovm")
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ("OVM ASCII", "OVM BINARY", "does not begin with OVM ASCII"),
-        ("Polyhedra\n1\n", "Polyhedra\n2\n", "Polyhedra holds 1 whole rows of 2"),
-        ("Edges\n12\n", "Edges\n99999999999\n", "Edges ends after 12 of 99999999999 rows"),
-        ("Vertices\n8\n0.0 ", "Vertices\n8\nx ", "Vertices holds 'x' in row 1 of 8 (line 4)"),
-        ("Faces\n6\n4 ", "Faces\n6\n4 99 ", "Faces holds"),
-        ("Faces\n6\n4 ", "Faces\n6\n-4 ", "Faces holds 0 whole rows of 6"),
-        ("Polyhedra\n1\n6 ", "Polyhedra\n1\n7 99 ", "Polyhedra refer to 99: expected numbers from 0 to 11"),
-        ("Edges", "Hedges", "'Hedges' was found where a section should begin (line 12)"),
-    ],
-)
-def test_what_is_wrong_is_named(old, new, words, tmp_path):
-    text = written(UNIT_CUBE, np.arange(8)[None])
-    assert old in text
-    (tmp_path / "a.ovm").write_text(text.replace(old, new))
-    with pytest.raises(FileError) as error:
-        io.read(tmp_path / "a.ovm")
-    assert words in str(error.value)
-
-
-def test_a_file_cut_short_is_an_error_or_ends_between_lines(tmp_path):
-    text = written(UNIT_CUBE, np.arange(8)[None])
-    for end in range(0, len(text) - 1, 3):
-        (tmp_path / "a.ovm").write_text(text[:end])
-        with pytest.raises(FileError):
-            io.read(tmp_path / "a.ovm")
-
-
 @pytest.mark.parametrize(("prop", "section"), [("VProp", "Vertices"), ("CProp", "Polyhedra")])
 def test_properties_of_what_is_not_there_yet_are_refused(prop, section, tmp_path):
     path = tmp_path / "a.ovm"

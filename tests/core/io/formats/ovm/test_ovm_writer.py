@@ -109,3 +109,18 @@ def test_a_hex_with_a_node_twice_is_refused(tmp_path):
     with pytest.raises(FileError, match="hex 1 has a node twice"):
         io.write(tmp_path / "a.ovm", Mesh(grid(2, 1, 1).points, [[*range(8)], [1, 1, 2, 3, 4, 5, 6, 7]]))
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("number", [2**31 - 1, 2**31, 2**63 - 1, -(2**31), -(2**31) - 1, -(2**63)])
+def test_whole_numbers_of_64_bits_are_kept(number, tmp_path):
+    mesh = grid(2).replace(hex_data={"key": np.array([number, *range(7)], np.int64)})
+    assert io.unsupported_data(tmp_path / "a.ovm", mesh) == []
+    io.write(tmp_path / "a.ovm", mesh)
+    kind = "int" if -(2**31) <= number < 2**31 else "long"
+    assert f'CProp {kind} "key"' in (tmp_path / "a.ovm").read_text()
+    np.testing.assert_array_equal(io.read(tmp_path / "a.ovm").hex_data["key"], mesh.hex_data["key"])
+
+
+def test_greater_numbers_are_said_to_be_lost(tmp_path):
+    mesh = grid(2).replace(hex_data={"key": np.array([0] * 7 + [2**63], np.uint64)})
+    assert io.unsupported_data(tmp_path / "a.ovm", mesh)

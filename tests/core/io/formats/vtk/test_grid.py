@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.errors import FileError
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
+from tests.core.io.formats.vtk.test_by_vtk import WRITERS
+from tests.core.io.vtk_writers import by_vtk
 
 vtk = pytest.importorskip("vtk")
+pyvista = pytest.importorskip("pyvista")
 SUFFIXES = pytest.mark.parametrize("suffix", [".vtu", ".vtk"])
 #: Kinds of cells and the class of VTK's that knows where their nodes lie.
 CLASSES = {
@@ -30,27 +32,16 @@ def places(number):
 
 
 def written(path, numbers, shift=3.0):
-    """Cells of these types in a row, each with nodes of its own, written by VTK; their places and first nodes."""
-    from vtk.util.numpy_support import numpy_to_vtk
-
-    content, points, parts = vtk.vtkUnstructuredGrid(), vtk.vtkPoints(), []
-    points.SetDataTypeToDouble()
-    for k, number in enumerate(numbers):
-        parts.append(places(number) + [shift * k, 0, 0])
-        ids = [points.InsertNextPoint(*place) for place in parts[-1]]
-        content.InsertNextCell(number, len(ids), ids)
-    content.SetPoints(points)
-    for name, data, count in (
-        ("cell", content.GetCellData(), len(numbers)),
-        ("node", content.GetPointData(), points.GetNumberOfPoints()),
-    ):
-        array = numpy_to_vtk(np.arange(count), deep=True)
-        array.SetName(name)
-        data.AddArray(array)
-    writer = vtk.vtkXMLUnstructuredGridWriter() if path.suffix == ".vtu" else vtk.vtkUnstructuredGridWriter()
-    writer.SetInputData(content)
-    writer.SetFileName(str(path))
-    assert writer.Write()
+    """Cells of these types in a row, each with nodes of its own, written by VTK; their places."""
+    parts = [places(number) + [shift * k, 0, 0] for k, number in enumerate(numbers)]
+    first = np.cumsum([0, *map(len, parts)])
+    cells = np.concatenate(
+        [[len(part), *range(start, start + len(part))] for start, part in zip(first[:-1], parts, strict=True)]
+    )
+    content = pyvista.UnstructuredGrid(cells, np.array(numbers, np.uint8), np.concatenate(parts))
+    content.cell_data["cell"] = np.arange(len(numbers))
+    content.point_data["node"] = np.arange(first[-1])
+    by_vtk(WRITERS[path.suffix](), path, content)
     return parts
 
 
@@ -90,19 +81,10 @@ def test_every_kind_is_written_as_vtk_has_it(suffix, encoding, tmp_path):
     written(tmp_path / "a.vtu", numbers)
     mesh = io.read(tmp_path / "a.vtu", as_is=True)
     io.write(tmp_path / f"b{suffix}", mesh, encoding=encoding)
-    reader = vtk.vtkXMLUnstructuredGridReader() if suffix == ".vtu" else vtk.vtkUnstructuredGridReader()
-    reader.SetFileName(str(tmp_path / f"b{suffix}"))
-    if suffix == ".vtk":
-        reader.ReadAllFieldsOn()
-    reader.Update()
-    found = reader.GetOutput()
-    data = found.GetCellData().GetArray("cell")
-    for k in range(found.GetNumberOfCells()):
-        number = numbers[int(data.GetTuple1(k))]
-        assert found.GetCellType(k) == number
-        cell = found.GetCell(k).GetPoints()
-        places_found = np.array([cell.GetPoint(i) for i in range(cell.GetNumberOfPoints())])
-        np.testing.assert_array_equal(places_found, places(number) + [3 * data.GetTuple1(k), 0, 0])
+    found = pyvista.read(tmp_path / f"b{suffix}")
+    for k, which in enumerate(found.cell_data["cell"]):
+        assert found.celltypes[k] == numbers[which]
+        np.testing.assert_array_equal(found.get_cell(k).points, places(numbers[which]) + [3 * which, 0, 0])
     back = io.read(tmp_path / f"b{suffix}", as_is=True)
     np.testing.assert_array_equal(back.mid_nodes, mesh.mid_nodes)
     np.testing.assert_array_equal(back.hexes, mesh.hexes)
@@ -110,22 +92,14 @@ def test_every_kind_is_written_as_vtk_has_it(suffix, encoding, tmp_path):
 
 @SUFFIXES
 def test_polyhedra_and_lagranges_hexahedra_are_left_out_and_that_is_said(suffix, tmp_path):
-    content = vtk.vtkUnstructuredGrid()
-    points = vtk.vtkPoints()
-    for place in UNIT_CUBE:
-        points.InsertNextPoint(*place)
-    content.SetPoints(points)
-    content.InsertNextCell(12, 8, range(8))
-    content.InsertNextCell(72, 8, range(8))
+    cells = np.array([8, *range(8), 8, *range(8)])
+    content = pyvista.UnstructuredGrid(cells, np.array([12, 72], np.uint8), UNIT_CUBE)
     if suffix == ".vtu":
         faces = vtk.vtkIdList()
         for value in (4, 4, 0, 1, 2, 3, 3, 0, 1, 4, 3, 1, 2, 4, 4, 2, 3, 0, 4):
             faces.InsertNextId(value)
         content.InsertNextCell(42, faces)
-    writer = vtk.vtkXMLUnstructuredGridWriter() if suffix == ".vtu" else vtk.vtkUnstructuredGridWriter()
-    writer.SetInputData(content)
-    writer.SetFileName(str(tmp_path / f"a{suffix}"))
-    assert writer.Write()
+    by_vtk(WRITERS[suffix](), tmp_path / f"a{suffix}", content)
     mesh = io.read(tmp_path / f"a{suffix}")
     assert mesh.n_hexes == 1
     assert any("VTK_LAGRANGE_HEXAHEDRON" in note and "Not read" in note for note in mesh.notes)
@@ -158,22 +132,3 @@ def test_hexes_labelled_as_tetrahedra_are_read_where_all_have_eight_nodes(suffix
     corners = mesh.points[mesh.hexes[0]]
     a, b, c, d = corners[CORNER_TETRAHEDRA[0]]
     assert np.linalg.det([b - a, c - a, d - a]) > 0
-
-
-@SUFFIXES
-@pytest.mark.parametrize(
-    ("types", "words"),
-    [
-        ([12, 13], "cell 1 is of type 13 and has 8 nodes: expected 6"),
-        ([25, 12], "cell 0 is of type 25 and has 8 nodes: expected 20"),
-        ([12, 255], ""),
-    ],
-)
-def test_other_labels_are_refused_or_said(suffix, types, words, tmp_path):
-    path = tmp_path / f"a{suffix}"
-    relabelled(path, [12, 12], types)
-    if words:
-        with pytest.raises(FileError, match=words):
-            io.read(path)
-    else:
-        assert "Not read: 1 cell of another kind (type 255)." in io.read(path).notes

@@ -3,13 +3,11 @@
 import os
 import tracemalloc
 
-import numpy as np
 import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
 from hexmend.io.base.plugins import plugin_formats
-from tests.core.grids import grid, scrambled
 
 HEAD = "# vtk DataFile Version {}\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
 POINTS = "POINTS 8 {}\n0 0 0 1 0 0 1 1 0 0 1 0\n0 0 1 1 0 1 1 1 1 0 1 1\n"
@@ -61,60 +59,6 @@ def test_no_number_is_taken_for_another(text, words, tmp_path):
     with pytest.raises(FileError) as error:
         io.read(tmp_path / "a.vtk")
     assert words in str(error.value)
-
-
-@pytest.mark.parametrize("binary", [0, 1])
-@pytest.mark.parametrize("version", [42, 51])
-def test_field_data_and_strings_of_vtks_writer_are_read(binary, version, tmp_path):
-    vtk = pytest.importorskip("vtk")
-    pyvista = pytest.importorskip("pyvista")
-    mesh = scrambled(grid(2), 0.3)
-    content = pyvista.UnstructuredGrid({12: mesh.hexes.astype(np.int64)}, mesh.points)
-    strings = ["made elsewhere, ä 100%\nnew", "", "x" * 100, "y" * 20000]
-    for data, name in ((content.GetFieldData(), "a title"), (content.GetPointData(), "names")):
-        text = vtk.vtkStringArray()
-        text.SetName(name)
-        for words in strings if name == "a title" else "n" * 27:
-            text.InsertNextValue(words)
-        data.AddArray(text)
-    content.field_data["time"] = np.array([0.25, 0.5])
-    content.field_data["axes"] = np.eye(3)
-    content.point_data["velocity"] = mesh.points + 1
-    writer = vtk.vtkUnstructuredGridWriter()
-    writer.SetInputData(content)
-    writer.SetFileVersion(version)
-    writer.SetFileType(1 + binary)
-    writer.SetFileName(str(tmp_path / "a.vtk"))
-    assert writer.Write()
-    back = io.read(tmp_path / "a.vtk")
-    assert back.field_data["a title"] == strings
-    np.testing.assert_array_equal(back.field_data["time"], [0.25, 0.5])
-    np.testing.assert_array_equal(back.field_data["axes"], np.eye(3))
-    assert np.abs(back.node_data["velocity"] - mesh.points - 1).max() < 1e-5
-    assert any(note.startswith("Not read: arrays") and "(names)" in note for note in back.notes)
-
-
-@pytest.mark.parametrize("encoding", ["ascii", "binary"])
-def test_field_data_come_back_and_vtk_reads_them(encoding, tmp_path):
-    pyvista = pytest.importorskip("pyvista")
-    strings = ["made & elsewhere 100%\nnew", "", "ä", "x" * 100, "y" * 20000]
-    fields = {"title of it": strings, "one": ["x"], "time": np.array([0.1, 1e-300]), "axes": np.arange(6).reshape(2, 3)}
-    io.write(tmp_path / "a.vtk", grid(2).replace(field_data=fields), encoding=encoding)
-    back = io.read(tmp_path / "a.vtk").field_data
-    other = pyvista.read(tmp_path / "a.vtk").field_data
-    assert list(back) == list(fields)
-    assert back["title of it"] == strings
-    assert list(other["title of it"]) == strings
-    for name in ("time", "axes"):
-        np.testing.assert_array_equal(back[name], fields[name])
-        np.testing.assert_array_equal(other[name], fields[name])
-
-
-def test_unsigned_numbers_of_64_bits_come_back(tmp_path):
-    most = np.full(8, 2**64 - 1, np.uint64)
-    for encoding in ("ascii", "binary"):
-        io.write(tmp_path / "a.vtk", grid(1).replace(node_data={"most": most}), encoding=encoding)
-        np.testing.assert_array_equal(io.read(tmp_path / "a.vtk").node_data["most"], most)
 
 
 @pytest.mark.parametrize("start", [b"", b"# vtk DataFile Version 3.0\n"])

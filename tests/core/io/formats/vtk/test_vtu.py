@@ -1,6 +1,5 @@
 """VTU: whatever VTK's own writer makes of a grid is read as VTK has it, and what is damaged is refused at once."""
 
-import itertools
 import re
 import tracemalloc
 import zlib
@@ -13,60 +12,9 @@ from hexmend import io
 from hexmend.errors import FileError
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.grids import grid, scrambled
+from tests.core.io.vtk_writers import by_vtk, grid_by_vtk
 
-MODES = [("Ascii", "None"), *itertools.product(("Binary", "Base64", "Raw"), ("None", "ZLib", "LZ4", "LZMA"))]
 CUBE = " ".join(f"{x:g}" for x in UNIT_CUBE.ravel())
-
-
-def written_by_vtk(path, mesh, mode="Binary", packing="ZLib", order=0, header=32, **arrays):
-    """The mesh as VTK writes it, with arrays for its points."""
-    vtk = pytest.importorskip("vtk")
-    pyvista = pytest.importorskip("pyvista")
-    content = pyvista.UnstructuredGrid({12: mesh.hexes.astype(np.int64)}, mesh.points)
-    for name, values in arrays.items():
-        content.point_data[name] = values
-    content.cell_data["material"] = np.arange(mesh.n_hexes, dtype=np.int16)
-    text = vtk.vtkStringArray()
-    text.SetName("title")
-    for words in ("made elsewhere", "in two lines, ä"):
-        text.InsertNextValue(words)
-    content.GetFieldData().AddArray(text)
-    content.field_data["time"] = np.array([0.25, 0.5])
-    writer = vtk.vtkXMLUnstructuredGridWriter()
-    writer.SetInputData(content)
-    writer.SetFileName(str(path))
-    writer.SetByteOrder(order)
-    getattr(writer, f"SetHeaderTypeToUInt{header}")()
-    getattr(writer, f"SetDataModeTo{mode if mode in ('Ascii', 'Binary') else 'Appended'}")()
-    writer.SetEncodeAppendedData(mode == "Base64")
-    getattr(writer, f"SetCompressorTypeTo{packing}")()
-    writer.SetBlockSize(256)  # so that an array has many blocks, the last of them shorter
-    assert writer.Write()
-
-
-#: Each mode and packing, with byte orders and widths of the header in turn.
-WRITTEN = [(mode, packing, k % 2, 32 + 32 * (k // 2 % 2)) for k, (mode, packing) in enumerate(MODES)]
-
-
-@pytest.mark.parametrize(("mode", "packing", "order", "header"), WRITTEN)
-def test_every_mode_of_vtks_writer_is_read(mode, packing, order, header, tmp_path):
-    mesh = scrambled(grid(3), 0.3)
-    arrays = {
-        "velocity": np.random.default_rng(0).normal(size=(64, 3)),
-        "temperature": np.linspace(0, 1, 64, dtype=np.float32),
-        "number": np.arange(64, dtype=np.int64) + 2**40,
-        "code": np.arange(64, dtype=np.int8) - 32,
-    }
-    written_by_vtk(tmp_path / "a.vtu", mesh, mode, packing, order, header, **arrays)
-    back = io.read(tmp_path / "a.vtu")
-    np.testing.assert_array_equal(back.points, mesh.points)
-    np.testing.assert_array_equal(back.hexes, mesh.hexes)
-    for name, values in arrays.items():
-        np.testing.assert_array_equal(back.node_data[name], values)
-        assert back.node_data[name].dtype == values.dtype
-    np.testing.assert_array_equal(back.hex_data["material"], np.arange(27))
-    assert back.field_data["title"] == ["made elsewhere", "in two lines, ä"]
-    np.testing.assert_array_equal(back.field_data["time"], [0.25, 0.5])
 
 
 def text_of(points=8, cells=1, hexes="0 1 2 3 4 5 6 7", ends="8", types="12", more="", kind="Int64", data=""):
@@ -231,7 +179,10 @@ def test_a_block_that_holds_more_or_less_than_announced_is_refused(packing, tmp_
 def test_appended_data_are_never_taken_for_xml_and_may_not_be_shared_by_too_many(tmp_path):
     mesh = scrambled(grid(3), 0.3)
     marks = np.frombuffer(b"</AppendedData><!DOCTYPE x>&<Piece " * 16, np.uint8)[:512].view(np.float64)
-    written_by_vtk(tmp_path / "a.vtu", mesh, "Raw", "None", marks=marks)
+    vtk = pytest.importorskip("vtk")
+    raw = {"SetDataModeToAppended": None, "SetEncodeAppendedData": False, "SetCompressorTypeToNone": None}
+    content = grid_by_vtk(mesh, {"marks": marks}, np.arange(27), {})
+    by_vtk(vtk.vtkXMLUnstructuredGridWriter(), tmp_path / "a.vtu", content, raw)
     np.testing.assert_array_equal(io.read(tmp_path / "a.vtu").node_data["marks"].view(np.int64), marks.view(np.int64))
     content = (tmp_path / "a.vtu").read_bytes()
     one = re.search(rb'<DataArray type="Float64" Name="marks"[^>]*/>', content)[0]

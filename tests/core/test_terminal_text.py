@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from hexmend.cli.process import terminal
+from hexmend.terminal_text import redraws_lines, shows_colours
 
 
 class Stream:
@@ -32,4 +32,4 @@ def test_a_dumb_terminal_gets_no_codes_unless_colours_are_forced(
         monkeypatch.setenv(name, value)
     monkeypatch.setattr(sys, "stdout", Stream(is_terminal))
     monkeypatch.setattr(sys, "stderr", Stream(is_terminal))
-    assert (terminal.shows_colours(), terminal.redraws_lines()) == (coloured, redrawn)
+    assert (shows_colours(), redraws_lines()) == (coloured, redrawn)

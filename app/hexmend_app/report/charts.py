@@ -25,9 +25,6 @@ if TYPE_CHECKING:
 
 MM_PER_INCH = 25.4
 
-#: The colours of Okabe and Ito, which colour-blind readers can distinguish.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-
 #: Suffixes of figures that can be written.
 FIGURE_SUFFIXES = (".svg", ".pdf", ".png")
 
@@ -111,7 +108,9 @@ class ChartStyle(Parametrised):
 class Chart(Protocol):
     """A chart that can be drawn in any style."""
 
-    title: str
+    @property
+    def title(self) -> str:
+        """Title, unless the style has another."""
 
     @property
     def names(self) -> list[str]:
