@@ -225,5 +225,5 @@ def save_figure(figure: Figure, path: Path, dpi: float = 160, *, outlines: bool 
     kind = path.suffix.lower()[1:]
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     settings = {"svg.hashsalt": "hexmend", "svg.fonttype": "path" if outlines else "none"}
-    with atomic_write(path) as temporary, rc_context(settings):  # no random ids and no dates
+    with atomic_write(path) as temporary, rc_context(settings):  # type: ignore[arg-type]  # no random ids, no dates
         figure.savefig(temporary, dpi=dpi, format=kind, metadata=dates.get(kind))
