@@ -88,7 +88,7 @@ def test_a_run_that_waits_to_be_shown_can_be_closed_and_let_go_on(document, smoo
 def test_a_slow_start_shows_an_iteration_for_a_moment_and_can_be_closed(document, smoothing, qtbot, monkeypatch):
     monkeypatch.setattr(worker, "_SHOWN", PATIENCE)
     smoothing.set_pace(Pace.SLOW_START)
-    with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
+    with qtbot.waitSignal(smoothing.iterated):
         smoothing.start(LocalSteepestDescent(), SLOW)
     assert smoothing.record.newest == 1
     smoothing.close()
