@@ -105,7 +105,7 @@ class ChartStyle(Parametrised):
         return new_figure(self.width / MM_PER_INCH, height / MM_PER_INCH)
 
 
-class Chart(Protocol):
+class ExportedChart(Protocol):
     """A chart that can be drawn in any style."""
 
     @property
