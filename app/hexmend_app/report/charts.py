@@ -105,7 +105,7 @@ class ChartStyle(Parametrised):
         return new_figure(self.width / MM_PER_INCH, height / MM_PER_INCH)
 
 
-class Chart(Protocol):
+class ExportedChart(Protocol):
     """A chart that can be drawn in any style."""
 
     @property
@@ -224,6 +224,7 @@ def save_figure(figure: Figure, path: Path, dpi: float = 160, *, outlines: bool 
 
     kind = path.suffix.lower()[1:]
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
-    settings = {"svg.hashsalt": "hexmend", "svg.fonttype": "path" if outlines else "none"}
-    with atomic_write(path) as temporary, rc_context(settings):  # no random ids and no dates
+    fonts = "path" if outlines else "none"
+    # no random ids and no dates
+    with atomic_write(path) as temporary, rc_context({"svg.hashsalt": "hexmend", "svg.fonttype": fonts}):
         figure.savefig(temporary, dpi=dpi, format=kind, metadata=dates.get(kind))

@@ -103,11 +103,11 @@ def progress_display(option: ProgressOption) -> ProgressDisplay[Run]:
     if in_notebook():
         bar = _NotebookBar()
         return TimedDisplay(bar.write, bar.erase, BAR_DELAY, 2 * BAR_INTERVAL)
-    return line_display(describe_run, _share, plain=bool(option))
+    return line_display(describe_run, _share, always=bool(option))
 
 
 def line_display(
-    text: Callable[[T], str], share: Callable[[T], float], *, delay: float | None = None, plain: bool = False
+    text: Callable[[T], str], share: Callable[[T], float], *, delay: float | None = None, always: bool = False
 ) -> ProgressDisplay[T]:
     """Make a line on standard error that changes in place and vanishes at the end.
 
@@ -117,7 +117,7 @@ def line_display(
         Text of a state, and the share of the work that is done, from 0 to 1.
     delay : float, optional
         Seconds until the line appears; `BAR_DELAY` by default.
-    plain : bool
+    always : bool
         Where no line can change in place, print the text every few seconds; else nothing is shown there.
     """
 
@@ -128,7 +128,7 @@ def line_display(
 
     if redraws_lines():
         return TimedDisplay(write_bar, lambda: _write(_CLEAR), BAR_DELAY if delay is None else delay, BAR_INTERVAL)
-    if plain:
+    if always:
         return TimedDisplay(
             lambda state: _write(f"{text(state)}\n"), lambda: None, delay=LINE_INTERVAL, interval=LINE_INTERVAL
         )

@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QLineEdit, QTabBar, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QLineEdit, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.picture.colours import Range
@@ -40,7 +40,6 @@ def test_nothing_is_cut_off(window, qtbot, size):
         window.refresh()
         QApplication.processEvents()
         assert cut_off(window) == [], panel
-        assert not any(bar.usesScrollButtons() for bar in window.findChildren(QTabBar) if bar.parent() is window)
     window.show_panel("look")
     window.show_panel("histogram")
     width = window.docks.centre.width()

@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import declared
-from hexmend_app.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, Chart, ChartStyle, chart_png
+from hexmend_app.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, ChartStyle, ExportedChart, chart_png
 from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
@@ -139,13 +139,19 @@ class ChartDialog(ExportDialog):
 
     Parameters
     ----------
-    chart : Chart
+    chart : ExportedChart
     subject, name, kinds, style
         See `ExportDialog`.
     """
 
     def __init__(
-        self, chart: Chart, subject: str, name: str, kinds: str, style: ChartStyle, parent: QWidget | None = None
+        self,
+        chart: ExportedChart,
+        subject: str,
+        name: str,
+        kinds: str,
+        style: ChartStyle,
+        parent: QWidget | None = None,
     ):
         super().__init__(subject, name, kinds, style, chart.title, chart.names, parent)
         self._chart = chart

@@ -16,7 +16,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import distribute
-from hexmend_app.features.histogram.histogram_file import write_histogram
+from hexmend_app.features.histogram.histogram_file import HistogramExport
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
 from tests.core.grids import grid, scrambled
@@ -119,7 +119,7 @@ def rows(path):
 def test_a_tall_bar_of_inverted_hexes_is_broken_and_labelled_in_the_figure(mesh, tmp_path, log):
     for inverted, broken in ((invert(mesh, 990), True), (invert(mesh, 3), False)):
         path = tmp_path / "figure.svg"
-        write_histogram(path, "title", "q", [("now", BLUE, True, inverted)], log=log)
+        HistogramExport("title", "q", [("now", BLUE, True, inverted)], log=log).write(path)
         ET.parse(path)
         count = measure(inverted.points, inverted.hexes).n_inverted
         assert (f">{count:,}<" in path.read_text()) == broken
@@ -134,7 +134,7 @@ def invert(mesh, count):
 
 def counted(mesh, folder, bins=50, cumulative=False):
     path = folder / "counts.csv"
-    write_histogram(path, "title", "q", [("now", BLUE, True, mesh)], bins=bins, cumulative=cumulative)
+    HistogramExport("title", "q", [("now", BLUE, True, mesh)], bins=bins, cumulative=cumulative).write(path)
     return rows(path)
 
 
@@ -149,7 +149,7 @@ def test_the_csv_has_a_line_for_each_cell(mesh, tmp_path):
 def test_the_axis_fits_the_first_mesh(mesh, tmp_path):
     path = tmp_path / "volume.csv"
     flat = mesh.with_points(mesh.points * [1, 1, 0.01])
-    write_histogram(path, "title", "volume", [("at the start", BLUE, True, mesh), ("now", BLUE, True, flat)])
+    HistogramExport("title", "volume", [("at the start", BLUE, True, mesh), ("now", BLUE, True, flat)]).write(path)
     edges = [row[0] for row in rows(path)]
-    write_histogram(path, "title", "volume", [("at the start", BLUE, True, mesh)])
+    HistogramExport("title", "volume", [("at the start", BLUE, True, mesh)]).write(path)
     assert [row[0] for row in rows(path)] == edges

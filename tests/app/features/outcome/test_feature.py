@@ -118,7 +118,7 @@ def test_it_says_what_a_run_has_changed_and_undoes_it(window, qtbot):
     counts = rf"{start.summary.inverted} → 0 inverted · {start.summary.invalid} → 0 invalid"
     pattern = rf"{counts} · q min 0\.\d{{3}} · scaled Jacobian min 0\.\d{{3}}"
     assert re.fullmatch(pattern, title)
-    assert re.fullmatch(r"\d+ iterations · \d+\.\d\d s · Converged.*", text)
+    assert re.fullmatch(r"\d+ iterations · [\d.]+ s · Converged.*", text)
     press(button(window.messages, "Undo"))
     np.testing.assert_array_equal(window.session.document.now.mesh.points, start.mesh.points)
     assert not window.messages.isVisible()

@@ -1,0 +1,27 @@
+"""Tabs of panels are elided in narrow windows; they are never scrolled by arrows."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QTabBar, QToolButton
+
+from tests.app.driving import turn
+
+
+def bars_of(window):
+    return [bar for bar in window.findChildren(QTabBar) if bar.isVisible() and bar.count()]
+
+
+@pytest.mark.slow
+def test_tabs_are_elided_and_not_scrolled(window, qtbot):
+    window.show_panel("runs")
+    window.resize(window.minimumSizeHint())
+    turn()
+    qtbot.waitUntil(lambda: window.width() < 1000 and all(bar.accessibleName() for bar in bars_of(window)))
+    bars = bars_of(window)
+    assert len(bars) >= 3
+    for bar in bars:
+        assert not bar.usesScrollButtons(), [bar.tabText(k) for k in range(bar.count())]
+        assert bar.elideMode() is Qt.TextElideMode.ElideRight
+        arrows = bar.findChildren(QToolButton, options=Qt.FindChildOption.FindDirectChildrenOnly)
+        assert not [button for button in arrows if button.isVisible()]
+        assert bar.rect().right() >= bar.tabRect(bar.count() - 1).right() - 1
