@@ -18,7 +18,6 @@ from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
 from tests.app.driving import turn
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 SLOW = StoppingCriteria(tolerance=0, max_iterations=100_000)
 
