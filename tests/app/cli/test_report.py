@@ -81,8 +81,6 @@ def test_a_figure_set_has_its_captions_and_its_commands(hexmend, mesh_file, tmp_
         (["figures", "-o", "set", "--format", "gif"], "--format 'gif' cannot be used"),
         (["figures", "-o", "set", "--width-mm", "1"], "a width from 40 to 1000 mm"),
         (["figures", "-o", "set", "--only", "table,cut"], "--only 'table,cut' cannot be used: expected one of surface"),
-        (["figures", "-o", "set", "--thesis"], "expected a mesh of the gallery: plane"),
-        (["figures", "-o", "set", "--quick"], "--quick"),
         (
             ["figures", "-o", "set", "--width-mm", "1000", "--methods", "none"],
             "1 picture on a page 1000 mm wide: the page",

@@ -67,12 +67,15 @@ class TabBars:
             dock.show_title(all(other.isHidden() for other in others))
 
     def hide_stale(self, docks: Iterable[Dock]) -> None:
-        """Hide bars that are not right above a dock: restoring a state may leave bars of the state before visible."""
+        """Hide bars that are not right above a dock, or under a newer one: restoring a state leaves them visible."""
         tops = {(dock.x(), dock.y()) for dock in docks if dock.isVisible() and not dock.isFloating()}
-        for bar in self._all():
-            if bar.count() and (bar.x(), bar.y() + bar.height()) not in tops:
+        for bar in reversed(self._all()):
+            place = bar.x(), bar.y() + bar.height()
+            if bar.count() and place not in tops:
                 bar.hide()
                 bar.setAccessibleName("")  # another bar has it now
+            elif bar.count() and bar.isVisible():
+                tops.remove(place)
 
     def drawer_height(self) -> int:
         """Return the height of the tab bar of the drawer in pixels; 0 if it has none."""

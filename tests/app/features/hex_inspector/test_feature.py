@@ -74,7 +74,7 @@ def test_a_boundary_node_pinned_by_key_does_not_slide(window, qtbot, tmp_path):
     assert pin.isChecked()
     assert window.window_actions["pin"].isChecked()
     assert any(f"Node {node}: boundary, pinned" in text for text in texts(window.features["hex_inspector"].panel))
-    smooth(qtbot, window.session, "mend", boundary="slide")
+    smooth(qtbot, window.session, "mend", 30, boundary="slide")
     moved = (window.session.document.now.mesh.points != mesh.points).any(axis=1)
     assert moved[mesh.topology.boundary].sum() > 20
     assert not moved[node]

@@ -5,7 +5,6 @@ import threading
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QMessageBox
 
 from hexmend.run import StoppingCriteria
@@ -16,7 +15,7 @@ from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session import commands
 from hexmend_app.state.settings import settings
-from tests.app.driving import choose, click, key, named, phase, run_to_end, smooth
+from tests.app.driving import choose, click, key, named, phase, run_to_end
 from tests.patience import PATIENCE
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
@@ -140,36 +139,6 @@ def test_a_pace_is_chosen_in_the_menu_and_stored(window):
     assert window.session.run.pace is pace
     assert [one for one in Pace if window.action(f"pace_{one.value}").isChecked()] == [pace]
     assert Pace(settings.RUN_PACE.get()) is pace
-
-
-@pytest.mark.slow
-def test_actions_and_sessions_have_the_result_and_not_what_is_shown_on_the_way(window, qtbot):
-    session = window.session
-    session.run.set_pace(Pace.EASED)
-    for act in (window.action("cut").trigger, session.to_data):
-        smooth(qtbot, session, "local-sd", 8)
-        qtbot.waitUntil(lambda: session.document.now is not session.document.recorded)
-        act()
-        assert session.document.now is session.document.recorded
-        assert not session.run.view.eased.active
-
-
-@pytest.mark.slow
-def test_keys_that_move_the_camera_leave_the_easing_and_others_end_it(window, qtbot):
-    session, view = window.session, window.canvas.interactor
-    session.run.set_pace(Pace.EASED)
-    smooth(qtbot, session, "local-sd", 8)
-    assert session.run.view.eased.active
-    direction = window.canvas.viewport.camera.GetDirectionOfProjection()
-    QTest.keyClick(view, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
-    QTest.keyClick(view, Qt.Key.Key_Right)
-    QTest.keyPress(view, Qt.Key.Key_Shift)
-    window.action("fit").trigger()
-    assert window.canvas.viewport.camera.GetDirectionOfProjection() != direction
-    assert session.run.view.eased.active
-    QTest.keyClick(view, Qt.Key.Key_Q)
-    assert not session.run.view.eased.active
-    assert session.document.now is session.document.recorded
 
 
 # Shortage of memory: the window asks before a run, and nothing changes if the user declines.
