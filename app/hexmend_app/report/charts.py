@@ -14,7 +14,7 @@ from hexmend.errors import HexmendError, ParameterError
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import Parametrised, parameter
-from hexmend.terminal_text import printable
+from hexmend.terminal_text import install_hint, printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -188,10 +188,7 @@ def check_matplotlib() -> None:
     try:
         import_module("matplotlib.figure")
     except ImportError:
-        raise HexmendError(
-            "figures need matplotlib, which is not installed: run  pip install '.[report]'  in the source folder "
-            "of Hexmend"
-        ) from None
+        raise HexmendError(f"figures need matplotlib, which is not installed: {install_hint('app')}") from None
 
 
 def new_figure(width: float, height: float) -> Figure:

@@ -98,7 +98,8 @@ def progress_display(option: ProgressOption) -> ProgressDisplay[Run]:
         return CallingDisplay(option)
     if option is not None and not isinstance(option, bool):
         raise ParameterError(f"progress = {option!r}: expected True, False, None, or a function of an iteration")
-    if option is False:
+    watched = in_notebook() or (sys.stderr is not None and sys.stderr.isatty())
+    if option is False or (option is None and not watched):
         return CallingDisplay()
     if in_notebook():
         bar = _NotebookBar()

@@ -10,7 +10,14 @@ import pytest
 from hexmend.io.storage import subprocess_reader
 
 #: Modules of tests in which the process of its own that a reader has is the point, or what may end it is read.
-_APART = ("test_subprocess_reader", "test_hdf5", "test_bad_files", "test_fuzz", "test_file_progress")
+_APART = (
+    "test_subprocess_reader",
+    "test_hdf5",
+    "test_bad_files",
+    "test_fuzz",
+    "test_file_progress",
+    "test_reading_memory",
+)
 
 
 @pytest.fixture(autouse=True)

@@ -10,6 +10,7 @@ import ast
 import ctypes
 import io
 import linecache
+import sys
 import threading
 import time
 import traceback
@@ -35,6 +36,7 @@ class Interpreter:
         self.namespace: dict[str, Any] = {"__name__": "__console__"}
         self._output: deque[tuple[str, bool]] = deque()
         self._pending = 0
+        self._lock = threading.Lock()  # an interrupt reaches no thread whose command has ended
         self._thread: int | None = None
         self._count = 0
 
@@ -46,19 +48,28 @@ class Interpreter:
         self._count += 1
         name = f"<console {self._count}>"
         linecache.cache[name] = len(source), None, source.splitlines(keepends=True), name
-        self._thread = threading.get_ident()
-        try:
-            with redirect_stdout(_Stream(self, False)), redirect_stderr(_Stream(self, True)):
+        streams = _Stream(self, False, sys.stdout), _Stream(self, True, sys.stderr)
+        with redirect_stdout(streams[0]), redirect_stderr(streams[1]):
+            with self._lock:
+                self._thread = threading.get_ident()
+            try:
                 for statement in ast.parse(source, name).body:
                     exec(compile(ast.Interactive([statement]), name, "single"), self.namespace)
-        finally:
-            self._thread = None
+            finally:
+                with self._lock:
+                    self._thread = None
 
     def interrupt(self) -> None:
         """Raise KeyboardInterrupt in the running command, if any."""
-        if self._thread is not None:
-            thread = ctypes.c_ulong(self._thread)
-            ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(KeyboardInterrupt))
+        with self._lock:
+            if self._thread is not None:
+                thread = ctypes.c_ulong(self._thread)
+                ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(KeyboardInterrupt))
+
+    @property
+    def thread(self) -> int | None:
+        """Identifier of the thread of the running command; None if no command runs."""
+        return self._thread
 
     def write(self, text: str, error: bool) -> None:
         """Add to the output; waits if a command prints faster than the output is read."""
@@ -86,14 +97,20 @@ class Interpreter:
 
 
 class _Stream(io.TextIOBase):
-    """Stream that sends text to the output of an interpreter."""
+    """Stream that sends text of the interpreter's thread to its output, and of other threads to `other`."""
 
-    def __init__(self, interpreter: Interpreter, error: bool):
-        self._interpreter, self._error = interpreter, error
+    def __init__(self, interpreter: Interpreter, error: bool, other: Any):
+        self._interpreter, self._error, self._other = interpreter, error, other
 
     def write(self, text: str) -> int:
-        self._interpreter.write(text, self._error)
-        return len(text)
+        if threading.get_ident() == self._interpreter.thread:
+            self._interpreter.write(text, self._error)
+            return len(text)
+        return 0 if self._other is None else self._other.write(text)
+
+    def flush(self) -> None:
+        if self._other is not None:
+            self._other.flush()
 
 
 def error_text(error: BaseException) -> str:

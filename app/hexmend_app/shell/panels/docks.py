@@ -184,9 +184,10 @@ class Docks(DockSet):
         try:
             docks, drawer, group = QByteArray(state["state"]), int(state["drawer"]), PanelGroup(state["group"])
             closed, fronts = set(state["closed"]), set(state["fronts"])
+            layout, hidden = state["layout"], bool(state["hidden"])
         except (KeyError, TypeError, ValueError):
             return
-        if state["layout"] != LAYOUT:
+        if layout != LAYOUT:
             return
         self.reset()
         QApplication.sendPostedEvents(self._main, QEvent.Type.LayoutRequest)
@@ -210,4 +211,4 @@ class Docks(DockSet):
         QApplication.sendPostedEvents(self._main, QEvent.Type.LayoutRequest)
         self._tab_bars.hide_stale(self._all())
         self._refresh_row()
-        self.set_hidden(bool(state["hidden"]))
+        self.set_hidden(hidden)

@@ -134,6 +134,7 @@ class AtomicFiles:
             Where the file cannot be replaced, see `atomic_write`.
         """
         if is_stream(path):
+            self._named[path] = path
             return path
         target, mode = writable_target(path)
         for one in self._replacements:

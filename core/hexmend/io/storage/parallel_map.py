@@ -37,4 +37,9 @@ def parallel_map(function: Callable[[T], R], items: Sequence[T]) -> Iterator[R]:
         return
     with ThreadPoolExecutor(count) as pool:
         for begin in range(0, len(items), count):
-            yield from pool.map(function, items[begin : begin + count])
+            batch = items[begin : begin + count]
+            try:
+                results = pool.map(function, batch)
+            except RuntimeError:  # the system starts no more threads
+                results = map(function, batch)
+            yield from results

@@ -36,11 +36,11 @@ class Local:
         threads = self._threads or cores_for(jobs)
         memory_mb, ending = (available() or 0) // jobs >> 20, threading.Event()
         with ThreadPoolExecutor(jobs) as pool:
-            running = {
-                pool.submit(run_task, task, memory_mb=memory_mb, threads=threads, cancelled=ending.is_set): task
-                for task in tasks
-            }
             try:
+                running = {
+                    pool.submit(run_task, task, memory_mb=memory_mb, threads=threads, cancelled=ending.is_set): task
+                    for task in tasks
+                }
                 for future in as_completed(list(running)):
                     yield running.pop(future), future.result()
             finally:

@@ -137,7 +137,7 @@ def test_a_pace_is_chosen_in_the_menu_and_stored(window):
     action = window.action(f"pace_{pace.value}")
     action.trigger()
     window.refresh()
-    assert window.session.run.view.pace is pace
+    assert window.session.run.pace is pace
     assert [one for one in Pace if window.action(f"pace_{one.value}").isChecked()] == [pace]
     assert Pace(settings.RUN_PACE.get()) is pace
 

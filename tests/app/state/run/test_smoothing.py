@@ -18,7 +18,6 @@ from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
 from tests.app.driving import turn
 from tests.core.grids import grid
-from tests.patience import PATIENCE
 
 SLOW = StoppingCriteria(tolerance=0, max_iterations=100_000)
 
@@ -86,7 +85,7 @@ def test_a_run_that_waits_to_be_shown_can_be_closed_and_let_go_on(document, smoo
 
 
 def test_a_slow_start_shows_an_iteration_for_a_moment_and_can_be_closed(document, smoothing, qtbot, monkeypatch):
-    monkeypatch.setattr(worker, "_SHOWN", PATIENCE)
+    monkeypatch.setattr(worker, "_SHOWN", 1e4)  # seconds
     smoothing.set_pace(Pace.SLOW_START)
     with qtbot.waitSignal(smoothing.iterated):
         smoothing.start(LocalSteepestDescent(), SLOW)

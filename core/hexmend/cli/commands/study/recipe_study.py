@@ -41,7 +41,9 @@ def run(args: argparse.Namespace) -> int:
     store = Store(output_folder(folder / "tasks"))
     meshes_to = output_folder(folder / "meshes") if args.write_meshes else None
     with FinishWriting():
-        shown = line_display(_describe, lambda count: (count.reused + count.done) / max(count.tasks, 1), always=True)
+        shown = line_display(
+            _describe, lambda count: (count.reused + count.done) / max(count.tasks, 1), delay=0.0, always=True
+        )
         with CleanExit() as signals, closing(shown):
             options = {"again": args.again, "meshes_to": meshes_to, "watch": shown.show}
             study = run_study(plan, meshes, store, workers, version=__version__, **options)
