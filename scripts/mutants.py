@@ -28,7 +28,7 @@ from mutmut.utils.format_utils import mangled_name_from_mutant_name
 #: Share of the mutants that tests must find.
 WANTED = 0.9
 #: Seconds of tests for each mutant, as they take without a fault; with it, they may take so many times as long.
-SECONDS, TIMES = 30.0, 5
+SECONDS, TIMES = 30.0, 10
 #: Memory limit of a process in bytes: a fault may allocate without limit.
 MEMORY = 12 << 30
 
