@@ -8,13 +8,14 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QLineEdit, QScrollArea, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.picture.colours import Range
 from hexmend_app.shell.keys import name_of
 from hexmend_app.shell.keys_page import KeysPage
 from hexmend_app.shell.start.program import report_unexpected_errors
+from hexmend_app.widgets.section import Section
 from tests.app.driving import named, pixels
 
 
@@ -49,6 +50,27 @@ def test_nothing_is_cut_off(window, qtbot, size):
         QApplication.processEvents()
         assert cut_off(window) == [], metric
         assert (window.width(), window.height(), window.docks.centre.width()) == (*size, width)
+
+
+def test_expanded_sections_fit_the_width_of_the_column(window, qtbot):
+    window.resize(1100, 700)
+    qtbot.waitUntil(lambda: window.width() == 1100)
+    for panel in ("run", "recipe", "look", "cut", "inside", "show"):
+        window.show_panel(panel)
+        for section in window.findChildren(Section):
+            if section.isVisible():
+                section.expand()
+        window.refresh()
+        qtbot.waitUntil(lambda: columns_overflowing(window) == [])
+
+
+def columns_overflowing(window):
+    """Return the scroll areas whose content is wider than they are."""
+    return [
+        area
+        for area in window.findChildren(QScrollArea)
+        if area.isVisible() and area.widget() and area.widget().width() > area.viewport().width()
+    ]
 
 
 def cut_off(window):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QApplication, QScrollArea, QVBoxLayout, QWidget
 
 from hexmend_app.feature import Panel
@@ -17,14 +17,28 @@ _EXTRA_WIDTH = 2
 
 
 class _StackArea(QScrollArea):
-    """Scroll area that scrolls to the focused widget, unless a mouse button is pressed.
+    """Scroll area as wide as its page that scrolls to the focused widget, unless a mouse button is pressed.
 
     Qt does so only if the focus comes from inside the area.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, page: QWidget) -> None:
         super().__init__()
+        self.verticalScrollBar().ensurePolished()  # the style sheet sets its width
+        self.setWidget(page)
+        self._fit()
         follow_focus(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Follow the width of the page, which is known when the page has been shown."""
+        done = super().eventFilter(watched, event)
+        if event.type() == QEvent.Type.LayoutRequest:
+            self._fit()
+        return done
+
+    def _fit(self) -> None:
+        width = self.widget().minimumSizeHint().width() + self.verticalScrollBar().sizeHint().width() + _EXTRA_WIDTH
+        self.setMinimumWidth(max(width, self.minimumWidth()))
 
     def focus_moved(self, now: QWidget | None) -> None:
         """Scroll to a widget of the area that receives the focus."""
@@ -37,15 +51,11 @@ def stack(panels: Sequence[Panel]) -> QScrollArea:
     page = QWidget()
     sections = (Section(panel.title, panel.widget, panel.help) for panel in panels[1:])
     fill(QVBoxLayout(page), panels[0].widget, *sections, None, margins=(4, 8, 4, 8))
-    scroll = _StackArea()
-    scroll.setWidget(page)
+    scroll = _StackArea(page)
     scroll.setWidgetResizable(True)
     scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
     scroll.setFrameShape(QScrollArea.Shape.NoFrame)
     scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    scroll_bar = scroll.verticalScrollBar()
-    scroll_bar.ensurePolished()  # the style sheet sets its width
-    scroll.setMinimumWidth(page.minimumSizeHint().width() + scroll_bar.sizeHint().width() + _EXTRA_WIDTH)
     return scroll
 
 
