@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 from benchmarks.section import COUNTS, BenchSection, mesh_files, smoothed
@@ -70,6 +71,11 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     for row in figures["runs"]:
         cells = [_cell(row[name]) for name in _RUNS]
         lines.append(f"| {' | '.join([row['mesh'], *cells, ', '.join(lower(row))])} |")
+    of_runs = [[row[name] for row in figures["runs"]] for name in _RUNS]
+    medians = [f"{median(run['least'] for run in runs):.4f}" for runs in of_runs]
+    inverted = [str(sum(run["inverted"] > 0 for run in runs)) for runs in of_runs]
+    lines += [f"| {' | '.join(['median', *medians])} | |"]
+    lines += [f"| {' | '.join(['meshes with inverted hexes', *inverted])} | |"]
     pairs, falls = len(_PAIRS) * len(figures["runs"]), sum(len(lower(row)) for row in figures["runs"])
     text = f"{falls} of {pairs} pairs end lower by more than {_FALL}; in brackets: inverted and invalid hexes."
     return [*lines, "", text]

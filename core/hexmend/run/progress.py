@@ -98,10 +98,11 @@ def progress_display(option: ProgressOption) -> ProgressDisplay[Run]:
         return CallingDisplay(option)
     if option is not None and not isinstance(option, bool):
         raise ParameterError(f"progress = {option!r}: expected True, False, None, or a function of an iteration")
-    watched = in_notebook() or (sys.stderr is not None and sys.stderr.isatty())
+    notebook = in_notebook()
+    watched = notebook or (sys.stderr is not None and sys.stderr.isatty())
     if option is False or (option is None and not watched):
         return CallingDisplay()
-    if in_notebook():
+    if notebook:
         bar = _NotebookBar()
         return TimedDisplay(bar.write, bar.erase, BAR_DELAY, 2 * BAR_INTERVAL)
     return line_display(describe_run, _share, always=bool(option))

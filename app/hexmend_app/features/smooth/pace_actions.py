@@ -13,7 +13,7 @@ from hexmend_app.translation import tr
 #: Texts and explanations of the paces.
 _PACES = {
     Pace.FASTEST: ("&As fast as possible", "Show the latest iteration; short runs end too quickly to be seen."),
-    Pace.SLOW_START: ("&Slow start", "Show each of the first 25 iterations for a tenth of a second."),
+    Pace.SLOW_START: ("&Slow start", "Show each of the first 25 iterations for at least a tenth of a second."),
     Pace.EVERY: ("E&very iteration", "Show every iteration; the run waits until it is drawn."),
 }
 

@@ -10,7 +10,7 @@ class Pace(Enum):
 
     #: The newest iteration, as often as it can be drawn; others are skipped.
     FASTEST = "fastest"
-    #: Each of the first iterations for a moment, so that the eye can follow a short run; then the newest.
+    #: Each of the first iterations for a moment at least, so that the eye can follow a short run; then the newest.
     SLOW_START = "slow-start"
     #: Each iteration: the run waits until it is shown.
     EVERY = "every"

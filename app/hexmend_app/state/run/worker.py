@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
+from time import monotonic
 
 from hexmend.advice import Advice, advise
 from hexmend.iteration import Iteration, Result
@@ -34,7 +35,7 @@ class IterationFrame:
 #: Seconds after which a worker that waits for its frame to be shown looks whether it still has to.
 _WAIT = 0.05
 
-#: Iterations of a run that are shown for a moment each at the pace `SLOW_START`, and the seconds of that.
+#: Iterations of a run at the pace `SLOW_START` that take some seconds at least each, and these seconds.
 _SLOW_ITERATIONS, _SHOWN = 25, 0.1
 
 
@@ -160,13 +161,13 @@ class Worker:
             self._record(run.start)
             self.prepared.set()
             while self._may_continue(run):
-                before = run.last
+                before, begun = run.last, monotonic()
                 iteration = next(run, None)
                 if iteration is not None:
                     self._record(iteration)
                     self._report(iteration, self._hit(before, iteration))
                     if self.pace is Pace.SLOW_START and iteration.number <= _SLOW_ITERATIONS:
-                        self.task.cancelled.wait(_SHOWN)
+                        self.task.cancelled.wait(max(0.0, _SHOWN - (monotonic() - begun)))
             run.close()
             if run.best is not run.last:
                 self._report(run.best)

@@ -235,8 +235,7 @@ class Topology:
     def irregular_boundary_edges(self) -> np.ndarray:
         """Boundary edges without exactly two hexes, as numbers of `edges`, (k,) int64.
 
-        They include the sharp edges of the boundary, with one hex if convex, three if concave, which
-        `hexmend_app.state.mesh.structure` leaves out.
+        They include the sharp edges of the boundary, with one hex if convex, three if concave.
         """
         return np.flatnonzero((self.edge_valence != 2) & self.edge_on_boundary)
 
