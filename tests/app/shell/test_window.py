@@ -16,6 +16,7 @@ from hexmend_app.shell.keys import name_of
 from hexmend_app.shell.keys_page import KeysPage
 from hexmend_app.shell.start.program import report_unexpected_errors
 from hexmend_app.widgets.section import Section
+from tests.app.canvas.test_shading_task import rested
 from tests.app.driving import named, pixels
 
 
@@ -169,13 +170,15 @@ def test_a_mnemonic_stays_when_the_text_of_an_action_changes(window):
 
 
 @pytest.mark.slow
-def test_keys_of_vtk_do_nothing(window):
+def test_keys_of_vtk_do_nothing(window, qtbot):
     view = window.canvas.interactor
     view.setFocus()
+    rested(window, qtbot)
     before = pixels(window)
     for typed in "wsrquj":
         QTest.keyClicks(view, typed)
-    assert (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() < 0.05  # fine shading may come between
+    rested(window, qtbot)
+    assert (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() < 0.01
     assert window.isVisible()
 
 
