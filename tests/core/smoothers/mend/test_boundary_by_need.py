@@ -14,6 +14,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.maxmin import MAXMIN
+from hexmend.smoothers.mend.stages import Stages
 from hexmend.smoothers.sliding_smoother import absolute_tolerance
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
@@ -228,3 +229,24 @@ def test_edges_between_sets_are_left_only_with_a_tolerance_in_numbers():
     assert not holding.leavable[between].any()
     assert released.leavable[between & ~released.mesh.fixed].all()
     np.testing.assert_array_equal(holding.node_class, released.node_class)
+
+
+@pytest.mark.parametrize(
+    ("settings", "passed_over"),
+    [({}, True), ({"surface_tolerance": 0.0}, False), ({"goal": "shape"}, False), ({"goal": "balanced"}, False)],
+)
+def test_sliding_is_passed_over_where_a_hex_is_mended_off_the_surface_only(monkeypatch, settings, passed_over):
+    """The corner of a block is cut off, so that a hex has two faces on one flat patch."""
+    mesh, starts, start_sliding = grid(3), [], Stages.start_sliding
+
+    def start(*arguments):
+        found = yield from start_sliding(*arguments)
+        starts.append(found)
+        return found
+
+    monkeypatch.setattr(Stages, "start_sliding", start)
+    edge = (mesh.points[:, 0] == 0) & (mesh.points[:, 1] == 0)
+    points = np.where(edge[:, None], mesh.points + [0.5, 0.5, 0], mesh.points)
+    result = smooth(mesh.with_points(points), Mend(**{"goal": "scaled-jacobian", "boundary": "slide"} | settings))
+    assert [(found.passed_over, found.shape is None) for found in starts] == [(passed_over, passed_over)]
+    assert (result.after.inverted == 0) == (settings.get("surface_tolerance") != 0.0)
