@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QApplication, QScrollArea, QVBoxLayout, QWidget
 
 from hexmend_app.feature import Panel
@@ -16,25 +17,30 @@ from hexmend_app.widgets.section import Section
 _EXTRA_WIDTH = 2
 
 
+class _Page(QWidget):
+    """Page that tells when it has another size, as where its panels need more than a scroll area has."""
+
+    resized = Signal()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Tell of it."""
+        super().resizeEvent(event)
+        self.resized.emit()
+
+
 class _StackArea(QScrollArea):
     """Scroll area as wide as its page that scrolls to the focused widget, unless a mouse button is pressed.
 
     Qt does so only if the focus comes from inside the area.
     """
 
-    def __init__(self, page: QWidget) -> None:
+    def __init__(self, page: _Page) -> None:
         super().__init__()
         self.verticalScrollBar().ensurePolished()  # the style sheet sets its width
         self.setWidget(page)
         self._fit()
+        page.resized.connect(self._fit)
         follow_focus(self)
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Follow the width of the page, which is known when the page has been shown."""
-        done = super().eventFilter(watched, event)
-        if event.type() == QEvent.Type.LayoutRequest:
-            self._fit()
-        return done
 
     def _fit(self) -> None:
         width = self.widget().minimumSizeHint().width() + self.verticalScrollBar().sizeHint().width() + _EXTRA_WIDTH
@@ -48,7 +54,7 @@ class _StackArea(QScrollArea):
 
 def stack(panels: Sequence[Panel]) -> QScrollArea:
     """Return a scroll area with panels one below the other; all but the first can be collapsed under their titles."""
-    page = QWidget()
+    page = _Page()
     sections = (Section(panel.title, panel.widget, panel.help) for panel in panels[1:])
     fill(QVBoxLayout(page), panels[0].widget, *sections, None, margins=(4, 8, 4, 8))
     scroll = _StackArea(page)
