@@ -79,6 +79,15 @@ def session_of(window, path):
     return read_archive(path, "Hexmend session", VERSION)
 
 
+def rounded(value):
+    """Return nested data with rounded numbers, as a camera that was moved and returned differs in its last digits."""
+    if isinstance(value, dict):
+        return {key: rounded(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [rounded(item) for item in value]
+    return round(value, 9) + 0.0 if isinstance(value, float) else value
+
+
 def test_after_a_reset_the_shared_window_has_the_session_and_layout_of_before(shared, qtbot, tmp_path):
     resetting, path = shared(qtbot), tmp_path / "a.hexmend"
     resetting.reset(qtbot)
@@ -86,5 +95,5 @@ def test_after_a_reset_the_shared_window_has_the_session_and_layout_of_before(sh
     live(resetting.window, qtbot)
     resetting.end()
     resetting.reset(qtbot)
-    np.testing.assert_equal(session_of(resetting.window, path), session)
+    np.testing.assert_equal(rounded(session_of(resetting.window, path)), rounded(session))
     assert resetting.window.docks.state() == layout

@@ -175,7 +175,8 @@ def test_keys_of_vtk_do_nothing(window, qtbot):
     view.setFocus()
     rested(window, qtbot)
     before = pixels(window)
-    for typed in "wsrquj":
+    hexmend = {declared.keys for declared in window.menus.declared()}
+    for typed in sorted(set("3acefjpqrstuw") - {keys.lower() for keys in hexmend}):
         QTest.keyClicks(view, typed)
     rested(window, qtbot)
     assert (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() < 0.01
