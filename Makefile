@@ -59,6 +59,7 @@ lint: $(VENV)/.test $(VENV)/.pins
 	@$(BIN)/ruff format --check
 	@$(BIN)/mypy
 	@$(BIN)/python scripts/check_words.py
+	@$(BIN)/python scripts/check_layers.py
 	@$(BIN)/python scripts/check_pages.py
 	@$(BIN)/clang-format --dry-run -Werror $(CXX_SOURCES)
 

@@ -1,15 +1,16 @@
-"""Draw docs/architecture-*.svg: the floors of core and app, as tests/test_floors.py has them; a test compares.
+"""Draw docs/architecture-*.svg: the floors of core and app, as scripts/check_layers.py has them.
 
 Use: python scripts/draw_floors.py [FOLDER]
 """
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
+
+import check_layers
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -20,10 +21,7 @@ _GROUND, _ROOF = (0x2A, 0x5D, 0x78), (0x8F, 0xD0, 0x9B)
 
 def floors() -> dict[str, Sequence[set[str]]]:
     """File names, and floors from the ground up."""
-    spec = importlib.util.spec_from_file_location("test_floors", ROOT / "tests/test_floors.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return {"architecture-core.svg": module.CORE, "architecture-app.svg": module.APP}
+    return {"architecture-core.svg": check_layers.CORE, "architecture-app.svg": check_layers.APP}
 
 
 def drawn(levels: Sequence[set[str]]) -> str:

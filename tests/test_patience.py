@@ -12,7 +12,7 @@ from tests.patience import PATIENCE
 #: Methods of qtbot that wait for an event: those of `BLOCKS` do so where a block ends.
 BLOCKS = "waitExposed", "waitActive", "waitSignal"
 WAITING = "waitUntil", "waitSignals", "waitCallback", *BLOCKS
-FILES = sorted((ROOT / "tests").rglob("*.py"))
+TREES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted((ROOT / "tests").rglob("*.py"))}
 
 
 def calls(node):
@@ -22,8 +22,8 @@ def calls(node):
 
 def test_all_who_wait_for_an_event_of_qt_have_the_patience_of_the_fixture():
     hasty = []
-    for path in FILES:
-        for name, call in calls(ast.parse(path.read_text(encoding="utf-8"))):
+    for path, tree in TREES.items():
+        for name, call in calls(tree):
             if name in WAITING and any(one.arg == "timeout" for one in call.keywords):
                 hasty.append(f"{path.relative_to(ROOT)}:{call.lineno}: {name}")
     assert hasty == []
@@ -31,8 +31,7 @@ def test_all_who_wait_for_an_event_of_qt_have_the_patience_of_the_fixture():
 
 def test_no_wait_is_without_a_block_and_none_is_for_time():
     wrong = []
-    for path in FILES:
-        tree = ast.parse(path.read_text(encoding="utf-8"))
+    for path, tree in TREES.items():
         statements = [
             one.value for one in ast.walk(tree) if isinstance(one, ast.Expr) and isinstance(one.value, ast.Call)
         ]

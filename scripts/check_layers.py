@@ -1,15 +1,13 @@
-"""Layers of core and app: a module imports only from layers below its own, without circles; the core needs no window."""
+#!/usr/bin/env python3
+"""Check the layers of core and app: modules import from layers below their own, without circles. Part of make lint."""
 
 from __future__ import annotations
 
 import ast
-import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
-
-import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -150,90 +148,48 @@ def circle(graph: dict[str, set[str]]) -> str:
     return ""
 
 
-def test_the_core_has_no_import_circle():
-    found = circle(import_graph(ROOT / "core/hexmend"))
-    assert not found, f"import circle: {found}"
-
-
-def package(folder: Path, **files: str) -> Path:
-    """Write the modules of a package `hexmend`, with __ for / in their names."""
-    for name, text in files.items():
-        path = folder / "hexmend" / f"{name.replace('__', '/')}.py"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    return folder / "hexmend"
-
-
-@pytest.mark.parametrize("line", [
-    "from hexmend.mesh import upper",
-    "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from hexmend.mesh.upper import X",
-    "import importlib\n\ndef late():\n    importlib.import_module('hexmend.mesh.upper')",
-])  # fmt: skip
-def test_a_circle_is_named(tmp_path, line):
-    found = circle(import_graph(package(tmp_path, mesh__lower=line, mesh__upper="import hexmend.mesh.lower")))
-    assert found.split(" -> ").count("hexmend.mesh.upper") > 0
-    assert circle(import_graph(package(tmp_path, mesh__lower="import os"))) == ""
-
-
-def test_the_core_keeps_its_floors():
-    assert broken(ROOT / "core/hexmend", CORE, SEES_THE_FACE) == []
-
-
-def test_the_app_keeps_its_floors():
-    assert broken(ROOT / "app/hexmend_app", APP, set()) == []
-
-
-@pytest.mark.parametrize(("module", "line", "complaint"), [
-    ("mesh__mesh", "from hexmend.run import smooth", "not below mesh"),
-    ("mesh__mesh", "import importlib\nimportlib.import_module('hexmend.quality')", "not below mesh"),
-    ("run__recipe", "from hexmend import Mesh", "public face"),
-    ("run__recipe", "from .recipe_files import read_recipe", "absolute name"),
-    ("magic", "import os", "has no layer"),
-    ("cli__info", "from hexmend import read", None),
-])  # fmt: skip
-def test_a_broken_floor_is_seen(tmp_path, module, line, complaint):
-    rows = broken(package(tmp_path, **{module: line}), CORE, SEES_THE_FACE)
-    assert [complaint in row for row in rows] == ([True] if complaint else [])
-
-
+#: Names that the modules of a folder do not import.
 DRAWS = {"pyvista", "vtk", "vtkmodules", "pyvistaqt", "pyqtgraph", "qtpy"}
+FORBIDDEN = {
+    "core/hexmend": {*WINDOWS, "benchmarks", "tests", "scripts"},
+    "app/hexmend_app": {"benchmarks", "tests", "scripts"},
+    "app/hexmend_app/state": {"PySide6.QtWidgets", "PySide6.QtGui", *DRAWS},
+    "app/hexmend_app/scene": {"PySide6", "pyvistaqt", "pyqtgraph", "qtpy"},
+    "app/hexmend_app/report": {"PySide6", *DRAWS},
+}
 
 
-@pytest.mark.parametrize(("folder", "forbidden"), [
-    ("core/hexmend", {*WINDOWS, "benchmarks", "tests", "scripts"}),
-    ("app/hexmend_app", {"benchmarks", "tests", "scripts"}),
-    ("app/hexmend_app/state", {"PySide6.QtWidgets", "PySide6.QtGui", *DRAWS}),
-    ("app/hexmend_app/scene", {"PySide6", "pyvistaqt", "pyqtgraph", "qtpy"}),
-    ("app/hexmend_app/report", {"PySide6", *DRAWS}),
-])  # fmt: skip
-def test_a_folder_imports_nothing_that_it_may_not_know(folder, forbidden):
-    rows = [
+def forbidden(folder: str) -> list[str]:
+    """List the imports of names that modules of a folder must not import."""
+    return [
         f"{path}:{line} imports {name}"
         for path, parts in sources(ROOT / folder)
         for name, line in imported(path)
-        if any(f"{name}.".startswith(f"{other}.") for other in forbidden) and name != CONVERTS.get(parts)
+        if any(f"{name}.".startswith(f"{other}.") for other in FORBIDDEN[folder]) and name != CONVERTS.get(parts)
     ]
-    assert rows == []
 
 
-def test_importing_all_of_the_core_brings_no_window_along():
-    program = (
-        "import importlib, pkgutil, sys, hexmend\n"
-        "for one in pkgutil.walk_packages(hexmend.__path__, 'hexmend.'):\n"
-        "    if not one.name.endswith('__main__'):\n"
-        "        importlib.import_module(one.name)\n"
-        f"print(sorted({{name.split('.')[0] for name in sys.modules}} & set({WINDOWS!r})))\n"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert done.stdout == "[]\n"
-
-
-def test_the_library_does_not_exit():
-    calls = {
-        f"{path}:{node.lineno}"
+def exits() -> list[str]:
+    """List the calls by which a library would end the process."""
+    return [
+        f"{path}:{node.lineno} ends the process"
         for path, parts in sources(ROOT / "core/hexmend")
         if parts[0] not in SEES_THE_FACE
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.Call) and ast.unparse(node.func) in ("sys.exit", "exit", "quit", "os._exit")
-    }
-    assert not calls
+    ]
+
+
+def main() -> int:
+    """Print what is wrong; returns 1 if there is anything."""
+    core, app = ROOT / "core/hexmend", ROOT / "app/hexmend_app"
+    rows = broken(core, CORE, SEES_THE_FACE) + broken(app, APP, set()) + exits()
+    rows += [row for folder in FORBIDDEN for row in forbidden(folder)]
+    found = circle(import_graph(core))
+    rows += [f"import circle: {found}"] if found else []
+    print(*rows, sep="\n", end="\n" if rows else "", file=sys.stderr)
+    return bool(rows)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
