@@ -88,6 +88,7 @@ def test_what_the_tutorial_says_can_be_done(tmp_path, monkeypatch, capsys):
     assert io.read("mended.vtu").n_hexes == io.read("bridge.vtu").n_hexes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "page", [page for page in PAGES if blocks(page) and page.name != "tutorial.md"], ids=lambda page: page.name
 )

@@ -10,6 +10,8 @@ import pytest
 
 from tests.browsers import chromium
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[1]
 
 
@@ -28,7 +30,6 @@ def site(tmp_path_factory):
     return folder
 
 
-@pytest.mark.slow
 def test_every_formula_is_mathml(site):
     for path in site.rglob("*.html"):
         written = (ROOT / "docs" / path.relative_to(site)).with_suffix(".md")
@@ -50,7 +51,6 @@ def opened(site, tmp_path_factory):
         yield page, asked
 
 
-@pytest.mark.slow
 def test_search_finds_pages_that_are_read_from_the_disk(opened, site):
     page, asked = opened
     page.get_by_placeholder("Search").click()
@@ -61,7 +61,6 @@ def test_search_finds_pages_that_are_read_from_the_disk(opened, site):
     assert all(url.startswith((site.as_uri(), "about:")) for url in asked)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("words", "file"), [
     ("abaqus", "abaqus.html"),
     ("material", "interfaces.html"),

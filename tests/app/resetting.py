@@ -19,7 +19,7 @@ from hexmend_app.state.session import session_data
 from hexmend_app.theme import theme_choice
 from hexmend_app.widgets.section import Section
 
-SIZE = 1400, 900
+SIZE = 1024, 640
 
 
 class Resetting:

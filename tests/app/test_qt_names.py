@@ -7,6 +7,7 @@ import pkgutil
 import textwrap
 from collections.abc import Iterator
 
+import pytest
 from PySide6.QtCore import QObject, Signal
 
 import hexmend_app
@@ -45,6 +46,7 @@ def attributes_set(kind: type) -> Iterator[str]:
                 yield name
 
 
+@pytest.mark.slow
 def test_no_class_hides_a_method_of_its_qt_class(qapp):
     classes = qt_classes()
     assert len(classes) > 50

@@ -11,6 +11,7 @@ def rested(window, qtbot):
     return mesh_layer
 
 
+@pytest.mark.slow
 def test_a_view_at_rest_is_shaded(window, qtbot):
     mesh_layer = rested(window, qtbot)
     assert mesh_layer.needs_shading is None

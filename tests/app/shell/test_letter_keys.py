@@ -126,6 +126,7 @@ def test_letters_cut_after_a_number_was_typed(window):
     assert window.session.view.look.cut.active
 
 
+@pytest.mark.slow
 def test_a_window_that_is_collected_hears_of_no_focus(qtbot):
     """Its filter may be there still while the window, which is part of a cycle, moves the focus."""
     for number in range(30):

@@ -172,6 +172,7 @@ def quadratic_tangle():
     return mesh.replace(pinned=np.arange(mesh.n_nodes) == middle), int(node), middle
 
 
+@pytest.mark.slow
 def test_a_pin_that_holds_hexes_inverted_is_named_and_unpinning_helps():
     mesh = pinned_tangle()
     result = smooth(mesh, "mend")

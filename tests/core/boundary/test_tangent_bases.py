@@ -30,6 +30,7 @@ def expected_basis(direction, of_curve):
     return np.column_stack([first, np.cross(direction, first), np.zeros(3)])
 
 
+@pytest.mark.slow
 def test_directions_are_those_of_the_normals_and_tangents(sliding):
     x, of_curve = places(sliding, 0), sliding.node_class[sliding.nodes] == NodeClass.CURVE
     found = sliding.surface.trees.closest(x, sliding.surface.group_of(sliding.nodes))

@@ -17,6 +17,7 @@ def plane():
     return make("plane")
 
 
+@pytest.mark.slow
 def test_counts_and_qualities_are_near_those_of_the_thesis(plane):
     summary = summarise(plane)
     assert examine(plane) == ()

@@ -309,6 +309,7 @@ def test_choices_that_make_no_sense_are_errors():
         hx.pad(Mesh(mesh.points, np.vstack([mesh.hexes[:-1], mesh.hexes[-1:, [0, 1, 2, 2, 4, 5, 6, 7]]])))
 
 
+@pytest.mark.slow
 def test_nodes_at_which_the_boundary_leaves_no_space_are_named():
     mesh = grid(3)
     points = mesh.points.copy()

@@ -61,6 +61,7 @@ def reaches_the_figures_of_one_process(given, source, out, ranks):
             assert report[time_][name] == (value and pytest.approx(value, rel=1e-12, abs=1e-12)), name
 
 
+@pytest.mark.slow
 @needs_mpi
 def test_two_ranks_reach_the_optimum_of_one_process(given, tmp_path):
     reaches_the_figures_of_one_process(given, given / "given.vtu", tmp_path / "out.pvtu", 2)

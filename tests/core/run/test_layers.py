@@ -110,6 +110,7 @@ def test_a_great_change_of_edge_lengths_is_said():
     assert grading_message(tangled, uniform, measure(tangled.points, tangled.hexes)) == ""
 
 
+@pytest.mark.slow
 def test_scrambled_layers_of_the_gallery_come_back():
     sound = make("layered", size=4000)
     result = smooth(make("layered", size=4000, scramble=0.6))

@@ -25,6 +25,7 @@ from tests.app.features.compare.table import (
 from tests.patience import PATIENCE
 
 
+@pytest.mark.slow
 def test_the_table_has_the_values_of_the_core_and_the_mesh_does_not_change(compared):
     before = compared.session.document.start.mesh
     assert compared.session.document.now.mesh is before

@@ -99,6 +99,7 @@ def click_at(panel, key, x):
     QTest.mouseClick(plot.plot.viewport(), LEFT, Qt.KeyboardModifier.NoModifier, at)
 
 
+@pytest.mark.slow
 def test_a_click_in_a_chart_selects_the_iteration_and_moves_the_marker(window, qtbot, panel):
     record = run(window, qtbot)
     assert len(panel.curves[0].columns) == 9

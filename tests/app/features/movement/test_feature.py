@@ -37,6 +37,7 @@ def go(window, record, number):
     window.refresh()
 
 
+@pytest.mark.slow
 def test_colours_follow_the_iteration_and_the_reference_state(window, record, panel):
     viewport, timeline = window.canvas.viewport, window.session.timeline
     press(panel.colours, "q-change")

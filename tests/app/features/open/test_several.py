@@ -174,6 +174,7 @@ def mesh(tmp_path):
     return tmp_path / "mesh.vtu"
 
 
+@pytest.mark.slow
 def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     look, pose = change_appearance(window, qtbot)

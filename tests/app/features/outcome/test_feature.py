@@ -50,6 +50,7 @@ def locked(window, qtbot, tmp_path):
     return int(mesh.topology.node_corners.items[0] // 8)
 
 
+@pytest.mark.slow
 def test_the_key_shows_why_the_run_stopped(window, qtbot):
     assert not window.features["outcome"].panel.isVisible()
     run_to_end(window, qtbot, "laplacian", keep_last=True)

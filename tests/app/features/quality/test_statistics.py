@@ -148,6 +148,7 @@ def test_a_narrow_bar_omits_the_figures_at_the_start(bar):
 
 
 def test_the_bar_follows_a_run(window, qtbot):
+    window.resize(1400, 900)  # so that all figures fit
     bar = window.features["quality"].bar
     start = window.session.document.start.summary
     assert bar.isVisible()

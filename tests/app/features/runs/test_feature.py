@@ -55,6 +55,7 @@ def click(window, row):
     window.refresh()
 
 
+@pytest.mark.slow
 def test_all_runs_are_listed_beside_the_mesh_at_the_start(window, three):
     assert texts(window, NAME) == ["At the start", *(record.name for record in three)]
     assert texts(window, SETTINGS) == [

@@ -64,6 +64,7 @@ def check(window, text):
     assert box.isChecked()
 
 
+@pytest.mark.slow
 def test_shortcuts_show_other_iterations(window, qtbot):
     stepped(window, qtbot)
     for pressed, number in (

@@ -63,6 +63,7 @@ def without_a_display(words):
     return subprocess.run([sys.executable, "-m", "hexmend", *words], env=environment).returncode
 
 
+@pytest.mark.slow
 def test_a_smooth_cut_shows_inverted_elements_inside(pictures):
     inside = pictures("--view", "+z", "--clip", "z:0.5", "--smooth", call=without_a_display)[:200]
     assert (np.abs(inside - INVERTED).sum(axis=2) < 90).sum() > 50

@@ -75,6 +75,7 @@ def test_a_crash_of_a_method_affects_its_own_row_only(laboratory, does, status, 
     assert is_answer(row)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems do not hold memory so")
 def test_the_memory_of_a_task_is_limited(laboratory):
     row = trial(laboratory, "eat", max_memory_mb=700)
