@@ -160,7 +160,7 @@ EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &parti
     const Indices hex_start = partition.hex_start;
     expect_rows(settings.target, partition.hexes.size());
     std::vector<EvaluationCount> counts(patches.size());
-    with_target(settings.target, [&](const auto &target) {
+    with_cases(settings.target, settings.delta, [&](auto soft, const auto &target) {
         for (std::size_t g = 0; g + 1 < groups.size(); ++g)
             parallel(groups[g + 1] - groups[g], [&](std::int64_t i) {
                 const auto at = groups[g] + i;
@@ -169,7 +169,7 @@ EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &parti
                 MultiNodePatch patch(points, partition.hexes.subspan(h, count), partition.slots.subspan(h, count),
                                      partition.nodes.subspan(from, partition.node_start[k + 1] - from), settings,
                                      target, h);
-                counts[at] = settings.delta != 0 ? patch.template take_step<true>() : patch.template take_step<false>();
+                counts[at] = patch.template take_step<soft>();
             });
     });
     EvaluationCount total;
