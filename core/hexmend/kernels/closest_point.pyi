@@ -162,12 +162,6 @@ def quantiles_around(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2)
     those at node i are ends[start[i]:start[i + 1]] // 2. A share of the values is less than the quantile.
     """
 
-def extremes_in_cells(cell: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], cells: int) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,))]:
-    """
-    True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number
-    below `cells`; of equal values the last is the largest, the first the least.
-    """
-
 def vertex_normals(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], patch: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], normals: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
     """
     Write the unit normals (3 t, 3) at the corners of each of triangles (t, 3) int32: the mean over those of the

@@ -6,18 +6,8 @@ import numpy
 from numpy.typing import NDArray
 
 import hexmend.kernels.hex_mesh
-import hexmend.kernels.line_search
-import hexmend.kernels.target
+import hexmend.kernels.local
 
-
-class PatchStepSettings:
-    """Settings of a step of a patch."""
-
-    def __init__(self, delta: float, norm: tuple[float, float], search: hexmend.kernels.line_search.LineSearch, target: hexmend.kernels.target.TargetMatrices | None = None) -> None:
-        """
-        delta applies to the patch scaled to mean edge length 1, with a target to S W^-1; norm is (p, offset)
-        of the objective. The target has a row for each of the partition's hexes.
-        """
 
 class PatchPartition:
     """Patches, as `partition` makes them."""
@@ -45,11 +35,11 @@ def colours(hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order
     hexes: the number of hexes of the mesh.
     """
 
-def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], partition: PatchPartition, groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], patches: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: PatchStepSettings) -> tuple[int, int]:
+def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], partition: PatchPartition, groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], patches: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: hexmend.kernels.local.NodeStepSettings) -> tuple[int, int]:
     """
     Move the nodes of every patch by one Newton step together, in place, with the other nodes fixed.
 
     Group k is patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep
-    for any number of threads. Returns the evaluations of a hex's energy in line searches, and of its
-    derivatives.
+    for any number of threads. The target has a row for each of the partition's hexes. Returns the evaluations
+    of a hex's energy in line searches, and of its derivatives.
     """

@@ -158,9 +158,6 @@ void bind_closest_point(nb::module_ m) {
           "Around an edge are those at its two nodes and at the neighbours of these, without the edge itself and\n"
           "without values above `most`; the quantile is 0 where none is left. edges (e, 2) int32 have values (e,);\n"
           "those at node i are ends[start[i]:start[i + 1]] // 2. A share of the values is less than the quantile.");
-    m.def("extremes_in_cells", &extremes_in_cells, "cell"_a, "values"_a, "cells"_a, ReleaseGil(),
-          "True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number\n"
-          "below `cells`; of equal values the last is the largest, the first the least.");
     m.def(
         "vertex_normals", &vertex_normals, "points"_a, "triangles"_a, "patch"_a, "normals"_a, ReleaseGil(),
         "Write the unit normals (3 t, 3) at the corners of each of triangles (t, 3) int32: the mean over those of the\n"

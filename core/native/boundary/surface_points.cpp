@@ -26,16 +26,6 @@ std::uint64_t hash(const Point &x) {
     return h;
 }
 
-// Zeros in pages that take memory once they are written.
-struct Free {
-    void operator()(void *p) const { std::free(p); }
-};
-std::unique_ptr<std::int32_t[], Free> zeros(std::size_t count) {
-    auto *p = static_cast<std::int32_t *>(std::calloc(std::max<std::size_t>(count, 1), sizeof(std::int32_t)));
-    if (!p) throw std::bad_alloc();
-    return std::unique_ptr<std::int32_t[], Free>(p);
-}
-
 // The side that follows another of its face.
 std::int32_t next_side(std::int32_t side, int width) { return side % width + 1 < width ? side + 1 : side + 1 - width; }
 
@@ -70,7 +60,7 @@ std::pair<std::vector<std::int32_t>, std::vector<HigherAndSide>> sides_at_nodes(
 
 IntArray numbers_of_different_points(Points points) {
     const std::size_t slots = std::bit_ceil(SLOTS_PER_POINT * points.size() + 1);
-    auto table = zeros(slots);  // one more than the number of a different point, 0 for none
+    std::vector<std::int32_t> table(slots);  // one more than the number of a different point, 0 for none
     std::vector<std::int32_t> numbers(points.size()), first;
     for (std::size_t i = 0; i < points.size(); ++i) {
         std::size_t slot = hash(points[i]) & (slots - 1);
@@ -158,21 +148,6 @@ OwnedArray<double> quantiles_around(ArrayView<const Node, 2> edges, Indices star
         }
     });
     return {std::move(quantiles)};
-}
-
-OwnedArray<bool> extremes_in_cells(Indices cell, Numbers values, std::int64_t cells) {
-    expect(cells >= 0, "cells: the number of cells is expected");
-    expect(cell.size() == values.size(), "values: one for each of the cells of points is expected");
-    for (std::int32_t c : cell) expect(c >= 0 && c < cells, "cell: a number is out of range");
-    auto least = zeros(cells), most = zeros(cells);  // one more than the number of the point, 0 for none
-    for (std::size_t i = 0; i < cell.size(); ++i) {
-        std::int32_t &low = least[cell[i]], &high = most[cell[i]];
-        if (!low || values[i] < values[low - 1]) low = static_cast<std::int32_t>(i + 1);
-        if (!high || values[i] >= values[high - 1]) high = static_cast<std::int32_t>(i + 1);
-    }
-    OwnedArray<bool> found{std::vector<std::uint8_t>(cell.size())};
-    for (std::int32_t c : cell) found.values[least[c] - 1] = found.values[most[c] - 1] = true;
-    return found;
 }
 
 }  // namespace hexmend

@@ -84,26 +84,6 @@ template <class Item> class CSRBuilder {
     std::vector<std::vector<Item>> chunks_;
 };
 
-// Smallest number of steps between each of `count` items and one for which is_start(i); where there is no way, one more
-// than the largest. each_neighbour(i, body) calls body(j) for the neighbours of item i.
-template <class IsStart, class EachNeighbour>
-std::vector<std::int32_t> breadth_first_levels(std::int64_t count, const IsStart &is_start,
-                                               const EachNeighbour &each_neighbour) {
-    std::vector<std::int32_t> level(count, -1), queue;
-    queue.reserve(count);
-    for (std::int64_t i = 0; i < count; ++i)
-        if (is_start(i)) level[i] = 0, queue.push_back(i);
-    std::int32_t deepest = -1;
-    for (std::size_t at = 0; at < queue.size(); ++at) {
-        deepest = level[queue[at]];
-        each_neighbour(queue[at], [&](std::int32_t j) {
-            if (level[j] < 0) level[j] = deepest + 1, queue.push_back(j);
-        });
-    }
-    std::replace(level.begin(), level.end(), -1, deepest + 1);
-    return level;
-}
-
 // Rows of `count` + 1 starts and their items, as arrays.
 inline CSR arrays(CSRBuilder<std::int32_t> &&rows) {
     std::vector<std::int32_t> items(rows.size());

@@ -157,14 +157,6 @@ void join(std::span<std::int32_t> parent, Indices items, int width) {
     }
 }
 
-IntArray component_numbers(Indices parent) {
-    std::vector<std::int32_t> number(parent.size());
-    std::int32_t count = 0;
-    for (std::size_t i = 0; i < parent.size(); ++i)  // a parent is never above its child
-        number[i] = parent[i] == static_cast<std::int32_t>(i) ? count++ : number[parent[i]];
-    return {std::move(number)};
-}
-
 CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_items) {
     expect_corners(hexes.size(), start, corners);
     return arrays(CSRBuilder<Node>(start.size() - 1, 3 * widest(start) + 1, max_items, [&](std::int64_t i, Node *ring) {
@@ -197,37 +189,6 @@ CSR grouped(Indices colour, std::int64_t count) {
     for (std::int64_t i = colour.size() - 1; i >= 0; --i)
         if (colour[i] >= 0) nodes[--start[colour[i]]] = i;
     return {{std::move(start)}, {std::move(nodes)}};
-}
-
-IntArray layers(Neighbours neighbours) {
-    auto on_boundary = [&](std::int64_t h) {
-        return std::any_of(neighbours[h].begin(), neighbours[h].end(), [](auto other) { return other < 0; });
-    };
-    return {breadth_first_levels(neighbours.size(), on_boundary, [&](std::int32_t h, const auto &body) {
-        for (auto other : neighbours[h])
-            if (other >= 0) body(other);
-    })};
-}
-
-OwnedArray<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings) {
-    expect_corners(hexes.size(), start, corners);
-    std::vector<std::uint8_t> reached(hexes.size()), seen(start.size() - 1);
-    std::vector<std::int32_t> queue;
-    auto reach = [&](std::int32_t h) {
-        if (reached[h]) return;
-        reached[h] = true;
-        queue.push_back(h);
-    };
-    for (auto h : chosen) reach(h);
-    std::size_t at = 0;
-    for (int ring = 0; ring < rings; ++ring)
-        for (std::size_t last = queue.size(); at < last; ++at)
-            for (Node i : hexes[queue[at]]) {
-                if (seen[i]) continue;
-                seen[i] = true;
-                for (auto s = start[i]; s < start[i + 1]; ++s) reach(corners[s] / 8);
-            }
-    return {std::move(reached)};
 }
 
 }  // namespace hexmend

@@ -25,9 +25,6 @@ CSR overlapping_corners(Hexes hexes, Indices start, Indices corners);
 // beginning every item is its own parent. Join the items of each row of `width` items.
 void join(std::span<std::int32_t> parent, Indices items, int width);
 
-// Component of each item, numbered in the order of their lowest items.
-IntArray component_numbers(Indices parent);
-
 // Edge neighbours of each node, ascending; throws std::overflow_error if there are more than `max_items`.
 CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_items);
 
@@ -36,12 +33,6 @@ IntArray greedy_colours(Indices start, Indices corners, std::span<const bool> ch
 
 // Nodes of each of `count` colours, ascending; colour -1 is in no group.
 CSR grouped(Indices colour, std::int64_t count);
-
-// Number of faces crossed on the shortest way from each hex to a boundary hex, (m,).
-IntArray layers(Neighbours neighbours);
-
-// True for the chosen hexes and those within `rings` steps through common nodes, (m,).
-OwnedArray<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings);
 
 // Every edge once, (e, 2); the number of hexes around it; whether it is on the boundary.
 std::tuple<OwnedArray<Node, 2>, IntArray, OwnedArray<bool>> edges(Hexes hexes, Indices start, Indices corners,

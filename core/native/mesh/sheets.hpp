@@ -12,8 +12,4 @@ using EdgeGroups = ArrayView<const std::int32_t, 4>;
 // where there is none. The last value stands for no edge.
 void average_along_sheets(EdgeGroups groups, Numbers values, std::span<double> average, std::span<std::int32_t> count);
 
-// Fill in the values of unknown edges from the known ones of their groups, front by front; each front is the average
-// over the groups with an edge that was known before it. Edges that no front reaches stay unknown.
-void fill_along_sheets(EdgeGroups groups, std::span<double> values, std::span<bool> known);
-
 }  // namespace hexmend

@@ -120,77 +120,7 @@ std::int64_t smart_sweep_of(std::span<Point> points, const HexMesh &mesh, Indice
     return rejected;
 }
 
-// Nodes of a sequence that are sorted by wavefronts at a time: their points stay in the cache.
-constexpr std::size_t STRETCH = 256;
-
-// Stretches of a sequence of nodes, each by wavefronts: a node follows the nodes of its ring, and those that have it in
-// theirs, that come before it in the sequence, and precedes the others.
-std::vector<Node> by_wavefront(std::int64_t count, Indices ring_start, Indices ring, Indices nodes) {
-    expect_rings(count, ring_start, ring);
-    std::vector<std::int32_t> written(count), read(count);  // of each node: one more than its last wavefront
-    std::vector<std::int32_t> wavefront(nodes.size()), start(1);
-    std::int32_t first = 0;  // wavefront of the stretch
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        if (k % STRETCH == 0) first = static_cast<std::int32_t>(start.size()) - 1;
-        const Node i = nodes[k];
-        std::int32_t &own = wavefront[k] = std::max({first, written[i], read[i]});
-        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s) own = std::max(own, written[ring[s]]);
-        written[i] = own + 1;
-        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s) read[ring[s]] = std::max(read[ring[s]], own + 1);
-        if (start.size() < static_cast<std::size_t>(own) + 2) start.resize(own + 2);
-        ++start[own + 1];
-    }
-    accumulate(start);
-    std::vector<Node> order(nodes.size());
-    for (std::size_t k = 0; k < nodes.size(); ++k) order[start[wavefront[k]]++] = nodes[k];
-    return order;
-}
-
 }  // namespace
-
-LaplacianSweeps::LaplacianSweeps(Points points, Indices ring_start, Indices ring, Indices nodes)
-    : nodes_(by_wavefront(points.size(), ring_start, ring, nodes)), places_(points.size()) {
-    std::vector<std::int32_t> stored(points.size(), -1);
-    for (std::size_t k = 0; k < nodes.size(); ++k) stored[nodes_[k]] = k;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (stored[i] < 0) stored[i] = nodes_.size(), nodes_.push_back(i);
-        places_[stored[i]] = {Pair{points[i][0], points[i][1]}, Pair{points[i][2], 0.0}};
-    }
-    degree_.reserve(nodes.size());
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const Node i = nodes_[k];
-        degree_.push_back(ring_start[i + 1] - ring_start[i]);
-        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s) neighbours_.push_back(stored[ring[s]]);
-    }
-}
-
-void LaplacianSweeps::next(std::span<Point> points) {
-    expect(points.size() == nodes_.size(), "points: another number of nodes is expected");
-    const std::int32_t *neighbour = neighbours_.data(), *degree = degree_.data();
-    const Node *node = nodes_.data();
-    Place *places = places_.data();
-    const std::size_t moving = degree_.size(), all = nodes_.size();
-    for (std::size_t k = 0; k < all; ++k) {
-        if (k < moving) {
-            Place sum;
-            for (const auto *end = neighbour + degree[k]; neighbour < end; ++neighbour)
-                sum.xy += places[*neighbour].xy, sum.z += places[*neighbour].z;
-            const double count = degree[k];
-            places[k] = {sum.xy / count, sum.z / count};
-        }
-        points[node[k]] = {places[k].xy[0], places[k].xy[1], places[k].z[0]};
-    }
-}
-
-bool most_wait(Indices ring_start, Indices ring, Indices nodes) {
-    expect(are_csr(ring_start, ring.size()), "ring_start: its last number is expected to be the length of ring");
-    std::size_t waiting = 0;
-    for (std::size_t k = 1; k < nodes.size(); ++k) {
-        auto own = ring.subspan(ring_start[nodes[k]], ring_start[nodes[k] + 1] - ring_start[nodes[k]]);
-        waiting += std::find(own.begin(), own.end(), nodes[k - 1]) != own.end();
-    }
-    return 2 * waiting > nodes.size();
-}
 
 void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes, const SlidingSurface *surface) {
     expect_rings(points.size(), ring_start, ring);

@@ -8,11 +8,19 @@ namespace hexmend {
 
 IntArray levels(Indices ring_start, Indices ring, std::span<const bool> from) {
     expect_rings(from.size(), ring_start, ring);
-    return {breadth_first_levels(
-        from.size(), [&](std::int64_t i) { return from[i]; },
-        [&](std::int32_t i, const auto &body) {
-            for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s) body(ring[s]);
-        })};
+    std::vector<std::int32_t> level(from.size(), -1), queue;
+    queue.reserve(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i)
+        if (from[i]) level[i] = 0, queue.push_back(i);
+    std::int32_t deepest = -1;
+    for (std::size_t at = 0; at < queue.size(); ++at) {
+        const auto i = queue[at];
+        deepest = level[i];
+        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s)
+            if (auto j = ring[s]; level[j] < 0) level[j] = deepest + 1, queue.push_back(j);
+    }
+    std::replace(level.begin(), level.end(), -1, deepest + 1);
+    return {std::move(level)};
 }
 
 CSR wavefronts(Indices start, Indices corners, Indices sequence) {

@@ -20,7 +20,7 @@ constexpr double INITIAL_SHIFT = 0.001, SHIFT_FACTOR = 4;
 // target lengths, of which row `first` on are those of the patch, is 1.
 template <class Target> class MultiNodePatch {
   public:
-    MultiNodePatch(std::span<Point> points, Hexes hexes, Hexes slots, Indices nodes, const PatchStepSettings &settings,
+    MultiNodePatch(std::span<Point> points, Hexes hexes, Hexes slots, Indices nodes, const NodeStepSettings &settings,
                    const Target &target, std::int64_t first)
         : points_(points),
           hexes_(hexes),
@@ -59,7 +59,7 @@ template <class Target> class MultiNodePatch {
     std::span<Point> points_;
     Hexes hexes_, slots_;
     Indices nodes_;
-    const PatchStepSettings &settings_;
+    const NodeStepSettings &settings_;
     std::vector<Corners<Lanes>> x_;
     std::vector<ScalesOf<Lanes, Target>> scales_;
     std::vector<Point> step_;
@@ -155,7 +155,7 @@ template <class Target> class MultiNodePatch {
 }  // namespace
 
 EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
-                            const PatchStepSettings &settings) {
+                            const NodeStepSettings &settings) {
     expect(are_csr(groups, patches.size()), "groups: its last number is expected to be the length of patches");
     const Indices hex_start = partition.hex_start;
     expect_rows(settings.target, partition.hexes.size());

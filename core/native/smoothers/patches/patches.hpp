@@ -3,22 +3,11 @@
 
 #include <tuple>
 
-#include "energy/objective_norm.hpp"
-#include "energy/target.hpp"
 #include "mesh/hex_mesh.hpp"
 #include "mesh/incidence.hpp"
-#include "smoothers/line_search.hpp"
+#include "smoothers/local.hpp"
 
 namespace hexmend {
-
-// Settings of a step of a patch. Lengths are in mean edge lengths of the patch, those of delta with a target in lengths
-// of each hex's target. The target has a row for each row of the partition's hexes.
-struct PatchStepSettings {
-    double delta;
-    ObjectiveNorm norm;
-    LineSearch search;
-    const TargetMatrices *target = nullptr;
-};
 
 // Evaluations of a hex's energy in line searches, and of its energy with derivatives.
 struct EvaluationCount {
@@ -44,8 +33,9 @@ std::tuple<IntArray, IntArray, IntArray, IntArray, OwnedArray<std::int32_t, 8>> 
 CSR colours(Indices hex_start, Indices patch_hexes, std::int64_t hexes);
 
 // Move the nodes of every patch by one Newton step together, in place. Group g, patches[groups[g]] to patches[groups[g
-// + 1] - 1], shares no hex.
+// + 1] - 1], shares no hex. Lengths are in mean edge lengths of the patch; the direction is Newton's, and the target
+// has a row for each row of the partition's hexes.
 EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
-                            const PatchStepSettings &settings);
+                            const NodeStepSettings &settings);
 
 }  // namespace hexmend
