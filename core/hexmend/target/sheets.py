@@ -92,9 +92,8 @@ class Sheets:
             a, b, c, d = np.where(sound, values[edges], 0.0).T
             means = (a + b + c + d) / sound.sum(axis=1)
             reached, place = np.unique(edges[open_], return_inverse=True)
-            values[reached] = np.bincount(place, np.broadcast_to(means[:, None], edges.shape)[open_]) / np.bincount(
-                place
-            )
+            totals = np.bincount(place, np.broadcast_to(means[:, None], edges.shape)[open_])
+            values[reached] = totals / np.bincount(place)
             known[reached] = True
             front = np.unique(around.of(reached) // 4)
 

@@ -101,31 +101,13 @@ void bind_conjugate_gradients(nb::module_ m) {
         .value("NEGATIVE_CURVATURE", NEGATIVE_CURVATURE, "A direction of negative curvature was met.")
         .value("TOO_MANY", TOO_MANY, "The number of iterations is exhausted.");
     nb::class_<BlockPattern>(m, "BlockPattern", "Pattern of a symmetric matrix of 3 x 3 blocks.")
-        .def(
-            "__init__",
-            [](BlockPattern *self, Indices bounds, Indices row_start, Indices columns) {
-                expect(!bounds.empty() && bounds.size() % 2 == 0, "bounds: two for each part are expected");
-                expect(std::cmp_equal(row_start.size(), std::int64_t{bounds.back()} + 1),
-                       "row_start: one more than the last of bounds is expected");
-                expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
-                new (self) BlockPattern{bounds, row_start, columns};
-            },
-            "bounds"_a, "row_start"_a, "columns"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-            nb::keep_alive<1, 4>(),
-            "bounds (2 parts,) int32: `ordering.slots`; row_start (k + 1,) and columns (blocks,) int32: blocks\n"
-            "above the diagonal, `sparsity.pattern`. Arrays are not copied.");
+        .def(ViewOf<Indices, Indices, Indices>(), "bounds"_a, "row_start"_a, "columns"_a,
+             "bounds (2 parts,) int32: `ordering.slots`; row_start (k + 1,) and columns (blocks,) int32: blocks\n"
+             "above the diagonal, `sparsity.pattern`. Arrays are not copied.");
     nb::class_<CoarsePattern>(m, "CoarsePattern", "Pattern of A R, R being translations of aggregates of slots.")
-        .def(
-            "__init__",
-            [](CoarsePattern *self, Indices aggregate, Indices row_start, Indices columns) {
-                expect(aggregate.size() + 1 == row_start.size(), "row_start: one more than aggregates is expected");
-                expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
-                new (self) CoarsePattern{aggregate, row_start, columns};
-            },
-            "aggregate"_a, "row_start"_a, "columns"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-            nb::keep_alive<1, 4>(),
-            "aggregate (k,) int32: the aggregate of each slot; row_start (k + 1,) and columns (blocks,) int32: the\n"
-            "aggregates that each row of A R meets, as `coarse_pattern` returns them. Arrays are not copied.");
+        .def(ViewOf<Indices, Indices, Indices>(), "aggregate"_a, "row_start"_a, "columns"_a,
+             "aggregate (k,) int32: the aggregate of each slot; row_start (k + 1,) and columns (blocks,) int32: the\n"
+             "aggregates that each row of A R meets, as `coarse_pattern` returns them. Arrays are not copied.");
     m.def("coarse_pattern", &coarse_pattern, "slots"_a, "slot_of_node"_a, "nodes"_a, "ring_start"_a, "ring"_a,
           "start"_a, "corners"_a, "distance"_a, ReleaseGil(),
           "Divide slots into aggregates: the arrays of a `CoarsePattern`.\n\n"

@@ -4,7 +4,6 @@
 #include "mesh/incidence.hpp"
 #include "mesh/metrics.hpp"
 #include "mesh/refinement.hpp"
-#include "mesh/sheets.hpp"
 #include "mesh/validity.hpp"
 
 namespace hexmend {
@@ -82,15 +81,9 @@ void bind_validity(nb::module_ m) {
 void bind_hex_mesh(nb::module_ m) {
     m.doc() = "Connectivity of a mesh, as sweeps take it.";
     nb::class_<HexMesh>(m, "HexMesh", "Hexes, and the corners of hexes at each node.")
-        .def(
-            "__init__",
-            [](HexMesh *self, Hexes hexes, Indices start, Indices corners) {
-                expect_corners(hexes.size(), start, corners);
-                new (self) HexMesh{hexes, start, corners};
-            },
-            "hexes"_a, "start"_a, "corners"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
-            "hexes (m, 8) int32; start (n + 1,) and corners (8 m,) int32: `incidence.node_corners`. Arrays are not\n"
-            "copied.");
+        .def(ViewOf<Hexes, Indices, Indices>(), "hexes"_a, "start"_a, "corners"_a,
+             "hexes (m, 8) int32; start (n + 1,) and corners (8 m,) int32: `incidence.node_corners`. Arrays are not\n"
+             "copied.");
 }
 
 void bind_incidence(nb::module_ m) {

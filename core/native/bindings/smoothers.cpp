@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 
 #include "bindings/arrays.hpp"
+#include "mesh/incidence.hpp"
 #include "smoothers/getme.hpp"
 #include "smoothers/laplacian.hpp"
 #include "smoothers/line_search.hpp"
@@ -9,7 +10,6 @@
 #include "smoothers/patches/patches.hpp"
 #include "smoothers/sliding.hpp"
 #include "smoothers/step_limits.hpp"
-#include "smoothers/wavefronts.hpp"
 #include "smoothers/worst_first.hpp"
 
 namespace hexmend {
@@ -156,20 +156,10 @@ void bind_local(nb::module_ m) {
 void bind_patches(nb::module_ m) {
     m.doc() = "Patches of several free nodes, and a Newton step of each.";
     nb::class_<PatchPartition>(m, "PatchPartition", "Patches, as `partition` makes them.")
-        .def(
-            "__init__",
-            [](PatchPartition *self, Hexes hexes, Hexes slots, Indices hex_start, Indices node_start, Indices nodes) {
-                expect(hexes.size() == slots.size(), "slots: one row for each of the hexes is expected");
-                expect(hex_start.size() == node_start.size(),
-                       "node_start: as many numbers as in hex_start are expected");
-                expect(are_csr(hex_start, hexes.size()), "hexes: as many as the last of hex_start are expected");
-                expect(are_csr(node_start, nodes.size()), "nodes: as many as the last of node_start are expected");
-                new (self) PatchPartition{hexes, slots, hex_start, node_start, nodes};
-            },
-            "hexes"_a, "slots"_a, "hex_start"_a, "node_start"_a, "nodes"_a, nb::keep_alive<1, 2>(),
-            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
-            "hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says. Arrays are\n"
-            "not copied.");
+        .def(ViewOf<Hexes, Hexes, Indices, Indices, Indices>(), "hexes"_a, "slots"_a, "hex_start"_a, "node_start"_a,
+             "nodes"_a,
+             "hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says. Arrays are\n"
+             "not copied.");
     m.def("partition", &partition, "mesh"_a, "free"_a, "size"_a, "overlap"_a, ReleaseGil(),
           "Divide the free nodes (n,) bool into connected patches of at most `size` nodes, breadth first from the\n"
           "lowest remaining node; then add to each the nodes within `overlap` steps between nodes of one hex.\n\n"

@@ -11,11 +11,7 @@ namespace {
 
 constexpr std::int64_t SAMPLES_PER_CHUNK = 128;
 
-// As NumPy sums the squares of short rows, without fused operations.
-double norm(const V3<double> &a) {
-    double x = uncontracted(a.x * a.x), y = uncontracted(a.y * a.y);
-    return std::sqrt(x + uncontracted(a.z * a.z) + y);
-}
+double norm(const V3<double> &a) { return std::sqrt(numpy_dot(a, a)); }
 
 bool has_moved(Points points, Points start, const FaceNodes &nodes, const FaceWeights &weights) {
     V3<double> moved;

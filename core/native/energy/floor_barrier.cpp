@@ -63,11 +63,6 @@ struct CornerJacobian {
     M3<Lanes> a, g;
 };
 
-inline Lanes scaled_jacobian(const M3<Lanes> &edges) {
-    Lanes lengths = length(edges.u) * length(edges.v) * length(edges.w);
-    return lengths > 0.0 ? determinant(edges) / lengths : broadcast<Lanes>(-1.0);
-}
-
 inline CornerJacobian corner_jacobian(const M3<Lanes> &edges, const Lanes &s) {
     auto c = cofactors(edges);
     auto over_square = [](const V3<Lanes> &e) { return square(e) > 0.0 ? 1.0 / square(e) : Lanes{}; };

@@ -186,4 +186,11 @@ template <class T, class Body> inline void for_each_block(std::int64_t hexes, co
     });
 }
 
+// Call body(corners, first, count) for every block of hexes.
+template <class T, class Body> inline void for_each_corners(Points points, Hexes hexes, const Body &body) {
+    for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+        body(gather_corners<T>(points, hexes, first, count), first, count);
+    });
+}
+
 }  // namespace hexmend

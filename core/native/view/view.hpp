@@ -26,9 +26,7 @@ std::pair<OwnedArray<Node, 4>, OwnedArray<Node>> opened(Hexes hexes, Neighbours 
 void touched(Points points, Hexes hexes, Points normals, Numbers offsets, bool notch, std::span<bool> answer);
 
 // x . normal without fused multiply-add: whether a node lies on a plane does not depend on the processor.
-inline double height(const Point &x, const Point &normal) {
-    return uncontracted(x[0] * normal[0]) + uncontracted(x[1] * normal[1]) + uncontracted(x[2] * normal[2]);
-}
+inline double height(const Point &x, const Point &normal) { return exact_dot(vector(x), vector(normal)); }
 
 // Polygon i has the points numbered places[start[i]] to places[start[i + 1] - 1].
 using PointNumbers = std::span<const std::int64_t>;

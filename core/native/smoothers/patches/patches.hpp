@@ -20,6 +20,13 @@ struct EvaluationCount {
 struct PatchPartition {
     Hexes hexes, slots;
     Indices hex_start, node_start, nodes;
+
+    void check() const {
+        expect(hexes.size() == slots.size(), "slots: one row for each of the hexes is expected");
+        expect(hex_start.size() == node_start.size(), "node_start: as many numbers as in hex_start are expected");
+        expect(are_csr(hex_start, hexes.size()), "hexes: as many as the last of hex_start are expected");
+        expect(are_csr(node_start, nodes.size()), "nodes: as many as the last of node_start are expected");
+    }
 };
 
 // Divide the free nodes into connected patches of at most `size` nodes, which then overlap. Returns node_start, nodes,

@@ -42,7 +42,7 @@ def _metrics() -> Iterator[Row]:
 
 
 def _incidence() -> Iterator[Row]:
-    n, nodes, k = case().n, case().nodes, 10
+    n, nodes = case().n, case().nodes
     yield row("hex_mesh.HexMesh")
     yield row("incidence.node_corners", listed="hexes", n=n)
     yield row("incidence.face_neighbours", opposed=True)

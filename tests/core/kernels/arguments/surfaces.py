@@ -75,7 +75,7 @@ def _samples() -> Iterator[Row]:
 
 
 def _points_and_edges() -> Iterator[Row]:
-    given, faces, n, f, j = _trees(), case().faces, case().n, case().f, 5
+    given, faces, n, f = _trees(), case().faces, case().n, case().f
     _, sides, first = edges_of_faces(faces.ravel(), 4, n)
     quads = {"faces": faces.ravel(), "width": 4, "nodes": n}
     corners = {"triangles": given["pieces"], "patch": 4 * f, "normals": 12 * f}
