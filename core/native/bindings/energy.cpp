@@ -27,10 +27,8 @@ void bind_floor_barrier(nb::module_ m) {
     nb::class_<Floors>(m, "Floors", "Floors of the hexes of a mesh, with the weight and the bands of their barrier.")
         .def(ViewOf<Numbers, Numbers, OmittedCorners, double, double, double>(), "jacobians"_a, "qualities"_a,
              "ignored"_a, "jacobian_band"_a, "quality_band"_a, "weight"_a,
-             "Floors jacobians (m,) of the scaled Jacobians and qualities (m,) of q(H), -inf where there is none; bit "
-             "t\n"
-             "of ignored (m,) uint8: corner t has no floor. The barrier begins a band above the floor. Arrays are not\n"
-             "copied.");
+             "Floors jacobians (m,) of the scaled Jacobians and qualities (m,) of q(H), -inf where there is none;\n"
+             "bit t of ignored (m,) uint8: corner t has no floor. The barrier begins a band above the floor.");
     m.def("qualities", &floor_qualities, "points"_a, "hexes"_a, "omitted"_a, "values"_a, "target"_a.none() = nb::none(),
           ReleaseGil(),
           "q(H) of every hex, with a target that of S W^-1, omitted corners as perfect; writes values (m,).");
@@ -55,7 +53,7 @@ void bind_assembly(nb::module_ m) {
              "hexes"_a, "slots"_a, "row_start"_a, "columns"_a,
              "Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: start[k] to start[k + 1] - 1 of numbers,\n"
              "in the mesh, int32. hexes (m, 8) int32 of the mesh; slots (n,) int32 of its nodes, -1 for fixed ones;\n"
-             "row_start (k + 1,) and columns (blocks,) int32: `sparsity.pattern`. Arrays are not copied.");
+             "row_start (k + 1,) and columns (blocks,) int32: `sparsity.pattern`.");
     bind_assemble<float>(m);
     bind_assemble<double>(m);
     m.def(

@@ -82,8 +82,7 @@ void bind_hex_mesh(nb::module_ m) {
     m.doc() = "Connectivity of a mesh, as sweeps take it.";
     nb::class_<HexMesh>(m, "HexMesh", "Hexes, and the corners of hexes at each node.")
         .def(ViewOf<Hexes, Indices, Indices>(), "hexes"_a, "start"_a, "corners"_a,
-             "hexes (m, 8) int32; start (n + 1,) and corners (8 m,) int32: `incidence.node_corners`. Arrays are not\n"
-             "copied.");
+             "hexes (m, 8) int32; start (n + 1,) and corners (8 m,) int32: `incidence.node_corners`.");
 }
 
 void bind_incidence(nb::module_ m) {

@@ -157,9 +157,7 @@ void bind_patches(nb::module_ m) {
     m.doc() = "Patches of several free nodes, and a Newton step of each.";
     nb::class_<PatchPartition>(m, "PatchPartition", "Patches, as `partition` makes them.")
         .def(ViewOf<Hexes, Hexes, Indices, Indices, Indices>(), "hexes"_a, "slots"_a, "hex_start"_a, "node_start"_a,
-             "nodes"_a,
-             "hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says. Arrays are\n"
-             "not copied.");
+             "nodes"_a, "hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says.");
     m.def("partition", &partition, "mesh"_a, "free"_a, "size"_a, "overlap"_a, ReleaseGil(),
           "Divide the free nodes (n,) bool into connected patches of at most `size` nodes, breadth first from the\n"
           "lowest remaining node; then add to each the nodes within `overlap` steps between nodes of one hex.\n\n"
@@ -169,18 +167,11 @@ void bind_patches(nb::module_ m) {
     m.def("colours", &colours, "hex_start"_a, "patch_hexes"_a, "hexes"_a, ReleaseGil(),
           "Groups of patches that share no hex, by greedy colouring: (start, patches), int32.\n\n"
           "hexes: the number of hexes of the mesh.");
-    m.def(
-        "sweep",
-        [](std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
-           const NodeStepSettings &settings) {
-            auto count = patch_sweep(points, partition, groups, patches, settings);
-            return std::pair{count.energies, count.derivatives};
-        },
-        "points"_a, "partition"_a, "groups"_a, "patches"_a, "settings"_a, ReleaseGil(),
-        "Move the nodes of every patch by one Newton step together, in place, with the other nodes fixed.\n\n"
-        "Group k is patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep\n"
-        "for any number of threads. The target has a row for each of the partition's hexes. Returns the evaluations\n"
-        "of a hex's energy in line searches, and of its derivatives.");
+    m.def("sweep", &patch_sweep, "points"_a, "partition"_a, "groups"_a, "patches"_a, "settings"_a, ReleaseGil(),
+          "Move the nodes of every patch by one Newton step together, in place, with the other nodes fixed.\n\n"
+          "Group k is patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep\n"
+          "for any number of threads. The target has a row for each of the partition's hexes. Returns the evaluations\n"
+          "of a hex's energy in line searches, and of its derivatives.");
 }
 
 void bind_step_limits(nb::module_ m) {

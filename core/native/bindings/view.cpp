@@ -7,15 +7,9 @@ void bind_clip_planes(nb::module_ m) {
     m.doc() =
         "Sides of planes on which hexes lie. A point is beyond a plane where x . normal > offset; normals (k, 3)\n"
         "and offsets (k,) float64. The functions run on one thread, because the window's thread calls them.";
-    m.def(
-        "centre_heights",
-        [](Points points, Hexes hexes, Points normal, std::span<double> eightfold) {
-            expect(normal.size() == 1, "normal: one is expected");
-            return centre_heights(points, hexes, normal[0], eightfold);
-        },
-        "points"_a, "hexes"_a, "normal"_a, "eightfold"_a, ReleaseGil(),
-        "Eight times the heights of the centres of hexes along a normal (1, 3); writes eightfold (m,) float64.\n\n"
-        "Returns the largest extent of a hex along the normal.");
+    m.def("centre_heights", &centre_heights, "points"_a, "hexes"_a, "normal"_a, "eightfold"_a, ReleaseGil(),
+          "Eight times the heights of the centres of hexes along a normal (1, 3); writes eightfold (m,) float64.\n\n"
+          "Returns the largest extent of a hex along the normal.");
     m.def("opened", &opened, "hexes"_a, "neighbours"_a, "eightfold"_a, "extent"_a, "offset"_a, ReleaseGil(),
           "Faces that a plane opens: those between hexes whose centres are before it and beyond it.\n\n"
           "eightfold (m,) float64 and extent are those of `centre_heights`; neighbours (m, 6) int32 the hex behind\n"

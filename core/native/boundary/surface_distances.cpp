@@ -29,16 +29,12 @@ FaceWeights weights_at(const FaceNodes &nodes, const Piece &piece, const Barycen
     return found;
 }
 
-void expect_rows(const SurfaceSamples &samples, const SampleDistances &now) {
-    expect(have_rows(samples.x.size(), now.distances, now.directions, now.nodes, now.weights),
-           "distances, directions, nodes and weights: a row for each of samples is expected");
-}
-
 }  // namespace
 
 void find_distances(const MovingTrees &trees, Points start, std::span<const FaceNodes> faces,
                     const SurfaceSamples &samples, std::span<const std::int64_t> which, const SampleDistances &now) {
-    expect_rows(samples, now);
+    expect(have_rows(samples.x.size(), now.distances, now.directions, now.nodes, now.weights),
+           "distances, directions, nodes and weights: a row for each of samples is expected");
     expect_boxes(trees.boxes, trees.links.size());
     expect(trees.points.size() == start.size() + faces.size(), "points: the nodes and a centre a face are expected");
     expect_known(samples.pieces, trees.pieces.size());

@@ -294,8 +294,7 @@ void expect_floors(const Floors &floors, std::size_t hexes, const TargetMatrices
 
 void floor_qualities(Points points, Hexes hexes, OmittedCorners omitted, std::span<double> values,
                      const TargetMatrices *target) {
-    expect(omitted.size() == hexes.size() && values.size() == hexes.size(),
-           "omitted and values: one for each hex is expected");
+    expect(have_rows(hexes.size(), omitted, values), "omitted and values: one for each hex is expected");
     expect_rows(target, hexes.size());
     with_target(target, [&](const auto &w) {
         for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
@@ -308,16 +307,14 @@ void floor_qualities(Points points, Hexes hexes, OmittedCorners omitted, std::sp
 
 void floor_values(Points points, Hexes hexes, const Floors &floors, OmittedCorners omitted, std::span<double> values,
                   const TargetMatrices *target) {
-    expect(omitted.size() == hexes.size() && values.size() == hexes.size(),
-           "omitted and values: one for each hex is expected");
+    expect(have_rows(hexes.size(), omitted, values), "omitted and values: one for each hex is expected");
     expect_floors(floors, hexes.size(), target);
     with_target(target, [&](const auto &w) { values_of(points, hexes, floors, omitted, values, w); });
 }
 
 void add_floor_gradient(Points points, Hexes hexes, const Floors &floors, OmittedCorners omitted, CornerVectors shares,
                         const TargetMatrices *target) {
-    expect(omitted.size() == hexes.size() && shares.size() == hexes.size(),
-           "omitted and shares: one for each hex is expected");
+    expect(have_rows(hexes.size(), omitted, shares), "omitted and shares: one for each hex is expected");
     expect_floors(floors, hexes.size(), target);
     with_target(target, [&](const auto &w) { gradient_of(points, hexes, floors, omitted, shares, w); });
 }

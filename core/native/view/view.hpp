@@ -20,7 +20,7 @@ void edges_kept(Hexes hexes, Indices start, Indices corners, ArrayView<const Nod
                 std::span<bool> answer);
 
 // Sides of planes on which hexes lie: a point is beyond a plane if x . normal > offset; normals (k, 3), offsets (k,).
-double centre_heights(Points points, Hexes hexes, const Point &normal, std::span<double> eightfold);
+double centre_heights(Points points, Hexes hexes, Points normal, std::span<double> eightfold);
 std::pair<OwnedArray<Node, 4>, OwnedArray<Node>> opened(Hexes hexes, Neighbours neighbours, Numbers eightfold,
                                                         double extent, double offset);
 void touched(Points points, Hexes hexes, Points normals, Numbers offsets, bool notch, std::span<bool> answer);

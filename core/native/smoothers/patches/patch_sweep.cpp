@@ -15,6 +15,11 @@ namespace {
 constexpr int MAX_SHIFTS = 10;
 constexpr double INITIAL_SHIFT = 0.001, SHIFT_FACTOR = 4;
 
+// Evaluations of a hex's energy in line searches, and of its energy with derivatives.
+struct EvaluationCount {
+    std::int64_t energies = 0, derivatives = 0;
+};
+
 // A patch during its step. The coordinates x_ of its hexes are relative to the patch's first node and scaled so that
 // the mean edge, each edge counted once a hex, has length 1; with a target, so that the root mean square of the inverse
 // target lengths, of which row `first` on are those of the patch, is 1.
@@ -154,8 +159,8 @@ template <class Target> class MultiNodePatch {
 
 }  // namespace
 
-EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
-                            const NodeStepSettings &settings) {
+std::pair<std::int64_t, std::int64_t> patch_sweep(std::span<Point> points, const PatchPartition &partition,
+                                                  Indices groups, Indices patches, const NodeStepSettings &settings) {
     expect(are_csr(groups, patches.size()), "groups: its last number is expected to be the length of patches");
     const Indices hex_start = partition.hex_start;
     expect_rows(settings.target, partition.hexes.size());
@@ -174,7 +179,7 @@ EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &parti
     });
     EvaluationCount total;
     for (auto &one : counts) total.energies += one.energies, total.derivatives += one.derivatives;
-    return total;
+    return {total.energies, total.derivatives};
 }
 
 }  // namespace hexmend

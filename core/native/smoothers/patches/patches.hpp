@@ -9,11 +9,6 @@
 
 namespace hexmend {
 
-// Evaluations of a hex's energy in line searches, and of its energy with derivatives.
-struct EvaluationCount {
-    std::int64_t energies = 0, derivatives = 0;
-};
-
 // Patches as `partition` makes them: the hexes of patch p, and the slots of their corners among its nodes (-1: fixed),
 // are the rows hex_start[p] to hex_start[p + 1] - 1, its nodes are nodes[node_start[p]] to nodes[node_start[p + 1] -
 // 1].
@@ -39,10 +34,11 @@ std::tuple<IntArray, IntArray, IntArray, IntArray, OwnedArray<std::int32_t, 8>> 
 // Groups of patches that share no hex, by greedy colouring.
 CSR colours(Indices hex_start, Indices patch_hexes, std::int64_t hexes);
 
-// Move the nodes of every patch by one Newton step together, in place. Group g, patches[groups[g]] to patches[groups[g
+// Move the nodes of every patch by one Newton step together, in place; returns the evaluations of a hex's energy in
+// line searches, and of its derivatives. Group g, patches[groups[g]] to patches[groups[g
 // + 1] - 1], shares no hex. Lengths are in mean edge lengths of the patch; the direction is Newton's, and the target
 // has a row for each row of the partition's hexes.
-EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
-                            const NodeStepSettings &settings);
+std::pair<std::int64_t, std::int64_t> patch_sweep(std::span<Point> points, const PatchPartition &partition,
+                                                  Indices groups, Indices patches, const NodeStepSettings &settings);
 
 }  // namespace hexmend
