@@ -161,7 +161,7 @@ class Topology:
         behind = self.face_neighbours
         inside = behind >= 0
         start = np.append(0, np.cumsum(inside.sum(axis=1))).astype(np.int32)
-        return wavefronts.levels(start, behind[inside], ~inside.all(axis=1))
+        return wavefronts.levels(start, behind[inside], np.logical_or.reduce(behind < 0, axis=1))
 
     def hexes_around(self, hexes: Iterable[int], rings: int) -> np.ndarray:
         """Find some hexes and those in rings around them.
