@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.boundary import SkinSurface
-from hexmend.kernels import corner_values
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
 from hexmend.quality import METRICS, ElementQuality, HexQuantity
@@ -46,11 +45,9 @@ class DisplacementQuantity(HexQuantity):
     unit: str = _UNIT
 
 
-def _of_nodes(movement: Displacement, distances: np.ndarray, of_corners: Callable[..., None]) -> np.ndarray:
+def _of_nodes(movement: Displacement, distances: np.ndarray, combine: Callable[..., np.ndarray]) -> np.ndarray:
     """Combine node distances (n,), in the mesh's unit, into one value a hex (m,), in mean edge lengths."""
-    values = np.empty(movement.mesh.n_hexes)
-    of_corners(movement.mesh.hexes, distances / movement.unit, values)
-    return values
+    return combine((distances / movement.unit).take(movement.mesh.hexes), axis=1)
 
 
 _QUANTITIES = (
@@ -60,7 +57,7 @@ _QUANTITIES = (
         label="Displacement",
         since=f"{_UNIT} moved",
         formula=f"greatest distance, over the nodes of a hex, {_MOVED}",
-        of=lambda movement: _of_nodes(movement, movement.distances, corner_values.largest),
+        of=lambda movement: _of_nodes(movement, movement.distances, np.max),
     ),
     DisplacementQuantity(
         name="moved-mean",
@@ -68,7 +65,7 @@ _QUANTITIES = (
         label="Mean displacement",
         since=f"{_UNIT} moved on average",
         formula=f"mean distance, over the nodes of a hex, {_MOVED}",
-        of=lambda movement: _of_nodes(movement, movement.distances, corner_values.mean),
+        of=lambda movement: _of_nodes(movement, movement.distances, np.mean),
     ),
     DisplacementQuantity(
         name="q-change",
@@ -91,7 +88,7 @@ _QUANTITIES = (
         formula="greatest distance, over the boundary nodes of a hex, from the boundary as it was, "
         f"in {_UNIT} of the mesh as it was opened",
         meaning="Distance by which a sliding boundary has left the surface.",
-        of=lambda movement: _of_nodes(movement, movement.off_surface, corner_values.largest),
+        of=lambda movement: _of_nodes(movement, movement.off_surface, np.max),
     ),
 )
 #: Displacement quantities by name.

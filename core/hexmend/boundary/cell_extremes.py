@@ -5,10 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.arrays import bounds
-from hexmend.kernels import closest_point
-
-#: Cells of a lattice for each point up to which a table of all cells is small.
-_MAX_CELLS = 16
 
 
 def extremes_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.ndarray:
@@ -35,11 +31,6 @@ def extremes_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.n
     if not len(x):
         return np.empty(0, dtype=np.int64)
     place = np.floor((x - bounds(x)[0]) / cell)
-    layers = bounds(place)[1] + 1
-    if layers.prod() <= _MAX_CELLS * len(x):
-        cells = int(layers.prod())
-        number = ((place[:, 0] * layers[1] + place[:, 1]) * layers[2] + place[:, 2]).astype(np.int32)
-    else:
-        filled, number = np.unique(place, axis=0, return_inverse=True)
-        cells, number = len(filled), number.reshape(-1).astype(np.int32)
-    return np.flatnonzero(closest_point.extremes_in_cells(number, distances, cells))
+    order = np.lexsort((distances, *place.T))
+    first = np.append(True, (np.diff(place[order], axis=0) != 0).any(axis=1))
+    return np.unique(order[first | np.roll(first, -1)])

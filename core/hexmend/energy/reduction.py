@@ -10,7 +10,6 @@ from hexmend.arrays import index_of, mask
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import conjugate_gradients
-from hexmend.kernels.rows import scale_rows
 from hexmend.mesh.mesh import Mesh
 
 #: Places of xx xy xz yy yz zz in a matrix of 3 rows.
@@ -64,14 +63,14 @@ class Reduction:
         """T times steps of the independent nodes, (j, 3): those of all free nodes, (k, 3)."""
         steps = steps.take(self.row, axis=0)
         turned = np.einsum("kij,kj->ki", self._turn_of_skew, steps.take(self._skew_rows, axis=0))
-        scale_rows(self._scales, self._bent_rows, steps)
+        steps[self._bent_rows] *= self._scales
         steps[self._skew_rows] = turned
         return steps
 
     def contract(self, forces: np.ndarray) -> np.ndarray:
         """T^T times vectors of all free nodes, (k, 3), overwritten: those of the independent nodes, (j, 3)."""
         turned = np.einsum("kji,kj->ki", self._turn_of_skew, forces.take(self._skew_rows, axis=0))
-        scale_rows(self._scales, self._bent_rows, forces)
+        forces[self._bent_rows] *= self._scales
         forces[self._skew_rows] = turned
         if not self.has_ties:
             return forces

@@ -17,7 +17,6 @@ from hexmend.energy.mesh_energy import MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import conjugate_gradients, sliding_surface
-from hexmend.kernels.rows import put_rows
 from hexmend.mesh.mesh import Mesh
 
 #: Length of the probing step for directional derivatives, in mean edge lengths.
@@ -115,7 +114,7 @@ class SlidingEnergy(MeshEnergy):
         """Let nodes (k,) slide, ascending."""
         self.sliding, self.sliding_nodes = sliding, nodes
         self.faceted = self._slides = self.ranks.any(nodes.size > 0)  # on any rank: they exchange projectors together
-        self._rows, self._sliding_numbers = np.searchsorted(self.nodes, nodes), nodes.astype(np.int32)
+        self._rows = np.searchsorted(self.nodes, nodes)
         self._sliding_blocks: dict[BlockSparsity, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
         self._differentiated: tuple[tuple, np.ndarray] | None = None
@@ -123,7 +122,7 @@ class SlidingEnergy(MeshEnergy):
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         there = super().moved(x, step, alpha)
-        put_rows(self._on_surface(there.take(self.sliding_nodes, axis=0)), self._sliding_numbers, there)
+        there[self.sliding_nodes] = self._on_surface(there.take(self.sliding_nodes, axis=0))
         return there
 
     def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray, x: np.ndarray | None = None) -> SlidingEnergy:

@@ -1,11 +1,9 @@
 """Compiled kernels: functions of arrays and of views of arrays. Written by scripts/kernel_stubs.py."""
 
 from hexmend.kernels import assembly as assembly
-from hexmend.kernels import binning as binning
 from hexmend.kernels import clip_planes as clip_planes
 from hexmend.kernels import closest_point as closest_point
 from hexmend.kernels import conjugate_gradients as conjugate_gradients
-from hexmend.kernels import corner_values as corner_values
 from hexmend.kernels import decimals as decimals
 from hexmend.kernels import element_step as element_step
 from hexmend.kernels import elements as elements
@@ -24,7 +22,6 @@ from hexmend.kernels import occlusion as occlusion
 from hexmend.kernels import ordering as ordering
 from hexmend.kernels import patches as patches
 from hexmend.kernels import polygons as polygons
-from hexmend.kernels import rows as rows
 from hexmend.kernels import skin as skin
 from hexmend.kernels import sliding_surface as sliding_surface
 from hexmend.kernels import sparsity as sparsity

@@ -21,7 +21,7 @@ class HexShares:
         """
         Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: start[k] to start[k + 1] - 1 of numbers,
         in the mesh, int32. hexes (m, 8) int32 of the mesh; slots (n,) int32 of its nodes, -1 for fixed ones;
-        row_start (k + 1,) and columns (blocks,) int32: `sparsity.pattern`. Arrays are not copied.
+        row_start (k + 1,) and columns (blocks,) int32: `sparsity.pattern`.
         """
 
 @overload

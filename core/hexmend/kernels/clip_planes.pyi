@@ -9,17 +9,9 @@ import numpy
 from numpy.typing import NDArray
 
 
-def centres_kept(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], normals: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], offsets: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], notch: bool, kept: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
-    """
-    Hexes whose centre remains after the cut; writes kept (m,) bool.
-
-    With `notch` what is beyond all planes is cut away, else what is beyond any of them.
-    """
-
 def centre_heights(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], normal: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], eightfold: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> float:
     """
-    Eight times the heights of the centres of hexes along a normal (1, 3), as `centres_kept` compares them with
-    eight times the offset; writes eightfold (m,) float64.
+    Eight times the heights of the centres of hexes along a normal (1, 3); writes eightfold (m,) float64.
 
     Returns the largest extent of a hex along the normal.
     """

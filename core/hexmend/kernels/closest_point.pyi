@@ -16,7 +16,7 @@ class BoxTrees:
     def __init__(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], boxes: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], links: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)]) -> None:
         """
         pieces (k, 3) int32 are in the order that `build_trees` returns, with its boxes (6 b, 4) float64 and
-        links (b, 4) int32. Arrays are not copied.
+        links (b, 4) int32.
         """
 
 class ClosestPointCache:
@@ -80,8 +80,8 @@ class NearPoints:
     def __init__(self, piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
         The piece (s,) int32 on which each lies, -1 for none, its barycentric weights there (s, 3), and its
-        position (s, 3), infinite for none; the root (s,) int32 of the tree that is searched for each. Arrays
-        are not copied; all but the roots are written.
+        position (s, 3), infinite for none; the root (s,) int32 of the tree that is searched for each. All
+        but the roots are written.
         """
 
 def means_beyond(trees: BoxTrees, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], samples: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], examined: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], near: NearPoints, beyond: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
@@ -102,8 +102,8 @@ def samples_beyond(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3
 
 def moved_samples(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], earlier: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], boundary_samples: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], face_of_piece: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], boundary_before: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], surface_before: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], boundary: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')], surface: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
-    Mark samples of a boundary, boundary (s,) bool, and of a surface, surface (t,) bool: those marked before, and
-    those of which a node differs between points and earlier, both (n, 3).
+    Mark samples of a boundary, boundary (s,) bool, and of a surface, surface (t,) bool: those marked before,
+    and those of which a node differs between points and earlier, both (n, 3).
 
     Nodes of samples of the boundary are rows of boundary_samples (s, 4), those of the surface the nodes of the
     face, of faces (f, 4), on which pieces (t,) lie, -1 for none, by face_of_piece (p,) int64. Others are int32;
@@ -117,7 +117,7 @@ class SurfaceSamples:
         """
         x (s, 3); before sliding, their distances (s,) from the boundary, and the nodes (s, 4) int32 and weights
         (s, 4) of the closest points; pieces (s,) int32 of the boundary near them, -1 for none; roots (s,)
-        int32 of the trees searched for them. Arrays are not copied.
+        int32 of the trees searched for them.
         """
 
 def find_distances(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], links: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], boxes: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], start: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], samples: SurfaceSamples, which: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], directions: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')]) -> None:
@@ -149,8 +149,8 @@ def count_fans(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order=
     """
     The number of fans at each of `nodes` nodes, faces connected by edges (nodes,) int32.
 
-    faces (k * width,) int32 are the nodes of faces one after the other; its side s runs from the node in place s
-    to the next of the face. Edge e has sides[first[e]:first[e + 1]], all int32.
+    faces (k * width,) int32 are the nodes of faces one after the other; its side s runs from the node in
+    place s to the next of the face. Edge e has sides[first[e]:first[e + 1]], all int32.
     """
 
 def quantiles_around(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], some: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], most: float, share: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
@@ -160,12 +160,6 @@ def quantiles_around(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2)
     Around an edge are those at its two nodes and at the neighbours of these, without the edge itself and
     without values above `most`; the quantile is 0 where none is left. edges (e, 2) int32 have values (e,);
     those at node i are ends[start[i]:start[i + 1]] // 2. A share of the values is less than the quantile.
-    """
-
-def extremes_in_cells(cell: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], cells: int) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,))]:
-    """
-    True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number
-    below `cells`; of equal values the last is the largest, the first the least.
     """
 
 def vertex_normals(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], patch: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], normals: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:

@@ -18,9 +18,8 @@ class Floors:
 
     def __init__(self, jacobians: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], qualities: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], ignored: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], jacobian_band: float, quality_band: float, weight: float) -> None:
         """
-        Floors jacobians (m,) of the scaled Jacobians and qualities (m,) of q(H), -inf where there is none; bit t
-        of ignored (m,) uint8: corner t has no floor. The barrier begins a band above the floor. Arrays are not
-        copied.
+        Floors jacobians (m,) of the scaled Jacobians and qualities (m,) of q(H), -inf where there is none;
+        bit t of ignored (m,) uint8: corner t has no floor. The barrier begins a band above the floor.
         """
 
 def qualities(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], omitted: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], target: hexmend.kernels.target.TargetMatrices | None = None) -> None:

@@ -40,11 +40,6 @@ def join(parent: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', 
     Union-find: parent[i] is an item of i's component, at most i.
     """
 
-def component_numbers(parent: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-    """
-    Component of each item, (n,) int32, numbered in the order of their lowest items.
-    """
-
 def node_rings(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], max_items: int = 2147483647) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
     """
     Edge neighbours of each node, ascending, as compressed rows (ring_start (n + 1,), ring), both int32.
@@ -62,17 +57,4 @@ def greedy_colours(start: Annotated[NDArray[numpy.int32], dict(shape=(None,), or
 def grouped(colour: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
     """
     Nodes grouped by colour, each group in node order: (start (count + 1,), nodes), both int32.
-    """
-
-def layers(neighbours: Annotated[NDArray[numpy.int32], dict(shape=(None, 6), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-    """
-    Number of hexes between each hex and the boundary, counted through faces, breadth first; (m,) int32.
-
-    0 for a hex with a boundary face; one more than the deepest layer where there is no way to the
-    boundary.
-    """
-
-def around(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], chosen: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], rings: int) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,))]:
-    """
-    The hexes `chosen` (k,) int32 and those within `rings` steps between hexes with a common node; (m,) bool.
     """

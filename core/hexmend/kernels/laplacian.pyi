@@ -16,26 +16,6 @@ import hexmend.kernels.sliding_surface
 def in_place(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], ring_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ring: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], surface: hexmend.kernels.sliding_surface.SlidingSurface | None = None) -> None:
     """Algorithm 3.1: one node after another; changes points (n, 3)."""
 
-def most_wait(ring_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ring: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bool:
-    """
-    True if most of `nodes` (k,) int32 have the one before them in their ring, and wait for its mean.
-    """
-
-class LaplacianSweeps:
-    """
-    Sweeps over the same nodes, bit for bit as `in_place`; faster where `most_wait`.
-    """
-
-    def __init__(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], ring_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ring: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
-        """
-        points (n, 3): where they begin, copied; nodes (k,) int32: each once, in the order of the sweep.
-        """
-
-    def next(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
-        """
-        Make a sweep and write the points (n, 3) after it, those of nodes that do not move too.
-        """
-
 def simultaneous(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], ring_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ring: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], moved: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
     """
     All nodes at once, from the old positions of the others; writes moved (n, 3).

@@ -6,26 +6,15 @@ import numpy
 from numpy.typing import NDArray
 
 import hexmend.kernels.hex_mesh
-import hexmend.kernels.line_search
-import hexmend.kernels.target
+import hexmend.kernels.local
 
-
-class PatchStepSettings:
-    """Settings of a step of a patch."""
-
-    def __init__(self, delta: float, norm: tuple[float, float], search: hexmend.kernels.line_search.LineSearch, target: hexmend.kernels.target.TargetMatrices | None = None) -> None:
-        """
-        delta applies to the patch scaled to mean edge length 1, with a target to S W^-1; norm is (p, offset)
-        of the objective. The target has a row for each of the partition's hexes.
-        """
 
 class PatchPartition:
     """Patches, as `partition` makes them."""
 
     def __init__(self, hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], node_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
-        hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says. Arrays are
-        not copied.
+        hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says.
         """
 
 def partition(mesh: hexmend.kernels.hex_mesh.HexMesh, free: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], size: int, overlap: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 8))]]:
@@ -45,11 +34,11 @@ def colours(hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order
     hexes: the number of hexes of the mesh.
     """
 
-def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], partition: PatchPartition, groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], patches: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: PatchStepSettings) -> tuple[int, int]:
+def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], partition: PatchPartition, groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], patches: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: hexmend.kernels.local.NodeStepSettings) -> tuple[int, int]:
     """
     Move the nodes of every patch by one Newton step together, in place, with the other nodes fixed.
 
     Group k is patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep
-    for any number of threads. Returns the evaluations of a hex's energy in line searches, and of its
-    derivatives.
+    for any number of threads. The target has a row for each of the partition's hexes. Returns the evaluations
+    of a hex's energy in line searches, and of its derivatives.
     """

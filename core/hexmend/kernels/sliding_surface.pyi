@@ -21,8 +21,7 @@ class BoundaryQuads:
     def __init__(self, start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], quads: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], outward: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> None:
         """
         corners holds 4 * quad + corner of each of k sliding nodes, from start (k + 1,) on, all int32; quads
-        (f, 4) int32; outward (f, 3) float64 are normals of the original surface, 0 where it has none. Arrays
-        are not copied.
+        (f, 4) int32; outward (f, 3) float64 are normals of the original surface, 0 where it has none.
         """
 
 class SlidingSurface:
@@ -31,7 +30,6 @@ class SlidingSurface:
     def __init__(self, slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], cache: hexmend.kernels.closest_point.ClosestPointCache, quads: BoundaryQuads) -> None:
         """
         slots (n,) int32 numbers the nodes that slide, -1 for others; cache has the curve or patch of each.
-        Arrays are not copied.
         """
 
 class SurfaceTerm:
@@ -42,7 +40,7 @@ class SurfaceTerm:
         counted (f, 4) uint8 is 0 for corners of quads that count as perfect; normals (f, 3) float64 are the
         outward unit normals of the surface at the quads; inverse_lengths (f, 8) float64 those that the
         edges from each corner to the next and the previous are to have, with a target. weight is that of a quad
-        relative to a hex; delta as of hexes. Arrays are not copied.
+        relative to a hex; delta as of hexes.
         """
 
 def tangent_bases(number: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], flat: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], smooth: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], of_curve: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], interior: float, bases: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu')]) -> None:

@@ -6,14 +6,11 @@ import numpy
 from numpy.typing import NDArray
 
 
-def shorten(step: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], reach: float) -> None:
+def shorten(step: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], ring_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ring: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], reach: float) -> None:
     """
     Shorten the steps (k, 3) of `nodes` (k,) that are longer than `reach` times the mean length of the
-    node's edges; changes step. hexes (m, 8); start, corners: `Topology.node_corners`.
+    node's edges; changes step. ring_start, ring: `Topology.rings`.
     """
-
-def shorten_by_rings(step: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ring: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], reach: float) -> None:
-    """As `shorten`, faster; start, ring: `Topology.rings`."""
 
 def displaced(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], step: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], alpha: float, moved: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
     """

@@ -27,15 +27,6 @@ def average_along_sheets(groups: Annotated[NDArray[numpy.int32], dict(shape=(Non
     no edge.
     """
 
-def fill_along_sheets(groups: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], known: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
-    """
-    Fill in the values (e + 1,) float64 of edges that are not known (e + 1,) bool, front by front; changes
-    both.
-
-    Each front is reached by groups (g, 4) int32 with a known edge: its values are the means of the means of
-    their known edges. Edges that no front reaches stay as they are.
-    """
-
 def coarse_blocks(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 27))]:
     """
     Nodes of each hex of the mesh of which this is a uniform refinement, 2 x 2 x 2 hexes for each, (k, 27)

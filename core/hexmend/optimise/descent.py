@@ -10,7 +10,7 @@ from hexmend.arrays import differing_rows
 from hexmend.energy import Hessian, MeshEnergy
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels.line_search import LineSearch
-from hexmend.kernels.step_limits import shorten, shorten_by_rings
+from hexmend.kernels.step_limits import shorten
 from hexmend.mesh.topology.marked_rows import any_of_rows
 from hexmend.optimise.search_direction import DirectionMethod, SearchDirection, TruncatedNewton, steepest_descent
 
@@ -224,12 +224,8 @@ def _limit(
     shorten_to_range(step, energy.unit, energy.ranks)
     if np.isfinite(max_step):
         if by_edges:
-            topology = energy.mesh.topology
-            if topology.has_rings:
-                shorten_by_rings(step, x, topology.rings.start, topology.rings.items, energy.nodes, max_step)
-            else:
-                corners = topology.node_corners
-                shorten(step, x, energy.mesh.hexes, corners.start, corners.items, energy.nodes, max_step)
+            rings = energy.mesh.topology.rings
+            shorten(step, x, rings.start, rings.items, energy.nodes, max_step)
         halve_harmful_steps(energy, x, delta, step)
     return energy.directional_derivative(x, delta, step, gradient)
 

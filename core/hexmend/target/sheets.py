@@ -13,8 +13,9 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from hexmend.arrays import as_immutable, mask
-from hexmend.kernels import structure
+from hexmend.kernels import incidence, structure
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import CSR
 from hexmend.quality import ElementQuality, measure
 from hexmend.target.edge_lengths import edge_numbers, given_lengths
 
@@ -36,7 +37,7 @@ _PASSES = 8
 _RECOVERED: WeakKeyDictionary[Mesh, np.ndarray] = WeakKeyDictionary()
 
 
-class _Sheets:
+class Sheets:
     """Averaging over the edges of dual sheets: a hex has three groups of four parallel edges.
 
     Parameters
@@ -77,6 +78,25 @@ class _Sheets:
         structure.average_along_sheets(groups, values, average, number)
         return average, number > 0
 
+    def fill(self, values: np.ndarray, known: np.ndarray, groups: np.ndarray) -> None:
+        """Fill in the values of edges that are not known, front by front; changes both, (count + 1,).
+
+        Each front is reached by groups (g, 4) with a known edge: its values are the means of the means of their known
+        edges. Edges that no front reaches stay as they are, as does the last, which stands for none.
+        """
+        around = CSR(*incidence.grouped(groups.ravel(), self.count + 1))
+        front = np.flatnonzero(known[groups].any(axis=1))
+        while front.size:
+            edges = groups[front]
+            sound, open_ = known[edges], ~known[edges] & (edges < self.count)
+            a, b, c, d = np.where(sound, values[edges], 0.0).T
+            means = (a + b + c + d) / sound.sum(axis=1)
+            reached, place = np.unique(edges[open_], return_inverse=True)
+            totals = np.bincount(place, np.broadcast_to(means[:, None], edges.shape)[open_])
+            values[reached] = totals / np.bincount(place)
+            known[reached] = True
+            front = np.unique(around.of(reached) // 4)
+
 
 def recovered_lengths(mesh: Mesh, quality: ElementQuality | None = None) -> np.ndarray:
     """Compute the lengths of hexes along their own directions, with those of noisy edges recovered along dual sheets.
@@ -110,7 +130,7 @@ def recovered_lengths(mesh: Mesh, quality: ElementQuality | None = None) -> np.n
 def _recovered(mesh: Mesh, lengths: np.ndarray, quality: ElementQuality, distorted: np.ndarray) -> np.ndarray:
     """Return the lengths (m, 3) with those near distorted hexes (k,) recovered; `lengths` is changed."""
     region = np.flatnonzero(mesh.topology.hexes_around(distorted, _RINGS))
-    sheets = _Sheets(mesh, region)
+    sheets = Sheets(mesh, region)
     logs = _log_edge_lengths(mesh)
     noisy = _noisy_edges(mesh, sheets, logs, quality, region)
     affected = noisy[sheets.groups].any(axis=1)
@@ -134,7 +154,7 @@ def _log_edge_lengths(mesh: Mesh) -> np.ndarray:
 
 
 def _noisy_edges(
-    mesh: Mesh, sheets: _Sheets, logs: np.ndarray, quality: ElementQuality, region: np.ndarray
+    mesh: Mesh, sheets: Sheets, logs: np.ndarray, quality: ElementQuality, region: np.ndarray
 ) -> np.ndarray:
     """Mark edges whose ends are not both `_as_given`, at skewed hexes or unlike their neighbours, (e + 1,) bool."""
     average, _ = sheets.averages(logs, sheets.groups)
@@ -166,11 +186,11 @@ def _as_given(mesh: Mesh) -> np.ndarray:
     return given if materials is None else given | materials.interface_nodes
 
 
-def _filled(sheets: _Sheets, logs: np.ndarray, noisy: np.ndarray, groups: np.ndarray) -> np.ndarray:
+def _filled(sheets: Sheets, logs: np.ndarray, noisy: np.ndarray, groups: np.ndarray) -> np.ndarray:
     """Fill in the values of noisy edges from the others of their sheet, front by front, and average them."""
     values, known = logs.copy(), ~noisy
     known[-1] = False
-    structure.fill_along_sheets(groups, values, known)
+    sheets.fill(values, known, groups)
     for _ in range(_PASSES):
         average, _ = sheets.averages(values, groups)
         values[noisy] = average[noisy]

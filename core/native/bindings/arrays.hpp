@@ -19,22 +19,20 @@
 
 namespace nanobind::detail {
 
-template <class T> constexpr std::size_t WIDTH = 1;
-template <class T, std::size_t n> constexpr std::size_t WIDTH<std::array<T, n>> = n;
-
-template <class T> struct Scalar {
-    using type = T;
+// Numbers of a row of an array.
+template <class T> struct RowOf {
+    using Number = T;
+    static constexpr std::size_t width = 1;
 };
-template <class T, std::size_t n> struct Scalar<std::array<T, n>> {
-    using type = T;
-};
-template <class T, std::size_t n> struct Scalar<const std::array<T, n>> {
-    using type = const T;
+template <class T, std::size_t n> struct RowOf<std::array<T, n>> {
+    using Number = T;
+    static constexpr std::size_t width = n;
 };
 
 template <class T> struct type_caster<std::span<T>> {
-    using Number = typename Scalar<T>::type;
-    static constexpr std::size_t width = WIDTH<std::remove_const_t<T>>;
+    using Row = RowOf<std::remove_const_t<T>>;
+    using Number = std::conditional_t<std::is_const_v<T>, const typename Row::Number, typename Row::Number>;
+    static constexpr std::size_t width = Row::width;
     using Array = ndarray<Number, c_contig, device::cpu>;
     // Vectors at the eight corners of each hex are (m, 8, 3) in Python.
     using Shaped =
@@ -120,6 +118,22 @@ class GilRelease {
 
   private:
     PyThreadState *state_;
+};
+
+// Constructor of a view of arrays, which it keeps alive: its members are the arguments. `check` of the view, if it has
+// one, throws where they do not fit each other.
+template <class... Members> struct ViewOf : nb::def_visitor<ViewOf<Members...>> {
+    template <class Class, class... Extra> void execute(Class &cl, const Extra &...extra) {
+        using View = typename Class::Type;
+        auto make = [](View *self, Members... members) {
+            View view{members...};
+            if constexpr (requires { view.check(); }) view.check();
+            new (self) View(view);
+        };
+        [&]<std::size_t... i>(std::index_sequence<i...>) {
+            cl.def("__init__", make, extra..., nb::keep_alive<1, i + 2>()...);
+        }(std::index_sequence_for<Members...>());
+    }
 };
 
 // Kernels run without the GIL, so that the window stays responsive.

@@ -7,7 +7,6 @@
 #include "boundary/surface_distances.hpp"
 #include "boundary/surface_points.hpp"
 #include "boundary/tangents.hpp"
-#include "boundary/vertex_normals.hpp"
 #include "smoothers/sliding.hpp"
 
 namespace hexmend {
@@ -17,17 +16,10 @@ void bind_closest_point(nb::module_ m) {
         "The closest point of a surface, by a tree of bounding boxes for each of its curves and patches.\n\n"
         "A piece, a row of pieces (k, 3) int32, is a triangle (a, b, c) of points (n, 3), or a segment (a, b, b).";
     nb::class_<BoxTrees>(m, "BoxTrees", "Trees over pieces.")
-        .def(
-            "__init__",
-            [](BoxTrees *self, Points points, std::span<const Piece> pieces, std::span<const ChildSide> boxes,
-               std::span<const ChildLinks> links) {
-                expect_boxes(boxes, links.size());
-                new (self) BoxTrees{points, pieces, boxes, links};
-            },
-            "points"_a, "pieces"_a, "boxes"_a, "links"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
-            "pieces (k, 3) int32 are in the order that `build_trees` returns, with its boxes (6 b, 4) float64 and\n"
-            "links (b, 4) int32. Arrays are not copied.");
+        .def(ViewOf<Points, std::span<const Piece>, std::span<const ChildSide>, std::span<const ChildLinks>>(),
+             "points"_a, "pieces"_a, "boxes"_a, "links"_a,
+             "pieces (k, 3) int32 are in the order that `build_trees` returns, with its boxes (6 b, 4) float64 and\n"
+             "links (b, 4) int32.");
     nb::class_<ClosestPointCache>(m, "ClosestPointCache",
                                   "Pieces near to points that move little from one query to the next.\n\n"
                                   "They prove in most queries which point is the closest, without a search of the\n"
@@ -61,19 +53,11 @@ void bind_closest_point(nb::module_ m) {
           "Write the distance (j,) of each of x (j, 3) from a point: that of piece (j,) int32 with barycentric\n"
           "weights (j, 3); infinite where the piece is -1.");
     nb::class_<NearPoints>(m, "NearPoints", "Points that were near samples before.")
-        .def(
-            "__init__",
-            [](NearPoints *self, std::span<std::int32_t> piece, std::span<Barycentric> weights, std::span<Point> places,
-               Indices roots) {
-                expect(weights.size() == piece.size() && places.size() == piece.size() && roots.size() == piece.size(),
-                       "piece, weights, places and roots have different lengths: expected a row a sample");
-                new (self) NearPoints{piece, weights, places, roots};
-            },
-            "piece"_a, "weights"_a, "places"_a, "roots"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
-            "The piece (s,) int32 on which each lies, -1 for none, its barycentric weights there (s, 3), and its\n"
-            "position (s, 3), infinite for none; the root (s,) int32 of the tree that is searched for each. Arrays\n"
-            "are not copied; all but the roots are written.");
+        .def(ViewOf<std::span<std::int32_t>, std::span<Barycentric>, std::span<Point>, Indices>(), "piece"_a,
+             "weights"_a, "places"_a, "roots"_a,
+             "The piece (s,) int32 on which each lies, -1 for none, its barycentric weights there (s, 3), and its\n"
+             "position (s, 3), infinite for none; the root (s,) int32 of the tree that is searched for each. All\n"
+             "but the roots are written.");
     m.def("means_beyond", &means_beyond, "trees"_a, "points"_a, "samples"_a, "examined"_a, "limits"_a, "near"_a,
           "beyond"_a, ReleaseGil(),
           "Write beyond (s,) bool: True where the mean of the four points of a row of samples (s, 4) int32, which\n"
@@ -101,28 +85,18 @@ void bind_closest_point(nb::module_ m) {
         },
         "points"_a, "earlier"_a, "boundary_samples"_a, "faces"_a, "face_of_piece"_a, "pieces"_a, "boundary_before"_a,
         "surface_before"_a, "boundary"_a, "surface"_a, ReleaseGil(),
-        "Mark samples of a boundary, boundary (s,) bool, and of a surface, surface (t,) bool: those marked before, "
-        "and\n"
-        "those of which a node differs between points and earlier, both (n, 3).\n\n"
+        "Mark samples of a boundary, boundary (s,) bool, and of a surface, surface (t,) bool: those marked before,\n"
+        "and those of which a node differs between points and earlier, both (n, 3).\n\n"
         "Nodes of samples of the boundary are rows of boundary_samples (s, 4), those of the surface the nodes of the\n"
         "face, of faces (f, 4), on which pieces (t,) lie, -1 for none, by face_of_piece (p,) int64. Others are int32;\n"
         "numbers must exist.");
     nb::class_<SurfaceSamples>(m, "SurfaceSamples", "Samples of a surface on which a boundary of quads slides.")
         .def(
-            "__init__",
-            [](SurfaceSamples *self, Points x, Numbers distances, std::span<const FaceNodes> nodes,
-               std::span<const FaceWeights> weights, Indices pieces, Indices roots) {
-                expect(have_rows(x.size(), distances, nodes, weights, pieces, roots),
-                       "x, distances, nodes, weights, pieces and roots have different lengths: expected a row a "
-                       "sample");
-                new (self) SurfaceSamples{x, distances, nodes, weights, pieces, roots};
-            },
-            "x"_a, "distances"_a, "nodes"_a, "weights"_a, "pieces"_a, "roots"_a, nb::keep_alive<1, 2>(),
-            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
-            nb::keep_alive<1, 7>(),
+            ViewOf<Points, Numbers, std::span<const FaceNodes>, std::span<const FaceWeights>, Indices, Indices>(),
+            "x"_a, "distances"_a, "nodes"_a, "weights"_a, "pieces"_a, "roots"_a,
             "x (s, 3); before sliding, their distances (s,) from the boundary, and the nodes (s, 4) int32 and weights\n"
             "(s, 4) of the closest points; pieces (s,) int32 of the boundary near them, -1 for none; roots (s,)\n"
-            "int32 of the trees searched for them. Arrays are not copied.");
+            "int32 of the trees searched for them.");
     m.def(
         "find_distances",
         [](Points points, std::span<const Piece> pieces, std::span<const ChildLinks> links, std::span<ChildSide> boxes,
@@ -149,18 +123,14 @@ void bind_closest_point(nb::module_ m) {
           "the node in place s to the next of the face. A side between equal nodes lies on no edge.");
     m.def("count_fans", &count_fans, "faces"_a, "width"_a, "sides"_a, "first"_a, "nodes"_a, ReleaseGil(),
           "The number of fans at each of `nodes` nodes, faces connected by edges (nodes,) int32.\n\n"
-          "faces (k * width,) int32 are the nodes of faces one after the other; its side s runs from the node in place "
-          "s\n"
-          "to the next of the face. Edge e has sides[first[e]:first[e + 1]], all int32.");
+          "faces (k * width,) int32 are the nodes of faces one after the other; its side s runs from the node in\n"
+          "place s to the next of the face. Edge e has sides[first[e]:first[e + 1]], all int32.");
     m.def("quantiles_around", &quantiles_around, "edges"_a, "start"_a, "ends"_a, "values"_a, "some"_a, "most"_a,
           "share"_a, ReleaseGil(),
           "Quantile of the values around each of some edges (s,) int32, (s,) float64.\n\n"
           "Around an edge are those at its two nodes and at the neighbours of these, without the edge itself and\n"
           "without values above `most`; the quantile is 0 where none is left. edges (e, 2) int32 have values (e,);\n"
           "those at node i are ends[start[i]:start[i + 1]] // 2. A share of the values is less than the quantile.");
-    m.def("extremes_in_cells", &extremes_in_cells, "cell"_a, "values"_a, "cells"_a, ReleaseGil(),
-          "True (k,) for points with the largest and with the least of values (k,) in their cell (k,) int32, a number\n"
-          "below `cells`; of equal values the last is the largest, the first the least.");
     m.def(
         "vertex_normals", &vertex_normals, "points"_a, "triangles"_a, "patch"_a, "normals"_a, ReleaseGil(),
         "Write the unit normals (3 t, 3) at the corners of each of triangles (t, 3) int32: the mean over those of the\n"
@@ -176,47 +146,21 @@ void bind_sliding_surface(nb::module_ m) {
                               "Quads of the boundary at the nodes that slide. A step that flips one is rejected.\n\n"
                               "A quad is flipped if its normal points against `outward`; one that is flipped\n"
                               "already may stay so.")
-        .def(
-            "__init__",
-            [](BoundaryQuads *self, Indices start, Indices corners, std::span<const Quad> quads, Points outward) {
-                expect(are_csr(start, corners.size()),
-                       "start: its last number is expected to be the length of corners");
-                expect(outward.size() == quads.size(), "outward: one for each of the quads is expected");
-                new (self) BoundaryQuads{start, corners, quads, outward};
-            },
-            "start"_a, "corners"_a, "quads"_a, "outward"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
-            "corners holds 4 * quad + corner of each of k sliding nodes, from start (k + 1,) on, all int32; quads\n"
-            "(f, 4) int32; outward (f, 3) float64 are normals of the original surface, 0 where it has none. Arrays\n"
-            "are not copied.");
+        .def(ViewOf<Indices, Indices, std::span<const Quad>, Points>(), "start"_a, "corners"_a, "quads"_a, "outward"_a,
+             "corners holds 4 * quad + corner of each of k sliding nodes, from start (k + 1,) on, all int32; quads\n"
+             "(f, 4) int32; outward (f, 3) float64 are normals of the original surface, 0 where it has none.");
     nb::class_<SlidingSurface>(m, "SlidingSurface", "Curves and patches, with the nodes that slide on them.")
-        .def(
-            "__init__",
-            [](SlidingSurface *self, Indices slots, const ClosestPointCache &cache, const BoundaryQuads &quads) {
-                expect(quads.start.size() == cache.size() + 1, "quads: rows of each slot of the cache are expected");
-                new (self) SlidingSurface{slots, &cache, quads};
-            },
-            "slots"_a, "cache"_a, "quads"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
-            "slots (n,) int32 numbers the nodes that slide, -1 for others; cache has the curve or patch of each.\n"
-            "Arrays are not copied.");
+        .def(ViewOf<Indices, const ClosestPointCache *, const BoundaryQuads &>(), "slots"_a, "cache"_a, "quads"_a,
+             "slots (n,) int32 numbers the nodes that slide, -1 for others; cache has the curve or patch of each.");
     nb::class_<SurfaceTerm>(m, "SurfaceTerm", "Term of the objective over the boundary quads of a sliding surface.")
         .def(
-            "__init__",
-            [](SurfaceTerm *self, std::span<const std::array<std::uint8_t, 4>> counted,
-               std::span<const std::array<double, 3>> normals,
-               std::optional<std::span<const std::array<double, 8>>> inverse_lengths, double weight, double delta) {
-                expect(normals.size() == counted.size(), "normals: a row for each quad is expected");
-                expect(!inverse_lengths || inverse_lengths->size() == counted.size(),
-                       "inverse_lengths: a row for each quad is expected");
-                new (self) SurfaceTerm{counted, normals, {}, weight, delta};
-                if (inverse_lengths) self->inverse_lengths = *inverse_lengths;
-            },
-            "counted"_a, "normals"_a, "inverse_lengths"_a.none(), "weight"_a, "delta"_a, nb::keep_alive<1, 2>(),
-            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+            ViewOf<std::span<const std::array<std::uint8_t, 4>>, std::span<const std::array<double, 3>>,
+                   std::optional<std::span<const std::array<double, 8>>>, double, double>(),
+            "counted"_a, "normals"_a, "inverse_lengths"_a.none(), "weight"_a, "delta"_a,
             "counted (f, 4) uint8 is 0 for corners of quads that count as perfect; normals (f, 3) float64 are the\n"
             "outward unit normals of the surface at the quads; inverse_lengths (f, 8) float64 those that the\n"
             "edges from each corner to the next and the previous are to have, with a target. weight is that of a quad\n"
-            "relative to a hex; delta as of hexes. Arrays are not copied.");
+            "relative to a hex; delta as of hexes.");
     m.def(
         "tangent_bases",
         [](std::span<const std::int64_t> number, Points flat, std::span<const std::array<double, 9>> smooth,

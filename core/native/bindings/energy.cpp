@@ -25,20 +25,10 @@ template <class Real> void bind_assemble_floors(nb::module_ m) {
 void bind_floor_barrier(nb::module_ m) {
     m.doc() = "Barrier of floors: of the scaled Jacobians at the corners of hexes, and of their qualities.";
     nb::class_<Floors>(m, "Floors", "Floors of the hexes of a mesh, with the weight and the bands of their barrier.")
-        .def(
-            "__init__",
-            [](Floors *self, std::span<const double> jacobians, std::span<const double> qualities,
-               OmittedCorners ignored, double jacobian_band, double quality_band, double weight) {
-                expect(have_rows(jacobians.size(), qualities, ignored),
-                       "jacobians, qualities and ignored have different lengths: expected a row a hex");
-                new (self) Floors{jacobians, qualities, ignored, jacobian_band, quality_band, weight};
-            },
-            "jacobians"_a, "qualities"_a, "ignored"_a, "jacobian_band"_a, "quality_band"_a, "weight"_a,
-            nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
-            "Floors jacobians (m,) of the scaled Jacobians and qualities (m,) of q(H), -inf where there is none; bit "
-            "t\n"
-            "of ignored (m,) uint8: corner t has no floor. The barrier begins a band above the floor. Arrays are not\n"
-            "copied.");
+        .def(ViewOf<Numbers, Numbers, OmittedCorners, double, double, double>(), "jacobians"_a, "qualities"_a,
+             "ignored"_a, "jacobian_band"_a, "quality_band"_a, "weight"_a,
+             "Floors jacobians (m,) of the scaled Jacobians and qualities (m,) of q(H), -inf where there is none;\n"
+             "bit t of ignored (m,) uint8: corner t has no floor. The barrier begins a band above the floor.");
     m.def("qualities", &floor_qualities, "points"_a, "hexes"_a, "omitted"_a, "values"_a, "target"_a.none() = nb::none(),
           ReleaseGil(),
           "q(H) of every hex, with a target that of S W^-1, omitted corners as perfect; writes values (m,).");
@@ -59,23 +49,11 @@ void bind_assembly(nb::module_ m) {
                           "of each.\n\n"
                           "Each share computes all its hexes, some of which are in several, so that every block is\n"
                           "summed over its hexes in one order for any number of shares.")
-        .def(
-            "__init__",
-            [](HexShares *self, Indices bounds, Indices start, Indices numbers, Hexes hexes, Indices slots,
-               Indices row_start, Indices columns) {
-                expect(!bounds.empty() && start.size() == bounds.size(), "start: one for each of bounds is expected");
-                expect(are_csr(start, numbers.size()), "numbers: as many as the last of start are expected");
-                expect(std::cmp_equal(row_start.size(), std::int64_t{bounds.back()} + 1),
-                       "row_start: one more than the slots is expected");
-                expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
-                new (self) HexShares{bounds, start, numbers, hexes, slots, row_start, columns};
-            },
-            "bounds"_a, "start"_a, "numbers"_a, "hexes"_a, "slots"_a, "row_start"_a, "columns"_a,
-            nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
-            nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(),
-            "Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: start[k] to start[k + 1] - 1 of numbers,\n"
-            "in the mesh, int32. hexes (m, 8) int32 of the mesh; slots (n,) int32 of its nodes, -1 for fixed ones;\n"
-            "row_start (k + 1,) and columns (blocks,) int32: `sparsity.pattern`. Arrays are not copied.");
+        .def(ViewOf<Indices, Indices, Indices, Hexes, Indices, Indices, Indices>(), "bounds"_a, "start"_a, "numbers"_a,
+             "hexes"_a, "slots"_a, "row_start"_a, "columns"_a,
+             "Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: start[k] to start[k + 1] - 1 of numbers,\n"
+             "in the mesh, int32. hexes (m, 8) int32 of the mesh; slots (n,) int32 of its nodes, -1 for fixed ones;\n"
+             "row_start (k + 1,) and columns (blocks,) int32: `sparsity.pattern`.");
     bind_assemble<float>(m);
     bind_assemble<double>(m);
     m.def(

@@ -84,14 +84,6 @@ template <class Real> void bind_vectors(nb::module_ m) {
         "it is 0 or not a number. diagonal (s, 6): xx xy xz yy yz zz of each slot. Numbers must exist.");
 }
 
-void bind_packed(nb::module_ m) {
-    m.def(
-        "complete_diagonal", &complete_diagonal, "pattern"_a, "off_diagonal"_a, "diagonal"_a, ReleaseGil(),
-        "Add to diagonal (k, 6) float32, which `assembly.assemble_packed` began, what follows from the packed blocks\n"
-        "(blocks + 1, 12): rows sum to the shares of fixed nodes. Returns the number of diagonal blocks whose\n"
-        "eigenvalues differ too much for packed blocks.");
-}
-
 }  // namespace
 
 void bind_conjugate_gradients(nb::module_ m) {
@@ -101,31 +93,13 @@ void bind_conjugate_gradients(nb::module_ m) {
         .value("NEGATIVE_CURVATURE", NEGATIVE_CURVATURE, "A direction of negative curvature was met.")
         .value("TOO_MANY", TOO_MANY, "The number of iterations is exhausted.");
     nb::class_<BlockPattern>(m, "BlockPattern", "Pattern of a symmetric matrix of 3 x 3 blocks.")
-        .def(
-            "__init__",
-            [](BlockPattern *self, Indices bounds, Indices row_start, Indices columns) {
-                expect(!bounds.empty() && bounds.size() % 2 == 0, "bounds: two for each part are expected");
-                expect(std::cmp_equal(row_start.size(), std::int64_t{bounds.back()} + 1),
-                       "row_start: one more than the last of bounds is expected");
-                expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
-                new (self) BlockPattern{bounds, row_start, columns};
-            },
-            "bounds"_a, "row_start"_a, "columns"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-            nb::keep_alive<1, 4>(),
-            "bounds (2 parts,) int32: `ordering.slots`; row_start (k + 1,) and columns (blocks,) int32: blocks\n"
-            "above the diagonal, `sparsity.pattern`. Arrays are not copied.");
+        .def(ViewOf<Indices, Indices, Indices>(), "bounds"_a, "row_start"_a, "columns"_a,
+             "bounds (2 parts,) int32: `ordering.slots`; row_start (k + 1,) and columns (blocks,) int32: blocks\n"
+             "above the diagonal, `sparsity.pattern`.");
     nb::class_<CoarsePattern>(m, "CoarsePattern", "Pattern of A R, R being translations of aggregates of slots.")
-        .def(
-            "__init__",
-            [](CoarsePattern *self, Indices aggregate, Indices row_start, Indices columns) {
-                expect(aggregate.size() + 1 == row_start.size(), "row_start: one more than aggregates is expected");
-                expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
-                new (self) CoarsePattern{aggregate, row_start, columns};
-            },
-            "aggregate"_a, "row_start"_a, "columns"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-            nb::keep_alive<1, 4>(),
-            "aggregate (k,) int32: the aggregate of each slot; row_start (k + 1,) and columns (blocks,) int32: the\n"
-            "aggregates that each row of A R meets, as `coarse_pattern` returns them. Arrays are not copied.");
+        .def(ViewOf<Indices, Indices, Indices>(), "aggregate"_a, "row_start"_a, "columns"_a,
+             "aggregate (k,) int32: the aggregate of each slot; row_start (k + 1,) and columns (blocks,) int32: the\n"
+             "aggregates that each row of A R meets, as `coarse_pattern` returns them.");
     m.def("coarse_pattern", &coarse_pattern, "slots"_a, "slot_of_node"_a, "nodes"_a, "ring_start"_a, "ring"_a,
           "start"_a, "corners"_a, "distance"_a, ReleaseGil(),
           "Divide slots into aggregates: the arrays of a `CoarsePattern`.\n\n"
@@ -133,7 +107,11 @@ void bind_conjugate_gradients(nb::module_ m) {
           "centre, of several to the first. slots (m, 8): the slot of each corner, -1 if it is fixed; slot_of_node\n"
           "(n,), -1 likewise; nodes (k,): the node of each slot; ring_start, ring: `Topology.rings`; start, corners:\n"
           "`Topology.node_corners`. All are int32.");
-    bind_packed(m);
+    m.def(
+        "complete_diagonal", &complete_diagonal, "pattern"_a, "off_diagonal"_a, "diagonal"_a, ReleaseGil(),
+        "Add to diagonal (k, 6) float32, which `assembly.assemble_packed` began, what follows from the packed blocks\n"
+        "(blocks + 1, 12): rows sum to the shares of fixed nodes. Returns the number of diagonal blocks whose\n"
+        "eigenvalues differ too much for packed blocks.");
     m.def("coarse_workspace_size", &coarse_workspace_size, "coarse"_a,
           "Numbers that `solve` needs in its workspace for a coarse space, besides `workspace_size`.");
     m.def("workspace_size", &workspace_size, "pattern"_a, "ghosts"_a = 0, "coupled"_a = false,

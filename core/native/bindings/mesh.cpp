@@ -4,8 +4,6 @@
 #include "mesh/incidence.hpp"
 #include "mesh/metrics.hpp"
 #include "mesh/refinement.hpp"
-#include "mesh/rows.hpp"
-#include "mesh/sheets.hpp"
 #include "mesh/validity.hpp"
 
 namespace hexmend {
@@ -83,31 +81,8 @@ void bind_validity(nb::module_ m) {
 void bind_hex_mesh(nb::module_ m) {
     m.doc() = "Connectivity of a mesh, as sweeps take it.";
     nb::class_<HexMesh>(m, "HexMesh", "Hexes, and the corners of hexes at each node.")
-        .def(
-            "__init__",
-            [](HexMesh *self, Hexes hexes, Indices start, Indices corners) {
-                expect_corners(hexes.size(), start, corners);
-                new (self) HexMesh{hexes, start, corners};
-            },
-            "hexes"_a, "start"_a, "corners"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
-            "hexes (m, 8) int32; start (n + 1,) and corners (8 m,) int32: `incidence.node_corners`. Arrays are not\n"
-            "copied.");
-}
-
-void bind_rows(nb::module_ m) {
-    m.doc() = "Rows of arrays that others name by their numbers, which must exist.";
-    auto def_any_marked = [&](auto any_marked) {
-        m.def(
-            "any_marked", any_marked, "marks"_a, "rows"_a, "found"_a, ReleaseGil(),
-            "Write found (k,) bool: True where one at least of the numbers in a row of rows, (k, 4) or (k, 8) int32,\n"
-            "is marked in marks (n,) bool.");
-    };
-    def_any_marked(&any_marked<4>);
-    def_any_marked(&any_marked<8>);
-    m.def("put_rows", &put_rows, "values"_a, "numbers"_a, "points"_a, ReleaseGil(),
-          "Write rows `numbers` (k,) int32 of points (n, 3): values (k, 3).");
-    m.def("scale_rows", &scale_rows, "factors"_a, "numbers"_a, "vectors"_a, ReleaseGil(),
-          "Multiply rows `numbers` (k,) int32 of vectors (n, 3) by factors (k, 3), component by component.");
+        .def(ViewOf<Hexes, Indices, Indices>(), "hexes"_a, "start"_a, "corners"_a,
+             "hexes (m, 8) int32; start (n + 1,) and corners (8 m,) int32: `incidence.node_corners`.");
 }
 
 void bind_incidence(nb::module_ m) {
@@ -134,8 +109,6 @@ void bind_incidence(nb::module_ m) {
         "parent"_a, "items"_a, "width"_a, ReleaseGil(),
         "Connect the items of each row of `width` items; changes parent (n,) int32, at first 0 to n - 1.\n\n"
         "Union-find: parent[i] is an item of i's component, at most i.");
-    m.def("component_numbers", &component_numbers, "parent"_a, ReleaseGil(),
-          "Component of each item, (n,) int32, numbered in the order of their lowest items.\n");
     m.def("node_rings", &node_rings, "hexes"_a, "start"_a, "corners"_a, "max_items"_a = MOST_ITEMS, ReleaseGil(),
           "Edge neighbours of each node, ascending, as compressed rows (ring_start (n + 1,), ring), both int32.\n\n"
           "OverflowError where the rows have more than `max_items` items.");
@@ -144,12 +117,6 @@ void bind_incidence(nb::module_ m) {
           "Returns (n,) int32, -1 for nodes that were not chosen.");
     m.def("grouped", &grouped, "colour"_a, "count"_a, ReleaseGil(),
           "Nodes grouped by colour, each group in node order: (start (count + 1,), nodes), both int32.");
-    m.def("layers", &layers, "neighbours"_a, ReleaseGil(),
-          "Number of hexes between each hex and the boundary, counted through faces, breadth first; (m,) int32.\n\n"
-          "0 for a hex with a boundary face; one more than the deepest layer where there is no way to the\n"
-          "boundary.");
-    m.def("around", &around, "hexes"_a, "start"_a, "corners"_a, "chosen"_a, "rings"_a, ReleaseGil(),
-          "The hexes `chosen` (k,) int32 and those within `rings` steps between hexes with a common node; (m,) bool.");
 }
 
 void bind_metrics(nb::module_ m) {
@@ -187,11 +154,6 @@ void bind_structure(nb::module_ m) {
           "average (e + 1,) float64 and count (e + 1,) int32, the number of groups.\n\n"
           "It is the mean of the groups' means, and 0 without a group. The number e, and the last value, stand for\n"
           "no edge.");
-    m.def("fill_along_sheets", &fill_along_sheets, "groups"_a, "values"_a, "known"_a, ReleaseGil(),
-          "Fill in the values (e + 1,) float64 of edges that are not known (e + 1,) bool, front by front; changes\n"
-          "both.\n\n"
-          "Each front is reached by groups (g, 4) int32 with a known edge: its values are the means of the means of\n"
-          "their known edges. Edges that no front reaches stay as they are.");
     m.def("coarse_blocks", &coarse_blocks, "hexes"_a, "start"_a, "corners"_a, ReleaseGil(),
           "Nodes of each hex of the mesh of which this is a uniform refinement, 2 x 2 x 2 hexes for each, (k, 27)\n"
           "int32; no row where it is not. start, corners: `incidence.node_corners`.\n\n"

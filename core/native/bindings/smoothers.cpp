@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 
 #include "bindings/arrays.hpp"
+#include "mesh/incidence.hpp"
 #include "smoothers/getme.hpp"
 #include "smoothers/laplacian.hpp"
 #include "smoothers/line_search.hpp"
@@ -9,7 +10,6 @@
 #include "smoothers/patches/patches.hpp"
 #include "smoothers/sliding.hpp"
 #include "smoothers/step_limits.hpp"
-#include "smoothers/wavefronts.hpp"
 #include "smoothers/worst_first.hpp"
 
 namespace hexmend {
@@ -43,14 +43,6 @@ void bind_laplacian(nb::module_ m) {
         "With a surface the means of nodes that slide are projected onto it.";
     m.def("in_place", &in_place, "points"_a, "ring_start"_a, "ring"_a, "nodes"_a, "surface"_a.none() = nb::none(),
           ReleaseGil(), "Algorithm 3.1: one node after another; changes points (n, 3).");
-    m.def("most_wait", &most_wait, "ring_start"_a, "ring"_a, "nodes"_a, ReleaseGil(),
-          "True if most of `nodes` (k,) int32 have the one before them in their ring, and wait for its mean.");
-    nb::class_<LaplacianSweeps>(m, "LaplacianSweeps",
-                                "Sweeps over the same nodes, bit for bit as `in_place`; faster where `most_wait`.")
-        .def(nb::init<Points, Indices, Indices, Indices>(), "points"_a, "ring_start"_a, "ring"_a, "nodes"_a,
-             "points (n, 3): where they begin, copied; nodes (k,) int32: each once, in the order of the sweep.")
-        .def("next", &LaplacianSweeps::next, "points"_a, ReleaseGil(),
-             "Make a sweep and write the points (n, 3) after it, those of nodes that do not move too.");
     m.def("simultaneous", &simultaneous, "points"_a, "ring_start"_a, "ring"_a, "nodes"_a, "moved"_a, ReleaseGil(),
           "All nodes at once, from the old positions of the others; writes moved (n, 3).");
     m.def("smart_sweep", &smart_sweep, "points"_a, "mesh"_a, "ring_start"_a, "ring"_a, "nodes"_a,
@@ -163,26 +155,9 @@ void bind_local(nb::module_ m) {
 
 void bind_patches(nb::module_ m) {
     m.doc() = "Patches of several free nodes, and a Newton step of each.";
-    nb::class_<PatchStepSettings>(m, "PatchStepSettings", "Settings of a step of a patch.")
-        .def(nb::init<double, ObjectiveNorm, LineSearch, const TargetMatrices *>(), "delta"_a, "norm"_a, "search"_a,
-             "target"_a.none() = nb::none(), nb::keep_alive<1, 5>(),
-             "delta applies to the patch scaled to mean edge length 1, with a target to S W^-1; norm is (p, offset)\n"
-             "of the objective. The target has a row for each of the partition's hexes.");
     nb::class_<PatchPartition>(m, "PatchPartition", "Patches, as `partition` makes them.")
-        .def(
-            "__init__",
-            [](PatchPartition *self, Hexes hexes, Hexes slots, Indices hex_start, Indices node_start, Indices nodes) {
-                expect(hexes.size() == slots.size(), "slots: one row for each of the hexes is expected");
-                expect(hex_start.size() == node_start.size(),
-                       "node_start: as many numbers as in hex_start are expected");
-                expect(are_csr(hex_start, hexes.size()), "hexes: as many as the last of hex_start are expected");
-                expect(are_csr(node_start, nodes.size()), "nodes: as many as the last of node_start are expected");
-                new (self) PatchPartition{hexes, slots, hex_start, node_start, nodes};
-            },
-            "hexes"_a, "slots"_a, "hex_start"_a, "node_start"_a, "nodes"_a, nb::keep_alive<1, 2>(),
-            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
-            "hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says. Arrays are\n"
-            "not copied.");
+        .def(ViewOf<Hexes, Hexes, Indices, Indices, Indices>(), "hexes"_a, "slots"_a, "hex_start"_a, "node_start"_a,
+             "nodes"_a, "hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says.");
     m.def("partition", &partition, "mesh"_a, "free"_a, "size"_a, "overlap"_a, ReleaseGil(),
           "Divide the free nodes (n,) bool into connected patches of at most `size` nodes, breadth first from the\n"
           "lowest remaining node; then add to each the nodes within `overlap` steps between nodes of one hex.\n\n"
@@ -192,28 +167,18 @@ void bind_patches(nb::module_ m) {
     m.def("colours", &colours, "hex_start"_a, "patch_hexes"_a, "hexes"_a, ReleaseGil(),
           "Groups of patches that share no hex, by greedy colouring: (start, patches), int32.\n\n"
           "hexes: the number of hexes of the mesh.");
-    m.def(
-        "sweep",
-        [](std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
-           const PatchStepSettings &settings) {
-            auto count = patch_sweep(points, partition, groups, patches, settings);
-            return std::pair{count.energies, count.derivatives};
-        },
-        "points"_a, "partition"_a, "groups"_a, "patches"_a, "settings"_a, ReleaseGil(),
-        "Move the nodes of every patch by one Newton step together, in place, with the other nodes fixed.\n\n"
-        "Group k is patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep\n"
-        "for any number of threads. Returns the evaluations of a hex's energy in line searches, and of its\n"
-        "derivatives.");
+    m.def("sweep", &patch_sweep, "points"_a, "partition"_a, "groups"_a, "patches"_a, "settings"_a, ReleaseGil(),
+          "Move the nodes of every patch by one Newton step together, in place, with the other nodes fixed.\n\n"
+          "Group k is patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep\n"
+          "for any number of threads. The target has a row for each of the partition's hexes. Returns the evaluations\n"
+          "of a hex's energy in line searches, and of its derivatives.");
 }
 
 void bind_step_limits(nb::module_ m) {
     m.doc() = "Steps of nodes: their limits, and the points that they lead to.";
-    m.def("shorten", &shorten, "step"_a, "points"_a, "hexes"_a, "start"_a, "corners"_a, "nodes"_a, "reach"_a,
-          ReleaseGil(),
+    m.def("shorten", &shorten, "step"_a, "points"_a, "ring_start"_a, "ring"_a, "nodes"_a, "reach"_a, ReleaseGil(),
           "Shorten the steps (k, 3) of `nodes` (k,) that are longer than `reach` times the mean length of the\n"
-          "node's edges; changes step. hexes (m, 8); start, corners: `Topology.node_corners`.");
-    m.def("shorten_by_rings", &shorten_by_rings, "step"_a, "points"_a, "start"_a, "ring"_a, "nodes"_a, "reach"_a,
-          ReleaseGil(), "As `shorten`, faster; start, ring: `Topology.rings`.");
+          "node's edges; changes step. ring_start, ring: `Topology.rings`.");
     m.def("displaced", &displaced, "points"_a, "nodes"_a, "step"_a, "alpha"_a, "moved"_a, ReleaseGil(),
           "Points (n, 3) with `nodes` (k,) displaced by alpha times their steps (k, 3); writes moved (n, 3).");
 }

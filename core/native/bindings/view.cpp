@@ -3,33 +3,13 @@
 
 namespace hexmend {
 
-void bind_binning(nb::module_ m) {
-    m.doc() = "Histograms. They run on one thread, because the window's thread calls them.";
-    m.def("count", &count, "values"_a, "inverted"_a, "low"_a, "scale"_a, "open_low"_a, "open_high"_a, "counts"_a,
-          ReleaseGil(),
-          "Count values (m,) float64 in equal bins from `low` on, `scale` bins per unit.\n\n"
-          "Writes counts (bins + 3,) int64, at least one bin: the bins; the values above and below them, where\n"
-          "that end is open (else they count in the outermost bin); the values that are inverted (m,) bool or NaN.");
-}
-
 void bind_clip_planes(nb::module_ m) {
     m.doc() =
         "Sides of planes on which hexes lie. A point is beyond a plane where x . normal > offset; normals (k, 3)\n"
         "and offsets (k,) float64. The functions run on one thread, because the window's thread calls them.";
-    m.def("centres_kept", &centres_kept, "points"_a, "hexes"_a, "normals"_a, "offsets"_a, "notch"_a, "kept"_a,
-          ReleaseGil(),
-          "Hexes whose centre remains after the cut; writes kept (m,) bool.\n\n"
-          "With `notch` what is beyond all planes is cut away, else what is beyond any of them.");
-    m.def(
-        "centre_heights",
-        [](Points points, Hexes hexes, Points normal, std::span<double> eightfold) {
-            expect(normal.size() == 1, "normal: one is expected");
-            return centre_heights(points, hexes, normal[0], eightfold);
-        },
-        "points"_a, "hexes"_a, "normal"_a, "eightfold"_a, ReleaseGil(),
-        "Eight times the heights of the centres of hexes along a normal (1, 3), as `centres_kept` compares them with\n"
-        "eight times the offset; writes eightfold (m,) float64.\n\n"
-        "Returns the largest extent of a hex along the normal.");
+    m.def("centre_heights", &centre_heights, "points"_a, "hexes"_a, "normal"_a, "eightfold"_a, ReleaseGil(),
+          "Eight times the heights of the centres of hexes along a normal (1, 3); writes eightfold (m,) float64.\n\n"
+          "Returns the largest extent of a hex along the normal.");
     m.def("opened", &opened, "hexes"_a, "neighbours"_a, "eightfold"_a, "extent"_a, "offset"_a, ReleaseGil(),
           "Faces that a plane opens: those between hexes whose centres are before it and beyond it.\n\n"
           "eightfold (m,) float64 and extent are those of `centre_heights`; neighbours (m, 6) int32 the hex behind\n"
@@ -38,14 +18,6 @@ void bind_clip_planes(nb::module_ m) {
           "Planes that cross or touch each hex where the section is visible; writes answer (m * k,) bool, hex by\n"
           "hex.\n\n"
           "None does where the hex lies wholly beyond one of them or, with `notch`, wholly before one.");
-}
-
-void bind_corner_values(nb::module_ m) {
-    m.doc() =
-        "Values of hexes, of_hexes (m,) float64, from values at their nodes, of_nodes (n,) float64. The functions\n"
-        "run on one thread, because the window's thread calls them.";
-    m.def("largest", &largest, "hexes"_a, "of_nodes"_a, "of_hexes"_a, ReleaseGil(), "The largest of the eight values.");
-    m.def("mean", &mean, "hexes"_a, "of_nodes"_a, "of_hexes"_a, ReleaseGil(), "The mean of the eight values.");
 }
 
 void bind_occlusion(nb::module_ m) {
@@ -84,11 +56,6 @@ void bind_skin(nb::module_ m) {
           "Faces of the hexes with chosen (m,) bool, each hex with its own eight nodes; returns the same as\n"
           "`visible`.\n\n"
           "Without `hidden`, only faces behind which no hex is shown.");
-    m.def("outer", &outer, "neighbours"_a, "keep"_a, "answer"_a, ReleaseGil(),
-          "Hexes that are shown and have a visible face; writes answer (m,) bool.");
-    m.def("shrunk", &shrunk, "points"_a, "nodes"_a, "shrink"_a, "places"_a, ReleaseGil(),
-          "Corners of hexes, nodes (8 k,) int32, moved by the fraction `shrink` towards their mean; writes places\n"
-          "(8 k, 3).");
     m.def("edges_kept", &edges_kept, "hexes"_a, "start"_a, "corners"_a, "edges"_a, "keep"_a, "answer"_a, ReleaseGil(),
           "Edges (k, 2) int32 that a shown hex has; writes answer (k,) bool.\n\n"
           "start, corners: `Topology.node_corners`.");

@@ -86,9 +86,8 @@ ClosestPoint BoxTrees::closest(const Point &at, std::int32_t root, double enough
 
 void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std::span<std::int32_t> piece,
              std::span<Point> places, std::span<Barycentric> weights) {
-    expect(
-        roots.size() == x.size() && piece.size() == x.size() && places.size() == x.size() && weights.size() == x.size(),
-        "x, roots, piece, places and weights have different lengths: expected a row a point");
+    expect(have_rows(x.size(), roots, piece, places, weights),
+           "x, roots, piece, places and weights have different lengths: expected a row a point");
     expect_known(piece, trees.pieces.size());
     expect_roots(roots, trees.links.size());
     parallel_chunks(x.size(), POINTS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
@@ -104,8 +103,7 @@ void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std:
 
 void near(const BoxTrees &trees, Points x, Indices roots, Numbers limits, std::span<std::int32_t> piece,
           std::span<Point> places, std::span<Barycentric> weights, std::span<double> distances) {
-    expect(roots.size() == x.size() && limits.size() == x.size() && piece.size() == x.size() &&
-               places.size() == x.size() && weights.size() == x.size() && distances.size() == x.size(),
+    expect(have_rows(x.size(), roots, limits, piece, places, weights, distances),
            "x, roots, limits, piece, places, weights and distances have different lengths: expected a row a point");
     expect_known(piece, trees.pieces.size());
     expect_roots(roots, trees.links.size());

@@ -36,6 +36,11 @@ struct ClosestPoint {
     Barycentric weights{};
 };
 
+// Throw std::invalid_argument unless there are boxes of so many nodes of trees.
+inline void expect_boxes(std::span<const ChildSide> boxes, std::size_t nodes) {
+    expect(boxes.size() == SIDES * nodes, "boxes: six rows for each of the links are expected");
+}
+
 // Trees over pieces, for queries of single points.
 struct BoxTrees {
     Points points;
@@ -43,17 +48,14 @@ struct BoxTrees {
     std::span<const ChildSide> boxes;
     std::span<const ChildLinks> links;
 
+    void check() const { expect_boxes(boxes, links.size()); }
+
     // The point closest to x in the tree with that root, or any point at a squared distance of at most `enough` > 0;
     // none where x is not finite. A known piece of the tree that is near shortens the search; -1 where there is none.
     // Unless there is `enough`, what is found depends on nothing else: of pieces that are as close, the first has the
     // point.
     ClosestPoint closest(const Point &x, std::int32_t root, double enough = 0, std::int32_t known = -1) const;
 };
-
-// Throw std::invalid_argument unless there are boxes of so many nodes of trees.
-inline void expect_boxes(std::span<const ChildSide> boxes, std::size_t nodes) {
-    expect(boxes.size() == SIDES * nodes, "boxes: six rows for each of the links are expected");
-}
 
 // Throw std::invalid_argument for a piece that does not exist; -1 is none.
 void expect_known(std::span<const std::int32_t> known, std::size_t pieces);

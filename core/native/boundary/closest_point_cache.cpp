@@ -122,9 +122,8 @@ ClosestPoint ClosestPointCache::closest_of_tree(Slot &slot, FourPieces *fours, c
 
 void closest_of_slots(const ClosestPointCache &cache, Indices slots, Points x, std::span<std::int32_t> piece,
                       std::span<Point> places, std::span<Barycentric> weights) {
-    expect(
-        slots.size() == x.size() && piece.size() == x.size() && places.size() == x.size() && weights.size() == x.size(),
-        "slots, x, piece, places and weights have different lengths: expected a row a point");
+    expect(have_rows(x.size(), slots, piece, places, weights),
+           "slots, x, piece, places and weights have different lengths: expected a row a point");
     for (std::int32_t slot : slots)
         expect(slot >= 0 && slot < static_cast<std::int64_t>(cache.size()), "slots: a number is out of range");
     parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {

@@ -14,6 +14,11 @@ struct NearPoints {
     std::span<Barycentric> weights;
     std::span<Point> places;
     Indices roots;
+
+    void check() const {
+        expect(have_rows(piece.size(), weights, places, roots),
+               "piece, weights, places and roots have different lengths: expected a row a sample");
+    }
 };
 
 // Trees whose points have moved; the boxes are storage for those that fit them.

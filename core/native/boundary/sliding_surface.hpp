@@ -32,6 +32,11 @@ struct BoundaryQuads {
     std::span<const Quad> quads;
     Points outward;  // normal of each quad, or 0 where it has none
 
+    void check() const {
+        expect(are_csr(start, corners.size()), "start: its last number is expected to be the length of corners");
+        expect(outward.size() == quads.size(), "outward: one for each of the quads is expected");
+    }
+
     // Return True if moving the node in a slot to `place` flips a quad that is not flipped now.
     bool flipped_by_move(Points points, Node slot, const Point &place) const {
         for (auto r = start[slot]; r < start[slot + 1]; ++r) {
@@ -49,6 +54,10 @@ struct SlidingSurface {
     Indices slots;                   // (n,): number of a node among the sliding ones, -1 for others
     const ClosestPointCache *cache;  // of each sliding node, on its curve or patch
     BoundaryQuads quads;
+
+    void check() const {
+        expect(quads.start.size() == cache->size() + 1, "quads: rows of each slot of the cache are expected");
+    }
 
     std::size_t count() const { return cache->size(); }
 

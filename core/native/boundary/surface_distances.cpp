@@ -11,11 +11,7 @@ namespace {
 
 constexpr std::int64_t SAMPLES_PER_CHUNK = 128;
 
-// As NumPy sums the squares of short rows, without fused operations.
-double norm(const V3<double> &a) {
-    double x = uncontracted(a.x * a.x), y = uncontracted(a.y * a.y);
-    return std::sqrt(x + uncontracted(a.z * a.z) + y);
-}
+double norm(const V3<double> &a) { return std::sqrt(numpy_dot(a, a)); }
 
 bool has_moved(Points points, Points start, const FaceNodes &nodes, const FaceWeights &weights) {
     V3<double> moved;
@@ -33,16 +29,12 @@ FaceWeights weights_at(const FaceNodes &nodes, const Piece &piece, const Barycen
     return found;
 }
 
-void expect_rows(const SurfaceSamples &samples, const SampleDistances &now) {
-    expect(have_rows(samples.x.size(), now.distances, now.directions, now.nodes, now.weights),
-           "distances, directions, nodes and weights: a row for each of samples is expected");
-}
-
 }  // namespace
 
 void find_distances(const MovingTrees &trees, Points start, std::span<const FaceNodes> faces,
                     const SurfaceSamples &samples, std::span<const std::int64_t> which, const SampleDistances &now) {
-    expect_rows(samples, now);
+    expect(have_rows(samples.x.size(), now.distances, now.directions, now.nodes, now.weights),
+           "distances, directions, nodes and weights: a row for each of samples is expected");
     expect_boxes(trees.boxes, trees.links.size());
     expect(trees.points.size() == start.size() + faces.size(), "points: the nodes and a centre a face are expected");
     expect_known(samples.pieces, trees.pieces.size());

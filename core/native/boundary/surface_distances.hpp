@@ -17,6 +17,11 @@ struct SurfaceSamples {
     std::span<const FaceNodes> nodes;
     std::span<const FaceWeights> weights;
     Indices pieces, roots;
+
+    void check() const {
+        expect(have_rows(x.size(), distances, nodes, weights, pieces, roots),
+               "x, distances, nodes, weights, pieces and roots have different lengths: expected a row a sample");
+    }
 };
 
 // Distances of samples from the boundary now, unit vectors from the closest points to the samples, and the nodes and

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
-#include <memory>
-#include <new>
 #include <numeric>
 
 #include "mesh/csr.hpp"
@@ -26,51 +23,14 @@ std::uint64_t hash(const Point &x) {
     return h;
 }
 
-// Zeros in pages that take memory once they are written.
-struct Free {
-    void operator()(void *p) const { std::free(p); }
-};
-std::unique_ptr<std::int32_t[], Free> zeros(std::size_t count) {
-    auto *p = static_cast<std::int32_t *>(std::calloc(std::max<std::size_t>(count, 1), sizeof(std::int32_t)));
-    if (!p) throw std::bad_alloc();
-    return std::unique_ptr<std::int32_t[], Free>(p);
-}
-
 // The side that follows another of its face.
 std::int32_t next_side(std::int32_t side, int width) { return side % width + 1 < width ? side + 1 : side + 1 - width; }
-
-// A side of a face by its higher node, the upper half, and its number, the lower half.
-using HigherAndSide = std::uint64_t;
-std::int32_t higher(HigherAndSide side) { return static_cast<std::int32_t>(side >> 32); }
-
-// Sides at the lower node of each, ascending: start of each row, and items.
-std::pair<std::vector<std::int32_t>, std::vector<HigherAndSide>> sides_at_nodes(Indices faces, int width,
-                                                                                std::int64_t nodes) {
-    std::vector<std::int32_t> start(nodes + 1);
-    auto for_each_side = [&](const auto &body) {
-        for (std::int32_t side = 0; side < static_cast<std::int32_t>(faces.size()); ++side) {
-            const auto [low, high] = std::minmax({faces[side], faces[next_side(side, width)]});
-            if (low < high) body(side, low, high);
-        }
-    };
-    for_each_side([&](std::int32_t, Node low, Node) { ++start[low + 1]; });
-    accumulate(start);
-    std::vector<HigherAndSide> sides(start.back());
-    std::vector<std::int32_t> next(start.begin(), start.end() - 1);
-    for_each_side([&](std::int32_t side, Node low, Node high) {
-        sides[next[low]++] = std::uint64_t(high) << 32 | std::uint32_t(side);
-    });
-    const auto *begin = start.data();
-    auto *all = sides.data();
-    parallel_for(nodes, ROWS_PER_CHUNK, [=](std::int64_t i) { std::sort(all + begin[i], all + begin[i + 1]); });
-    return {std::move(start), std::move(sides)};
-}
 
 }  // namespace
 
 IntArray numbers_of_different_points(Points points) {
     const std::size_t slots = std::bit_ceil(SLOTS_PER_POINT * points.size() + 1);
-    auto table = zeros(slots);  // one more than the number of a different point, 0 for none
+    std::vector<std::int32_t> table(slots);  // one more than the number of a different point, 0 for none
     std::vector<std::int32_t> numbers(points.size()), first;
     for (std::size_t i = 0; i < points.size(); ++i) {
         std::size_t slot = hash(points[i]) & (slots - 1);
@@ -89,14 +49,25 @@ std::tuple<OwnedArray<std::int32_t, 2>, IntArray, IntArray> edges_of_faces(Indic
     expect(nodes >= 0, "nodes: the number of nodes is expected");
     expect(width > 0 && faces.size() % width == 0, "faces: `width` nodes of each are expected");
     for (Node node : faces) expect(node >= 0 && node < nodes, "faces: a node is out of range");
-    const auto [start, at_nodes] = sides_at_nodes(faces, width, nodes);
-    std::vector<std::int32_t> edges, sides(at_nodes.size()), first;
-    edges.reserve(at_nodes.size() + 2), first.reserve(at_nodes.size() / 2 + 1);  // most have two sides
+    auto ends = [&](std::int32_t side) { return std::minmax({faces[side], faces[next_side(side, width)]}); };
+    auto rows = group_by(nodes, faces.size(), [&](std::int64_t side) {
+        auto [low, high] = ends(static_cast<std::int32_t>(side));
+        return low < high ? low : -1;
+    });
+    auto &[start, sides] = rows;  // at the lower node of each
+    parallel_for(nodes, ROWS_PER_CHUNK, [&rows, &ends](std::int64_t i) {
+        auto begin = rows.second.begin();
+        std::sort(begin + rows.first[i], begin + rows.first[i + 1], [&](std::int32_t a, std::int32_t b) {
+            return std::pair(ends(a).second, a) < std::pair(ends(b).second, b);
+        });
+    });
+    std::vector<std::int32_t> edges, first;
+    edges.reserve(sides.size() + 2), first.reserve(sides.size() / 2 + 1);  // most have two sides
     for (std::int64_t node = 0; node < nodes; ++node) {
-        for (std::int32_t k = start[node]; k < start[node + 1]; ++k) {
-            sides[k] = static_cast<std::int32_t>(at_nodes[k]);
-            if (k > start[node] && higher(at_nodes[k]) == higher(at_nodes[k - 1])) continue;
-            edges.push_back(static_cast<std::int32_t>(node)), edges.push_back(higher(at_nodes[k]));
+        for (std::int32_t k = start[node], last = -1; k < start[node + 1]; ++k) {
+            const Node high = ends(sides[k]).second;
+            if (std::exchange(last, high) == high) continue;
+            edges.push_back(static_cast<std::int32_t>(node)), edges.push_back(high);
             first.push_back(k);
         }
     }
@@ -158,21 +129,6 @@ OwnedArray<double> quantiles_around(ArrayView<const Node, 2> edges, Indices star
         }
     });
     return {std::move(quantiles)};
-}
-
-OwnedArray<bool> extremes_in_cells(Indices cell, Numbers values, std::int64_t cells) {
-    expect(cells >= 0, "cells: the number of cells is expected");
-    expect(cell.size() == values.size(), "values: one for each of the cells of points is expected");
-    for (std::int32_t c : cell) expect(c >= 0 && c < cells, "cell: a number is out of range");
-    auto least = zeros(cells), most = zeros(cells);  // one more than the number of the point, 0 for none
-    for (std::size_t i = 0; i < cell.size(); ++i) {
-        std::int32_t &low = least[cell[i]], &high = most[cell[i]];
-        if (!low || values[i] < values[low - 1]) low = static_cast<std::int32_t>(i + 1);
-        if (!high || values[i] >= values[high - 1]) high = static_cast<std::int32_t>(i + 1);
-    }
-    OwnedArray<bool> found{std::vector<std::uint8_t>(cell.size())};
-    for (std::int32_t c : cell) found.values[least[c] - 1] = found.values[most[c] - 1] = true;
-    return found;
 }
 
 }  // namespace hexmend

@@ -1,5 +1,5 @@
-// Points and edges of large surfaces: equal points, edges of faces, fans of faces around points, values around edges,
-// and points with the largest and the least value in each cell of a lattice.
+// Points and edges of large surfaces: equal points, edges of faces, fans of faces around points, values around
+// edges.
 #pragma once
 
 #include <tuple>
@@ -28,9 +28,5 @@ IntArray count_fans(Indices faces, int width, Indices sides, Indices first, std:
 // quantile.
 OwnedArray<double> quantiles_around(ArrayView<const Node, 2> edges, Indices start, Indices ends, Numbers values,
                                     Indices some, double most, double share);
-
-// True for the points with the largest and with the least value of each cell; of equal values the last is the largest,
-// the first the least. cell (k,) is below `cells`.
-OwnedArray<bool> extremes_in_cells(Indices cell, Numbers values, std::int64_t cells);
 
 }  // namespace hexmend

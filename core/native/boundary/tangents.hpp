@@ -1,4 +1,4 @@
-// Directions in which nodes that slide on a surface may move.
+// Directions in which nodes that slide on a surface may move, and normals of the surface at its vertices.
 #pragma once
 
 #include "boundary/closest_point.hpp"
@@ -21,5 +21,9 @@ void tangent_bases(const SurfaceDirections &surface, Indices pieces, std::span<c
 
 // Write the projectors B B^T (k, 3, 3) onto directions B (k, 3, 3), orthonormal or 0 in columns.
 void tangent_projectors(ArrayView<const double, 9> bases, ArrayView<double, 9> projectors);
+
+// Write the unit normal at each corner of each triangle, row 3 t + c for corner c of triangle t: the mean over the
+// triangles of the same patch at that vertex, weighted by their angles; 0 where they have none.
+void vertex_normals(Points points, std::span<const Piece> triangles, Indices patch, std::span<Point> normals);
 
 }  // namespace hexmend

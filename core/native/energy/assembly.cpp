@@ -82,10 +82,8 @@ void assemble_into(Points points, double delta, ObjectiveNorm norm, OmittedCorne
     // A copy that the compiler can keep in registers: the AVX-512 build then rounds the same sums as before.
     const auto [bounds, start, numbers, hexes, slots, row_start, columns] = shared;
     const HexShares local{bounds, start, numbers, hexes, slots, row_start, columns};
-    with_target(matrices, [&](const auto &w) {
-        if (delta != 0)
-            assemble_of<true, Real>(points, delta, norm, omitted, local, first_separator, open, diagonal, w);
-        else assemble_of<false, Real>(points, delta, norm, omitted, local, first_separator, open, diagonal, w);
+    with_cases(matrices, delta, [&](auto soft, const auto &w) {
+        assemble_of<soft, Real>(points, delta, norm, omitted, local, first_separator, open, diagonal, w);
     });
 }
 

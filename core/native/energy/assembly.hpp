@@ -22,6 +22,14 @@ struct HexShares {
     Indices row_start;  // (k + 1,): first block of each slot's row
     Indices columns;    // (blocks,)
 
+    void check() const {
+        expect(!bounds.empty() && start.size() == bounds.size(), "start: one for each of bounds is expected");
+        expect(are_csr(start, numbers.size()), "numbers: as many as the last of start are expected");
+        expect(std::cmp_equal(row_start.size(), std::int64_t{bounds.back()} + 1),
+               "row_start: one more than the slots is expected");
+        expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
+    }
+
     // Throw unless they are shares of a mesh with so many nodes and hexes, and a matrix has their pattern.
     void expect_sizes(std::size_t nodes, std::size_t hexes_of_mesh, std::size_t off_diagonal,
                       std::size_t diagonal) const {

@@ -63,11 +63,6 @@ struct CornerJacobian {
     M3<Lanes> a, g;
 };
 
-inline Lanes scaled_jacobian(const M3<Lanes> &edges) {
-    Lanes lengths = length(edges.u) * length(edges.v) * length(edges.w);
-    return lengths > 0.0 ? determinant(edges) / lengths : broadcast<Lanes>(-1.0);
-}
-
 inline CornerJacobian corner_jacobian(const M3<Lanes> &edges, const Lanes &s) {
     auto c = cofactors(edges);
     auto over_square = [](const V3<Lanes> &e) { return square(e) > 0.0 ? 1.0 / square(e) : Lanes{}; };
@@ -299,8 +294,7 @@ void expect_floors(const Floors &floors, std::size_t hexes, const TargetMatrices
 
 void floor_qualities(Points points, Hexes hexes, OmittedCorners omitted, std::span<double> values,
                      const TargetMatrices *target) {
-    expect(omitted.size() == hexes.size() && values.size() == hexes.size(),
-           "omitted and values: one for each hex is expected");
+    expect(have_rows(hexes.size(), omitted, values), "omitted and values: one for each hex is expected");
     expect_rows(target, hexes.size());
     with_target(target, [&](const auto &w) {
         for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
@@ -313,16 +307,14 @@ void floor_qualities(Points points, Hexes hexes, OmittedCorners omitted, std::sp
 
 void floor_values(Points points, Hexes hexes, const Floors &floors, OmittedCorners omitted, std::span<double> values,
                   const TargetMatrices *target) {
-    expect(omitted.size() == hexes.size() && values.size() == hexes.size(),
-           "omitted and values: one for each hex is expected");
+    expect(have_rows(hexes.size(), omitted, values), "omitted and values: one for each hex is expected");
     expect_floors(floors, hexes.size(), target);
     with_target(target, [&](const auto &w) { values_of(points, hexes, floors, omitted, values, w); });
 }
 
 void add_floor_gradient(Points points, Hexes hexes, const Floors &floors, OmittedCorners omitted, CornerVectors shares,
                         const TargetMatrices *target) {
-    expect(omitted.size() == hexes.size() && shares.size() == hexes.size(),
-           "omitted and shares: one for each hex is expected");
+    expect(have_rows(hexes.size(), omitted, shares), "omitted and shares: one for each hex is expected");
     expect_floors(floors, hexes.size(), target);
     with_target(target, [&](const auto &w) { gradient_of(points, hexes, floors, omitted, shares, w); });
 }

@@ -18,6 +18,11 @@ struct Floors {
     std::span<const double> qualities;  // (m,) of q(H); -INF: none
     OmittedCorners ignored;
     double jacobian_band, quality_band, weight;
+
+    void check() const {
+        expect(have_rows(jacobians.size(), qualities, ignored),
+               "jacobians, qualities and ignored have different lengths: expected a row a hex");
+    }
 };
 
 // Write q(H) of every hex, (m,), with a target that of S W^-1; omitted corners count as perfect.

@@ -137,7 +137,7 @@ class NodeQuads {
         for (int i = 0; i < 4; ++i) x[i] = factor * (vector(points[i]) - origin);
         V3<double> n = vector(term_->normals[f]);
         auto scale = [&](int i, int edge) {
-            return term_->inverse_lengths.empty() ? 1.0 : term_->inverse_lengths[f][2 * i + edge] / factor;
+            return term_->inverse_lengths ? (*term_->inverse_lengths)[f][2 * i + edge] / factor : 1.0;
         };
         int next = (c + 1) % 4, across = (c + 2) % 4, previous = (c + 3) % 4;
         const auto &counted = term_->counted[f];

@@ -7,74 +7,86 @@
 
 namespace hexmend {
 
-template <bool soft, class T, class Target>
-void energies_of(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted, std::span<double> eta,
-                 const Target &target) {
-    for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<T>(points, hexes, first, count);
-        auto scales = scales_of<T>(target, first, count);
-        T sum{};
-        with_corner_mask<T>(omitted, first, count, [&](auto counted) {
-            unroll<8>([&](auto t) {
-                sum += hexmend::eta<soft>(x.template edges<t>(), scales.template columns<t>(), delta, counted(t));
+template <class T>
+void energies_in(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted, std::span<double> eta,
+                 const TargetMatrices *matrices) {
+    expect(have_rows(hexes.size(), omitted, eta), "omitted and eta: one for each hex is expected");
+    expect_rows(matrices, hexes.size());
+    with_cases(matrices, delta, [&](auto soft, const auto &target) {
+        for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+            auto x = gather_corners<T>(points, hexes, first, count);
+            auto scales = scales_of<T>(target, first, count);
+            T sum{};
+            with_corner_mask<T>(omitted, first, count, [&](auto counted) {
+                unroll<8>([&](auto t) {
+                    sum += hexmend::eta<soft>(x.template edges<t>(), scales.template columns<t>(), delta, counted(t));
+                });
             });
+            sum = hex_energy(sum, offset);
+            for (int i = 0; i < count; ++i) eta[first + i] = lane(sum, i);
         });
-        sum = hex_energy(sum, offset);
-        for (int i = 0; i < count; ++i) eta[first + i] = lane(sum, i);
     });
 }
 
-template <bool soft, class T, class Target>
-void gradient_of(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
-                 CornerVectors shares, const Target &target) {
-    for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<T>(points, hexes, first, count);
-        auto scales = scales_of<T>(target, first, count);
-        CornerMask<T> counted(omitted, first, count);
-        Corners<T> g;
-        T sum{};
-        unroll<8>([&](auto t) {
-            auto edges = x.template edges<t>();
-            auto by = scales.template columns<t>();
-            const auto &s = scale(edges, by);
-            auto cof = cofactors(s);
-            auto d = derivatives<soft>(edges, by, s, cof, delta, counted(t));
-            sum += counted(t) ? d.eta : broadcast<T>(1.0);
-            g.template scatter<t>(scale(gradient(d, s, cof), by));
+template <class T>
+void gradient_in(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
+                 CornerVectors shares, const TargetMatrices *matrices) {
+    expect(have_rows(hexes.size(), omitted, shares), "omitted and shares: one for each hex is expected");
+    expect_rows(matrices, hexes.size());
+    with_cases(matrices, delta, [&](auto soft, const auto &target) {
+        for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+            auto x = gather_corners<T>(points, hexes, first, count);
+            auto scales = scales_of<T>(target, first, count);
+            CornerMask<T> counted(omitted, first, count);
+            Corners<T> g;
+            T sum{};
+            unroll<8>([&](auto t) {
+                auto edges = x.template edges<t>();
+                auto by = scales.template columns<t>();
+                const auto &s = scale(edges, by);
+                auto cof = cofactors(s);
+                auto d = derivatives<soft>(edges, by, s, cof, delta, counted(t));
+                sum += counted(t) ? d.eta : broadcast<T>(1.0);
+                g.template scatter<t>(scale(gradient(d, s, cof), by));
+            });
+            LanePowerDerivatives<T> by(sum * 0.125 - norm.offset, norm.p);
+            for (auto &corner : g.at) corner = by.first * corner;
+            store(g, first, count, shares);
         });
-        LanePowerDerivatives<T> by(sum * 0.125 - norm.offset, norm.p);
-        for (auto &corner : g.at) corner = by.first * corner;
-        store(g, first, count, shares);
     });
 }
 
-template <bool soft, class T, class Target>
-void hessian_product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
-                        OmittedCorners omitted, CornerVectors shares, const Target &target) {
-    for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<T>(points, hexes, first, count);
-        auto v = gather_corners_or_zero<T>(values, slots, first, count);
-        auto scales = scales_of<T>(target, first, count);
-        CornerMask<T> counted(omitted, first, count);
-        Corners<T> g, h;
-        T sum{}, slope{};
-        unroll<8>([&](auto t) {
-            auto edges = x.template edges<t>();
-            auto by = scales.template columns<t>();
-            auto directions = v.template edges<t>();
-            const auto &s = scale(edges, by), &a = scale(directions, by);
-            auto cof = cofactors(s);
-            auto d = derivatives<soft>(edges, by, s, cof, delta, counted(t));
-            DirectionalTerms<T> along{dot(a, s), dot(a, cof)};
-            sum += counted(t) ? d.eta : broadcast<T>(1.0);
-            slope += along.slope(d);
-            g.template scatter<t>(scale(gradient(d, s, cof), by));
-            h.template scatter<t>(scale(product(d, s, cof, a, along), by));
+template <class T>
+void hessian_product_in(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
+                        OmittedCorners omitted, CornerVectors shares, const TargetMatrices *matrices) {
+    expect(have_rows(hexes.size(), omitted, slots, shares), "omitted, slots and shares: one for each hex is expected");
+    expect_rows(matrices, hexes.size());
+    with_cases(matrices, delta, [&](auto soft, const auto &target) {
+        for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+            auto x = gather_corners<T>(points, hexes, first, count);
+            auto v = gather_corners_or_zero<T>(values, slots, first, count);
+            auto scales = scales_of<T>(target, first, count);
+            CornerMask<T> counted(omitted, first, count);
+            Corners<T> g, h;
+            T sum{}, slope{};
+            unroll<8>([&](auto t) {
+                auto edges = x.template edges<t>();
+                auto by = scales.template columns<t>();
+                auto directions = v.template edges<t>();
+                const auto &s = scale(edges, by), &a = scale(directions, by);
+                auto cof = cofactors(s);
+                auto d = derivatives<soft>(edges, by, s, cof, delta, counted(t));
+                DirectionalTerms<T> along{dot(a, s), dot(a, cof)};
+                sum += counted(t) ? d.eta : broadcast<T>(1.0);
+                slope += along.slope(d);
+                g.template scatter<t>(scale(gradient(d, s, cof), by));
+                h.template scatter<t>(scale(product(d, s, cof, a, along), by));
+            });
+            LanePowerDerivatives<T> by(sum * 0.125 - norm.offset, norm.p);
+            T along = by.second * slope;
+            for (int c = 0; c < 8; ++c) h.at[c] = by.first * h.at[c] + along * g.at[c];
+            store(h, first, count, shares);
         });
-        LanePowerDerivatives<T> by(sum * 0.125 - norm.offset, norm.p);
-        T along = by.second * slope;
-        for (int c = 0; c < 8; ++c) h.at[c] = by.first * h.at[c] + along * g.at[c];
-        store(h, first, count, shares);
     });
 }
 

@@ -20,6 +20,12 @@ template <class Body> inline auto with_target(const TargetMatrices *target, cons
     return target ? body(*target) : body(Cubes{});
 }
 
+// Likewise body(soft, target), where soft is std::true_type for delta > 0.
+template <class Body> inline auto with_cases(const TargetMatrices *target, double delta, const Body &body) {
+    return with_target(
+        target, [&](const auto &w) { return delta != 0 ? body(std::true_type{}, w) : body(std::false_type{}, w); });
+}
+
 // Throw unless there is no target or it is one of `hexes` hexes.
 inline void expect_rows(const TargetMatrices *target, std::size_t hexes) {
     expect(!target || target->inverse_lengths.size() == hexes, "target: one row for each hex is expected");

@@ -54,6 +54,12 @@ template <class T> inline T hex_energy(T sum, double offset) {
     return energy > 0.0 ? energy : energy <= 0.0 ? broadcast<T>(0.0) : broadcast<T>(INF);
 }
 
+// Scaled Jacobian sigma/(|u||v||w|); -1 where an edge has no length.
+template <class T> inline T scaled_jacobian(const M3<T> &edges) {
+    T lengths = length(edges.u) * length(edges.v) * length(edges.w);
+    return lengths > 0.0 ? determinant(edges) / lengths : broadcast<T>(-1.0);
+}
+
 // Result of `barrier`.
 template <class T> struct Barrier {
     T h, r;

@@ -11,6 +11,11 @@ namespace hexmend {
 // row meets, as compressed rows that ascend, row_start (k + 1,) and columns.
 struct CoarsePattern {
     Indices aggregate, row_start, columns;
+
+    void check() const {
+        expect(aggregate.size() + 1 == row_start.size(), "row_start: one more than aggregates is expected");
+        expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
+    }
 };
 
 // Divide slots into aggregates, and find the pattern of A R: arrays of a `CoarsePattern`.

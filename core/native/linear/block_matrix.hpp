@@ -63,6 +63,13 @@ template <class Real> using Vectors = std::span<const std::array<Real, 4>>;
 struct BlockPattern {
     Indices bounds, row_start, columns;
 
+    void check() const {
+        expect(!bounds.empty() && bounds.size() % 2 == 0, "bounds: two for each part are expected");
+        expect(std::cmp_equal(row_start.size(), std::int64_t{bounds.back()} + 1),
+               "row_start: one more than the last of bounds is expected");
+        expect(are_csr(row_start, columns.size()), "columns: as many as the last of row_start are expected");
+    }
+
     std::int64_t slots() const { return bounds.back(); }
     std::int32_t first_separator() const { return bounds[bounds.size() / 2]; }
 

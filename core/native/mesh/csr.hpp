@@ -48,6 +48,21 @@ inline void accumulate(std::span<std::int32_t> start, std::int64_t max_items = M
     for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
 }
 
+// Rows of the numbers 0 to items - 1, ascending: number k is in row row_of(k), in none where that is negative.
+template <class RowOf>
+std::pair<std::vector<std::int32_t>, std::vector<std::int32_t>> group_by(std::int64_t rows, std::int64_t items,
+                                                                         const RowOf &row_of) {
+    std::vector<std::int32_t> start(rows + 1);
+    for (std::int64_t k = 0; k < items; ++k)
+        if (auto row = row_of(k); row >= 0) ++start[row];
+    accumulate(start);
+    std::vector<std::int32_t> numbers(start[rows]);
+    // From the last to the first, so that each row's end is counted down to its start.
+    for (std::int64_t k = items - 1; k >= 0; --k)
+        if (auto row = row_of(k); row >= 0) numbers[--start[row]] = static_cast<std::int32_t>(k);
+    return {std::move(start), std::move(numbers)};
+}
+
 // Builds rows of unknown length: chunks of rows in parallel, then all of them one after another.
 template <class Item> class CSRBuilder {
   public:
@@ -83,26 +98,6 @@ template <class Item> class CSRBuilder {
     std::vector<std::int32_t> start_;
     std::vector<std::vector<Item>> chunks_;
 };
-
-// Smallest number of steps between each of `count` items and one for which is_start(i); where there is no way, one more
-// than the largest. each_neighbour(i, body) calls body(j) for the neighbours of item i.
-template <class IsStart, class EachNeighbour>
-std::vector<std::int32_t> breadth_first_levels(std::int64_t count, const IsStart &is_start,
-                                               const EachNeighbour &each_neighbour) {
-    std::vector<std::int32_t> level(count, -1), queue;
-    queue.reserve(count);
-    for (std::int64_t i = 0; i < count; ++i)
-        if (is_start(i)) level[i] = 0, queue.push_back(i);
-    std::int32_t deepest = -1;
-    for (std::size_t at = 0; at < queue.size(); ++at) {
-        deepest = level[queue[at]];
-        each_neighbour(queue[at], [&](std::int32_t j) {
-            if (level[j] < 0) level[j] = deepest + 1, queue.push_back(j);
-        });
-    }
-    std::replace(level.begin(), level.end(), -1, deepest + 1);
-    return level;
-}
 
 // Rows of `count` + 1 starts and their items, as arrays.
 inline CSR arrays(CSRBuilder<std::int32_t> &&rows) {

@@ -58,8 +58,7 @@ void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> 
              std::span<double> eta) {
     expect(have_rows(hexes.size(), q, sigma, jacobian, eta),
            "q, sigma, jacobian and eta: one for each of hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<Lanes>(points, hexes, first, count);
+    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
         EdgeLengths edges(x);
         Lanes quality{}, energy{}, lowest = broadcast<Lanes>(INF), worst = broadcast<Lanes>(INF);
         unroll<8>([&](auto t) {
@@ -80,8 +79,7 @@ void measure_against(Points points, Hexes hexes, const TargetMatrices &target, s
                      std::span<double> eta) {
     expect(have_rows(hexes.size(), q, eta), "q and eta: one for each of hexes is expected");
     expect_rows(&target, hexes.size());
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<Lanes>(points, hexes, first, count);
+    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
         auto scales = scales_of<Lanes>(target, first, count);
         Lanes quality{}, energy{};
         unroll<8>([&](auto t) {
@@ -98,8 +96,7 @@ void measure_against(Points points, Hexes hexes, const TargetMatrices &target, s
 
 void corner_qualities(Points points, Hexes hexes, ArrayView<double, 8> q) {
     expect(q.size() == hexes.size(), "q: a row for each of hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<Lanes>(points, hexes, first, count);
+    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
         EdgeLengths edges(x);
         unroll<8>([&](auto t) {
             Lanes quality = corner_figures<t>(x, edges).q;
@@ -110,13 +107,9 @@ void corner_qualities(Points points, Hexes hexes, ArrayView<double, 8> q) {
 
 void corner_jacobians(Points points, Hexes hexes, ArrayView<double, 8> jacobians) {
     expect(jacobians.size() == hexes.size(), "jacobians: a row of each of the hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<Lanes>(points, hexes, first, count);
-        EdgeLengths edges(x);
+    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
         unroll<8>([&](auto t) {
-            constexpr auto &e = AT_APEX[t];
-            Lanes size = edges.lengths[e[0]] * edges.lengths[e[1]] * edges.lengths[e[2]];
-            Lanes value = size > 0.0 ? determinant(x.template edges<t>()) / size : broadcast<Lanes>(-1.0);
+            Lanes value = scaled_jacobian(x.template edges<t>());
             for (int i = 0; i < count; ++i) jacobians[first + i][t] = value[i];
         });
     });
@@ -157,31 +150,23 @@ void lower_to_edges(Points points, Hexes hexes, std::span<double> lengths) {
     for (const Hex &hex : hexes)
         for (auto [a, b] : EDGES) {
             V3<double> edge = vector(points[hex[b]]) - vector(points[hex[a]]);
-            // As NumPy sums the squares of short rows, without fused operations.
-            double x = uncontracted(edge.x * edge.x), y = uncontracted(edge.y * edge.y);
-            double length = std::sqrt(x + uncontracted(edge.z * edge.z) + y);
+            double length = std::sqrt(numpy_dot(edge, edge));
             lower(lengths[hex[a]], length), lower(lengths[hex[b]], length);
         }
 }
 
 double mean_edge_length(Points points, Hexes hexes) {
     std::vector<double> totals((hexes.size() + HEXES_PER_CHUNK - 1) / HEXES_PER_CHUNK);
-    parallel_chunks(hexes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
-        double total = 0;
-        for (auto first = begin; first < end; first += LANES) {
-            int count = static_cast<int>(std::min<std::int64_t>(LANES, end - first));
-            Lanes lengths = edge_lengths(gather_corners<Lanes>(points, hexes, first, count));
-            for (int i = 0; i < count; ++i) total += lengths[i];
-        }
-        totals[begin / HEXES_PER_CHUNK] = total;
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        Lanes lengths = edge_lengths(gather_corners<Lanes>(points, hexes, first, count));
+        for (int i = 0; i < count; ++i) totals[first / HEXES_PER_CHUNK] += lengths[i];
     });
     return hexes.empty() ? 0.0 : std::accumulate(totals.begin(), totals.end(), 0.0) / (12.0 * hexes.size());
 }
 
 void corner_determinants(Points points, Hexes hexes, ArrayView<double, 8> sigma) {
     expect(sigma.size() == hexes.size(), "sigma: a row for each of hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<Lanes>(points, hexes, first, count);
+    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
         unroll<8>([&](auto t) {
             Lanes det = determinant(x.template edges<t>());
             for (int i = 0; i < count; ++i) sigma[first + i][t] = det[i];

@@ -23,8 +23,7 @@ Lanes cosine(const V3<Lanes> &a, const V3<Lanes> &b) {
 
 void angles(Points points, Hexes hexes, std::span<double> smallest, std::span<double> largest) {
     expect(have_rows(hexes.size(), smallest, largest), "smallest and largest: one for each of hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<Lanes>(points, hexes, first, count);
+    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
         Lanes low = broadcast<Lanes>(1.0), high = broadcast<Lanes>(-1.0);  // cosines
         unroll<8>([&](auto t) {  // the edges from a corner make the angles of three faces
             auto [u, v, w] = x.template edges<t>();
@@ -43,8 +42,7 @@ void angles(Points points, Hexes hexes, std::span<double> smallest, std::span<do
 
 void warpage(Points points, Hexes hexes, std::span<double> worst) {
     expect(worst.size() == hexes.size(), "worst: one for each of hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<Lanes>(points, hexes, first, count);
+    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
         Lanes low = broadcast<Lanes>(1.0);
         unroll<6>([&](auto f) {
             constexpr auto &face = FACES[f];

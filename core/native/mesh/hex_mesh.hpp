@@ -14,6 +14,8 @@ struct HexMesh {
     Indices start;    // (n + 1,): the corners at node i are corners[start[i]] to corners[start[i + 1] - 1]
     Indices corners;  // (8 m,), result of `node_corners`
 
+    void check() const { expect_corners(hexes.size(), start, corners); }
+
     std::size_t nodes() const { return start.size() - 1; }
 
     Star star(Node i) const { return corners.subspan(start[i], start[i + 1] - start[i]); }

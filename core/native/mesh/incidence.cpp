@@ -9,12 +9,7 @@ namespace hexmend {
 
 CSR node_corners(Hexes hexes, std::int64_t nodes) {
     expect(nodes >= 0, "n: the number of nodes is expected");
-    std::vector<std::int32_t> start(nodes + 1), corners(8 * hexes.size());
-    for (const Hex &hex : hexes)
-        for (Node i : hex) ++start[i];
-    accumulate(start);
-    // From the last corner to the first, so that each row's end is counted down to its start.
-    for (std::int64_t k = corners.size() - 1; k >= 0; --k) corners[--start[hexes[k / 8][k % 8]]] = k;
+    auto [start, corners] = group_by(nodes, 8 * hexes.size(), [&](std::int64_t k) { return hexes[k / 8][k % 8]; });
     return {{std::move(start)}, {std::move(corners)}};
 }
 
@@ -157,14 +152,6 @@ void join(std::span<std::int32_t> parent, Indices items, int width) {
     }
 }
 
-IntArray component_numbers(Indices parent) {
-    std::vector<std::int32_t> number(parent.size());
-    std::int32_t count = 0;
-    for (std::size_t i = 0; i < parent.size(); ++i)  // a parent is never above its child
-        number[i] = parent[i] == static_cast<std::int32_t>(i) ? count++ : number[parent[i]];
-    return {std::move(number)};
-}
-
 CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_items) {
     expect_corners(hexes.size(), start, corners);
     return arrays(CSRBuilder<Node>(start.size() - 1, 3 * widest(start) + 1, max_items, [&](std::int64_t i, Node *ring) {
@@ -189,45 +176,41 @@ IntArray greedy_colours(Indices start, Indices corners, std::span<const bool> ch
 
 CSR grouped(Indices colour, std::int64_t count) {
     expect(count >= 0, "count: the number of colours is expected");
-    std::vector<std::int32_t> start(count + 1);
-    for (auto k : colour)
-        if (k >= 0) ++start[k];
-    accumulate(start);
-    std::vector<std::int32_t> nodes(start[count]);
-    for (std::int64_t i = colour.size() - 1; i >= 0; --i)
-        if (colour[i] >= 0) nodes[--start[colour[i]]] = i;
+    auto [start, nodes] = group_by(count, colour.size(), [&](std::int64_t i) { return colour[i]; });
     return {{std::move(start)}, {std::move(nodes)}};
 }
 
-IntArray layers(Neighbours neighbours) {
-    auto on_boundary = [&](std::int64_t h) {
-        return std::any_of(neighbours[h].begin(), neighbours[h].end(), [](auto other) { return other < 0; });
-    };
-    return {breadth_first_levels(neighbours.size(), on_boundary, [&](std::int32_t h, const auto &body) {
-        for (auto other : neighbours[h])
-            if (other >= 0) body(other);
-    })};
+IntArray levels(Indices ring_start, Indices ring, std::span<const bool> from) {
+    expect_rings(from.size(), ring_start, ring);
+    std::vector<std::int32_t> level(from.size(), -1), queue;
+    queue.reserve(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i)
+        if (from[i]) level[i] = 0, queue.push_back(i);
+    std::int32_t deepest = -1;
+    for (std::size_t at = 0; at < queue.size(); ++at) {
+        const auto i = queue[at];
+        deepest = level[i];
+        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s)
+            if (auto j = ring[s]; level[j] < 0) level[j] = deepest + 1, queue.push_back(j);
+    }
+    std::replace(level.begin(), level.end(), -1, deepest + 1);
+    return {std::move(level)};
 }
 
-OwnedArray<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings) {
-    expect_corners(hexes.size(), start, corners);
-    std::vector<std::uint8_t> reached(hexes.size()), seen(start.size() - 1);
-    std::vector<std::int32_t> queue;
-    auto reach = [&](std::int32_t h) {
-        if (reached[h]) return;
-        reached[h] = true;
-        queue.push_back(h);
-    };
-    for (auto h : chosen) reach(h);
-    std::size_t at = 0;
-    for (int ring = 0; ring < rings; ++ring)
-        for (std::size_t last = queue.size(); at < last; ++at)
-            for (Node i : hexes[queue[at]]) {
-                if (seen[i]) continue;
-                seen[i] = true;
-                for (auto s = start[i]; s < start[i + 1]; ++s) reach(corners[s] / 8);
-            }
-    return {std::move(reached)};
+CSR wavefronts(Indices start, Indices corners, Indices sequence) {
+    expect_corners(corners.size() / 8, start, corners);
+    std::vector<std::int32_t> next(corners.size() / 8);  // of each hex: one more than the group of its latest node
+    std::vector<std::int32_t> group(sequence.size());
+    std::int32_t groups = 0;
+    for (std::size_t k = 0; k < sequence.size(); ++k) {
+        const Node i = sequence[k];
+        for (auto s = start[i]; s < start[i + 1]; ++s) group[k] = std::max(group[k], next[corners[s] / 8]);
+        for (auto s = start[i]; s < start[i + 1]; ++s) next[corners[s] / 8] = group[k] + 1;
+        groups = std::max(groups, group[k] + 1);
+    }
+    auto [group_start, nodes] = group_by(groups, sequence.size(), [&](std::int64_t k) { return group[k]; });
+    for (auto &node : nodes) node = sequence[node];
+    return {{std::move(group_start)}, {std::move(nodes)}};
 }
 
 }  // namespace hexmend

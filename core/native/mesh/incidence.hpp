@@ -25,9 +25,6 @@ CSR overlapping_corners(Hexes hexes, Indices start, Indices corners);
 // beginning every item is its own parent. Join the items of each row of `width` items.
 void join(std::span<std::int32_t> parent, Indices items, int width);
 
-// Component of each item, numbered in the order of their lowest items.
-IntArray component_numbers(Indices parent);
-
 // Edge neighbours of each node, ascending; throws std::overflow_error if there are more than `max_items`.
 CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_items);
 
@@ -37,14 +34,23 @@ IntArray greedy_colours(Indices start, Indices corners, std::span<const bool> ch
 // Nodes of each of `count` colours, ascending; colour -1 is in no group.
 CSR grouped(Indices colour, std::int64_t count);
 
-// Number of faces crossed on the shortest way from each hex to a boundary hex, (m,).
-IntArray layers(Neighbours neighbours);
+// Number of edges between each node and the nearest with from[i], (n,).
+IntArray levels(Indices ring_start, Indices ring, std::span<const bool> from);
 
-// True for the chosen hexes and those within `rings` steps through common nodes, (m,).
-OwnedArray<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings);
+// Groups of the nodes of a sequence such that no hex has two nodes of one group, and a node's group follows those of
+// all earlier nodes of its hexes: sweeping group after group equals sweeping the sequence.
+CSR wavefronts(Indices start, Indices corners, Indices sequence);
 
 // Every edge once, (e, 2); the number of hexes around it; whether it is on the boundary.
 std::tuple<OwnedArray<Node, 2>, IntArray, OwnedArray<bool>> edges(Hexes hexes, Indices start, Indices corners,
                                                                   Neighbours neighbours, std::int64_t max_items);
+
+// Averages along dual sheets: each hex has three groups of four parallel edges, and edges of one group are neighbours.
+// Edges of a group; the number of edges stands for none.
+using EdgeGroups = ArrayView<const std::int32_t, 4>;
+
+// Average of the values of edges over the groups around each edge: the mean of the groups' means; 0 and a count of 0
+// where there is none. The last value stands for no edge.
+void average_along_sheets(EdgeGroups groups, Numbers values, std::span<double> average, std::span<std::int32_t> count);
 
 }  // namespace hexmend

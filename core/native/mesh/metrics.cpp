@@ -50,8 +50,7 @@ void lengths(Points points, Hexes hexes, std::span<double> edge_ratio, std::span
     expect(have_rows(hexes.size(), edge_ratio, stretch, diagonal),
            "edge_ratio, stretch and diagonal: one for each of hexes is expected");
     const double ROOT_3 = sqrt(3.0);
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<Lanes>(points, hexes, first, count);
+    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
         auto [shortest, longest] = distances(x, EDGES);
         auto [narrow, wide] = distances(x, DIAGONALS);
         store(shortest > 0.0 ? longest / shortest : broadcast<Lanes>(INF), first, count, edge_ratio);
@@ -85,8 +84,7 @@ void axes(Points points, Hexes hexes, std::span<double> aspect_ratio, std::span<
 
 void corners(Points points, Hexes hexes, std::span<double> shape, std::span<double> condition) {
     expect(have_rows(hexes.size(), shape, condition), "shape and condition: one for each of hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gather_corners<Lanes>(points, hexes, first, count);
+    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
         Lanes fullest = broadcast<Lanes>(INF), worst = broadcast<Lanes>(1.0);
         unroll<8>([&](auto t) {
             auto s = x.template edges<t>();

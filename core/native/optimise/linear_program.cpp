@@ -18,12 +18,6 @@ struct NodeSlopes {
     }
 };
 
-// The inner product whose sum is taken as by NumPy's einsum of rows of three, without fused operations.
-double slope_along(const V3<double> &slope, const Point &direction) {
-    double x = uncontracted(slope.x * direction[0]), y = uncontracted(slope.y * direction[1]);
-    return x + uncontracted(slope.z * direction[2]) + y;
-}
-
 }  // namespace
 
 std::tuple<LongArray, LongArray, OwnedArray<double>> program_rows(const LinearModels &models, Indices index,
@@ -49,7 +43,7 @@ std::tuple<LongArray, LongArray, OwnedArray<double>> program_rows(const LinearMo
         for_each_node(row, [&](const auto &slope, auto begin, auto end) {
             for (auto direction = begin; direction < end; ++direction, ++at) {
                 columns[at] = directions.columns[direction];
-                values[at] = -slope_along(slope, directions.displacements[direction]);
+                values[at] = -numpy_dot(slope, vector(directions.displacements[direction]));
             }
         });
         columns[at] = gain_column, values[at] = models.gains[row];

@@ -83,27 +83,26 @@ inline void transpose(Lanes (&rows)[LANES]) {
 #endif
 }
 
-// Corner coordinates of `count` hexes from number `first` on; unused lanes repeat the last hex.
-template <class T> inline Corners<T> gather_corners(Points points, Hexes hexes, std::int64_t first, int count) {
+// Vectors at the corners of `count` hexes from number `first` on, at(node) of each; unused lanes repeat the last hex.
+template <class T, class At>
+inline Corners<T> gather_vectors(Hexes hexes, std::int64_t first, int count, const At &at) {
     const Hex *hex[width<T>];
     for (int i = 0; i < width<T>; ++i) hex[i] = &hexes[first + (i < count ? i : count - 1)];
     Corners<T> x;
-    for (int c = 0; c < 8; ++c) x.at[c] = load_lanes<T>([&](int i) -> const Point & { return points[(*hex[i])[c]]; });
+    for (int c = 0; c < 8; ++c) x.at[c] = load_lanes<T>([&](int i) -> const Point & { return at((*hex[i])[c]); });
     return x;
 }
 
-// Vectors at the corners of `count` hexes: values[slot], or zero where the slot is negative.
+// Corner coordinates.
+template <class T> inline Corners<T> gather_corners(Points points, Hexes hexes, std::int64_t first, int count) {
+    return gather_vectors<T>(hexes, first, count, [&](Node node) -> const Point & { return points[node]; });
+}
+
+// values[slot], or zero where the slot is negative.
 template <class T> inline Corners<T> gather_corners_or_zero(Points values, Hexes slots, std::int64_t first, int count) {
     static constexpr Point ZERO{};
-    const Hex *hex[width<T>];
-    for (int i = 0; i < width<T>; ++i) hex[i] = &slots[first + (i < count ? i : count - 1)];
-    Corners<T> x;
-    for (int c = 0; c < 8; ++c)
-        x.at[c] = load_lanes<T>([&](int i) -> const Point & {
-            auto slot = (*hex[i])[c];
-            return slot >= 0 ? values[slot] : ZERO;
-        });
-    return x;
+    return gather_vectors<T>(slots, first, count,
+                             [&](Node slot) -> const Point & { return slot >= 0 ? values[slot] : ZERO; });
 }
 
 // Write the vectors at the corners of `count` hexes, 24 numbers each, to values[first], ...
@@ -183,6 +182,13 @@ template <class T, class Body> inline void for_each_block(std::int64_t hexes, co
     parallel_chunks(hexes, HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t first = begin; first < end; first += width<T>)
             body(first, static_cast<int>(end - first < width<T> ? end - first : width<T>));
+    });
+}
+
+// Call body(corners, first, count) for every block of hexes.
+template <class T, class Body> inline void for_each_corners(Points points, Hexes hexes, const Body &body) {
+    for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+        body(gather_corners<T>(points, hexes, first, count), first, count);
     });
 }
 

@@ -45,14 +45,22 @@ template <class T> inline M3<T> cofactors(const M3<T> &s) {
     return {cross(s.v, s.w), cross(s.w, s.u), cross(s.u, s.v)};
 }
 
-// sigma = det [u, v, w] = u . (v x w), (2.9). No product is fused with a sum, so that the sign of a flat corner is the
-// same in every kernel, on every processor and in NumPy.
-template <class T> inline T determinant(const M3<T> &s) {
-    const auto &[u, v, w] = s;
-    T x = uncontracted(v.y * w.z) - uncontracted(v.z * w.y);
-    T y = uncontracted(v.z * w.x) - uncontracted(v.x * w.z);
-    T z = uncontracted(v.x * w.y) - uncontracted(v.y * w.x);
-    return uncontracted(u.x * x) + uncontracted(u.y * y) + uncontracted(u.z * z);
+// Products of which none is fused with a sum, so that they have the same bits in every kernel, on every processor.
+template <class T> inline T exact_dot(const V3<T> &a, const V3<T> &b) {
+    return uncontracted(a.x * b.x) + uncontracted(a.y * b.y) + uncontracted(a.z * b.z);
 }
+template <class T> inline V3<T> exact_cross(const V3<T> &a, const V3<T> &b) {
+    return {uncontracted(a.y * b.z) - uncontracted(a.z * b.y), uncontracted(a.z * b.x) - uncontracted(a.x * b.z),
+            uncontracted(a.x * b.y) - uncontracted(a.y * b.x)};
+}
+
+// As NumPy sums the products of short rows.
+inline double numpy_dot(const V3<double> &a, const V3<double> &b) {
+    double x = uncontracted(a.x * b.x), y = uncontracted(a.y * b.y);
+    return x + uncontracted(a.z * b.z) + y;
+}
+
+// sigma = det [u, v, w] = u . (v x w), (2.9): the sign of a flat corner is the same everywhere.
+template <class T> inline T determinant(const M3<T> &s) { return exact_dot(s.u, exact_cross(s.v, s.w)); }
 
 }  // namespace hexmend

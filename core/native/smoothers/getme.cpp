@@ -7,9 +7,8 @@ namespace hexmend {
 
 void element_steps(Points points, Hexes hexes, double s, double rho, CornerVectors places) {
     expect(places.size() == hexes.size(), "places: a row for each of hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto y = element_step(gather_corners<Lanes>(points, hexes, first, count), s, rho);
-        store(y, first, count, places);
+    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
+        store(element_step(x, s, rho), first, count, places);
     });
 }
 

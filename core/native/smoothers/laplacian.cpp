@@ -21,80 +21,22 @@ inline Point target(Points points, Indices ring_start, Indices ring, Node i, con
     return surface && surface->slides(i) ? surface->project_unless_flipping(points, i, mean) : mean;
 }
 
-// Lanes of hexes without inverted corner.
-inline MaskOf<Lanes> valid_lanes(const Corners<Lanes> &x) {
-    MaskOf<Lanes> valid = broadcast<Lanes>(0.0) == 0.0;
-    unroll<8>([&](auto t) { valid = valid & (determinant(x.template edges<t>()) > 0.0); });
-    return valid;
-}
-
-// Corner coordinates of `count` hexes at a node from number `first` of its star on.
-inline Corners<Lanes> gather_star(Points points, Hexes hexes, Star star, std::size_t first, int count) {
-    const Hex *hex[LANES];
-    for (int i = 0; i < LANES; ++i) hex[i] = &hexes[star[first + (i < count ? i : count - 1)] / 8];
-    Corners<Lanes> x;
-    for (int c = 0; c < 8; ++c)
-        x.at[c] = load_lanes<Lanes>([&](int i) -> const Point & { return points[(*hex[i])[c]]; });
-    return x;
-}
-
-// Guard of smart Laplacian smoothing that rejects moves which invert a valid hex.
-class InversionGuard {
+// Guard of smart Laplacian smoothing: it rejects moves that invert a valid hex and, with `quality`, those that lower
+// the least q(H) of the hexes at the node.
+template <bool quality> class Guard {
   public:
-    InversionGuard(Points points, const HexMesh &mesh)
-        : points_(points), mesh_(mesh), valid_(mesh.hexes.size()), after_(mesh.largest_star()) {
-        for_each_block<Lanes>(valid_.size(), [&](std::int64_t first, int count) {
-            const auto valid = valid_lanes(gather_corners<Lanes>(points_, mesh_.hexes, first, count));
-            for (int i = 0; i < count; ++i) valid_[first + i] = valid[i] & 1;
-        });
+    Guard(Points points, const HexMesh &mesh)
+        : points_(points), mesh_(mesh), now_(mesh.hexes.size()), after_(mesh.largest_star()) {
+        parallel_for(now_.size(), HEXES_PER_CHUNK, [&](std::int64_t h) { now_[h] = measured(h); });
     }
 
     // True if the present position of a node does harm, unlike that which the guard accepted last.
-    bool rejects(Star attached) {
-        // Local copies: bytes may be parts of anything, so that the members would be loaded again after each store.
-        const Points points = points_;
-        const Hexes hexes = mesh_.hexes;
-        std::uint8_t *const valid = valid_.data(), *const after = after_.data();
-        for (std::size_t first = 0; first < attached.size(); first += LANES) {
-            const int count = static_cast<int>(std::min<std::size_t>(LANES, attached.size() - first));
-            const auto now = valid_lanes(gather_star(points, hexes, attached, first, count));
-            int harm = 0;
-            for (int i = 0; i < count; ++i) {
-                after[first + i] = now[i] & 1;
-                harm |= valid[attached[first + i] / 8] & ~now[i];
-            }
-            if (harm) return true;
-        }
-        for (std::size_t s = 0; s < attached.size(); ++s) valid[attached[s] / 8] = after[s];
-        return false;
-    }
-
-  private:
-    Points points_;
-    const HexMesh &mesh_;
-    std::vector<std::uint8_t> valid_, after_;
-};
-
-// Quality of a hex. Not inlined, so that an unmoved hex gets the same bits from each call.
-__attribute__((noinline)) Quality<double> quality_of(Points points, const Hex &hex) {
-    return SingleHex(points, hex).quality();
-}
-
-// Guard that also rejects moves which lower the least q(H) of the hexes at the node.
-class QualityGuard {
-  public:
-    QualityGuard(Points points, const HexMesh &mesh)
-        : points_(points), mesh_(mesh), now_(mesh.hexes.size()), after_(mesh.largest_star()) {
-        parallel_for(now_.size(), HEXES_PER_CHUNK,
-                     [&](std::int64_t h) { now_[h] = quality_of(points_, mesh_.hexes[h]); });
-    }
-
     bool rejects(Star attached) {
         double least = INF;
         for (auto corner : attached) least = std::min(least, now_[corner / 8].q);
         for (std::size_t s = 0; s < attached.size(); ++s) {
             const int h = attached[s] / 8;
-            after_[s] = quality_of(points_, mesh_.hexes[h]);
+            after_[s] = measured(h);
             if ((now_[h].valid && !after_[s].valid) || after_[s].q < least) return true;
         }
         for (std::size_t s = 0; s < attached.size(); ++s) now_[attached[s] / 8] = after_[s];
@@ -105,12 +47,18 @@ class QualityGuard {
     Points points_;
     const HexMesh &mesh_;
     std::vector<Quality<double>> now_, after_;
+
+    // Not inlined, so that an unmoved hex gets the same bits from each call.
+    __attribute__((noinline)) Quality<double> measured(std::int64_t h) const {
+        const SingleHex hex(points_, mesh_.hexes[h]);
+        return quality ? hex.quality() : Quality<double>{0, hex.valid()};
+    }
 };
 
-template <class Guard>
+template <bool quality>
 std::int64_t smart_sweep_of(std::span<Point> points, const HexMesh &mesh, Indices ring_start, Indices ring,
                             Indices nodes, const SlidingSurface *surface) {
-    Guard guard(points, mesh);
+    Guard<quality> guard(points, mesh);
     std::int64_t rejected = 0;
     for (Node i : nodes) {
         const Point before = points[i];
@@ -120,77 +68,7 @@ std::int64_t smart_sweep_of(std::span<Point> points, const HexMesh &mesh, Indice
     return rejected;
 }
 
-// Nodes of a sequence that are sorted by wavefronts at a time: their points stay in the cache.
-constexpr std::size_t STRETCH = 256;
-
-// Stretches of a sequence of nodes, each by wavefronts: a node follows the nodes of its ring, and those that have it in
-// theirs, that come before it in the sequence, and precedes the others.
-std::vector<Node> by_wavefront(std::int64_t count, Indices ring_start, Indices ring, Indices nodes) {
-    expect_rings(count, ring_start, ring);
-    std::vector<std::int32_t> written(count), read(count);  // of each node: one more than its last wavefront
-    std::vector<std::int32_t> wavefront(nodes.size()), start(1);
-    std::int32_t first = 0;  // wavefront of the stretch
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        if (k % STRETCH == 0) first = static_cast<std::int32_t>(start.size()) - 1;
-        const Node i = nodes[k];
-        std::int32_t &own = wavefront[k] = std::max({first, written[i], read[i]});
-        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s) own = std::max(own, written[ring[s]]);
-        written[i] = own + 1;
-        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s) read[ring[s]] = std::max(read[ring[s]], own + 1);
-        if (start.size() < static_cast<std::size_t>(own) + 2) start.resize(own + 2);
-        ++start[own + 1];
-    }
-    accumulate(start);
-    std::vector<Node> order(nodes.size());
-    for (std::size_t k = 0; k < nodes.size(); ++k) order[start[wavefront[k]]++] = nodes[k];
-    return order;
-}
-
 }  // namespace
-
-LaplacianSweeps::LaplacianSweeps(Points points, Indices ring_start, Indices ring, Indices nodes)
-    : nodes_(by_wavefront(points.size(), ring_start, ring, nodes)), places_(points.size()) {
-    std::vector<std::int32_t> stored(points.size(), -1);
-    for (std::size_t k = 0; k < nodes.size(); ++k) stored[nodes_[k]] = k;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (stored[i] < 0) stored[i] = nodes_.size(), nodes_.push_back(i);
-        places_[stored[i]] = {Pair{points[i][0], points[i][1]}, Pair{points[i][2], 0.0}};
-    }
-    degree_.reserve(nodes.size());
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const Node i = nodes_[k];
-        degree_.push_back(ring_start[i + 1] - ring_start[i]);
-        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s) neighbours_.push_back(stored[ring[s]]);
-    }
-}
-
-void LaplacianSweeps::next(std::span<Point> points) {
-    expect(points.size() == nodes_.size(), "points: another number of nodes is expected");
-    const std::int32_t *neighbour = neighbours_.data(), *degree = degree_.data();
-    const Node *node = nodes_.data();
-    Place *places = places_.data();
-    const std::size_t moving = degree_.size(), all = nodes_.size();
-    for (std::size_t k = 0; k < all; ++k) {
-        if (k < moving) {
-            Place sum;
-            for (const auto *end = neighbour + degree[k]; neighbour < end; ++neighbour)
-                sum.xy += places[*neighbour].xy, sum.z += places[*neighbour].z;
-            const double count = degree[k];
-            places[k] = {sum.xy / count, sum.z / count};
-        }
-        points[node[k]] = {places[k].xy[0], places[k].xy[1], places[k].z[0]};
-    }
-}
-
-bool most_wait(Indices ring_start, Indices ring, Indices nodes) {
-    expect(are_csr(ring_start, ring.size()), "ring_start: its last number is expected to be the length of ring");
-    std::size_t waiting = 0;
-    for (std::size_t k = 1; k < nodes.size(); ++k) {
-        auto own = ring.subspan(ring_start[nodes[k]], ring_start[nodes[k] + 1] - ring_start[nodes[k]]);
-        waiting += std::find(own.begin(), own.end(), nodes[k - 1]) != own.end();
-    }
-    return 2 * waiting > nodes.size();
-}
 
 void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes, const SlidingSurface *surface) {
     expect_rings(points.size(), ring_start, ring);
@@ -210,8 +88,8 @@ std::int64_t smart_sweep(std::span<Point> points, const HexMesh &mesh, Indices r
     expect_points(mesh, points);
     expect_rings(points.size(), ring_start, ring);
     expect_nodes(surface, points.size());
-    return (keep_least_quality ? smart_sweep_of<QualityGuard>
-                               : smart_sweep_of<InversionGuard>)(points, mesh, ring_start, ring, nodes, surface);
+    return (keep_least_quality ? smart_sweep_of<true> : smart_sweep_of<false>)(points, mesh, ring_start, ring, nodes,
+                                                                               surface);
 }
 
 }  // namespace hexmend

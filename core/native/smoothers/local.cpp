@@ -10,11 +10,6 @@ template <class Target> NodePatch<Lanes, Target> patch_of(Star star, const Targe
     return {static_cast<std::int64_t>(star.size()), target};
 }
 
-template <bool soft, class Patch> ValueAndGradient evaluated(Patch &patch, double delta, ObjectiveNorm norm) {
-    patch.template tabulate<soft>(delta);
-    return patch.template value_and_gradient<soft>(delta, norm);
-}
-
 // Observer that records the step at one node.
 class StepRecorder {
   public:
@@ -41,22 +36,17 @@ class StepRecorder {
 
 std::int64_t local_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                          const NodeStepSettings &settings) {
-    expect_sweep(points, mesh, groups, nodes, settings);
-    return with_target(settings.target, [&](const auto &target) {
-        using Target = std::remove_cvref_t<decltype(target)>;
-        return (settings.delta != 0
-                    ? local_sweep_of<true, Lanes, Target>
-                    : local_sweep_of<false, Lanes, Target>)(points, mesh, groups, nodes, settings, target);
-    });
+    return local_sweep_in<Lanes>(points, mesh, groups, nodes, settings);
 }
 
 PatchEnergy patch_energy(Points points, Hexes hexes, Indices star, double factor, double delta, ObjectiveNorm norm,
                          const TargetMatrices *target) {
     expect_rows(target, hexes.size());
-    return with_target(target, [&](const auto &matrices) -> PatchEnergy {
+    return with_cases(target, delta, [&](auto soft, const auto &matrices) -> PatchEnergy {
         auto patch = patch_of(star, matrices);
         double scaled_by = patch.load(points, hexes, star, factor);
-        ValueAndGradient at = delta != 0 ? evaluated<true>(patch, delta, norm) : evaluated<false>(patch, delta, norm);
+        patch.template tabulate<soft>(delta);
+        ValueAndGradient at = patch.template value_and_gradient<soft>(delta, norm);
         SymmetricMatrix h = patch.hessian();
         return {scaled_by, at.value, point(at.gradient), {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz}};
     });
@@ -65,10 +55,9 @@ PatchEnergy patch_energy(Points points, Hexes hexes, Indices star, double factor
 RecordedStep recorded_step(Points points, Hexes hexes, Indices star, const NodeStepSettings &settings) {
     expect_rows(settings.target, hexes.size());
     StepRecorder recorder;
-    with_target(settings.target, [&](const auto &target) {
+    with_cases(settings.target, settings.delta, [&](auto soft, const auto &target) {
         decltype(patch_of(star, target)) patch[]{patch_of(star, target)};
-        settings.delta != 0 ? step_nodes<true>(patch, points, hexes, {star}, settings, recorder)
-                            : step_nodes<false>(patch, points, hexes, {star}, settings, recorder);
+        step_nodes<soft>(patch, points, hexes, {star}, settings, recorder);
     });
     return std::move(recorder.step);
 }
@@ -77,14 +66,12 @@ void energy_along(Points points, Hexes hexes, Indices star, double factor, std::
                   double delta, ObjectiveNorm norm, std::span<std::array<double, 2>> curve,
                   const TargetMatrices *target) {
     expect_rows(target, hexes.size());
-    with_target(target, [&](const auto &matrices) {
+    with_cases(target, delta, [&](auto soft, const auto &matrices) {
         auto patch = patch_of(star, matrices);
         patch.load(points, hexes, star, factor);
-        delta != 0 ? patch.template tabulate<true>(delta) : patch.template tabulate<false>(delta);
+        patch.template tabulate<soft>(delta);
         patch.set_direction(vector(direction));
-        for (auto &[alpha, value] : curve)
-            value = delta != 0 ? patch.template value_along<true>(alpha, delta, norm)
-                               : patch.template value_along<false>(alpha, delta, norm);
+        for (auto &[alpha, value] : curve) value = patch.template value_along<soft>(alpha, delta, norm);
     });
 }
 

@@ -151,21 +151,25 @@ template <class Body> std::int64_t sum_over_groups(Indices groups, Indices nodes
     return total;
 }
 
-// `local_sweep`, for delta > 0 if `soft`: with vectors for T = Lanes, one hex after another for T = double.
-template <bool soft, class T, class Target>
-std::int64_t local_sweep_of(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
-                            const NodeStepSettings &settings, const Target &target) {
+// `local_sweep`: with vectors for T = Lanes, one hex after another for T = double.
+template <class T>
+std::int64_t local_sweep_in(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                            const NodeStepSettings &settings) {
+    expect_sweep(points, mesh, groups, nodes, settings);
     std::int64_t most = largest_star(mesh, nodes);
-    return sum_over_groups(groups, nodes, [&](Indices chunk) {
-        NodePatch<T, Target> alone[1]{{most, target}}, several[INTERLEAVED]{{most, target}, {most, target}};
-        auto star = [&](std::size_t k) { return mesh.star(chunk[k]); };
-        NodeMover mover{points};
-        std::size_t k = 0;
-        if constexpr (width<T> > 1)
-            for (; k + INTERLEAVED <= chunk.size(); k += INTERLEAVED)
-                step_nodes<soft>(several, points, mesh.hexes, {star(k), star(k + 1)}, settings, mover);
-        for (; k < chunk.size(); ++k) step_nodes<soft>(alone, points, mesh.hexes, {star(k)}, settings, mover);
-        return mover.evaluations;
+    return with_cases(settings.target, settings.delta, [&](auto soft, const auto &target) {
+        using Patch = NodePatch<T, std::remove_cvref_t<decltype(target)>>;
+        return sum_over_groups(groups, nodes, [&](Indices chunk) {
+            Patch alone[1]{{most, target}}, several[INTERLEAVED]{{most, target}, {most, target}};
+            auto star = [&](std::size_t k) { return mesh.star(chunk[k]); };
+            NodeMover mover{points};
+            std::size_t k = 0;
+            if constexpr (width<T> > 1)
+                for (; k + INTERLEAVED <= chunk.size(); k += INTERLEAVED)
+                    step_nodes<soft>(several, points, mesh.hexes, {star(k), star(k + 1)}, settings, mover);
+            for (; k < chunk.size(); ++k) step_nodes<soft>(alone, points, mesh.hexes, {star(k)}, settings, mover);
+            return mover.evaluations;
+        });
     });
 }
 

@@ -146,13 +146,10 @@ std::int64_t sliding_sweep(std::span<Point> points, const HexMesh &mesh, Indices
     expect(tangents.size() == surface.count(), "tangents: two for each sliding node are expected");
     expect(!term || term->counted.size() == surface.quads.quads.size(), "term: a row for each quad is expected");
     SlidingSweep sweep{mesh.hexes, settings, surface, tangents};
-    return with_target(settings.target, [&](const auto &target) {
+    return with_cases(settings.target, settings.delta, [&](auto soft, const auto &target) {
         using Target = std::remove_cvref_t<decltype(target)>;
-        auto sweep_of = [&](auto soft) {
-            auto run = term ? sliding_sweep_of<soft, NodeQuads, Target> : sliding_sweep_of<soft, NoQuads, Target>;
-            return run(points, mesh, groups, nodes, sweep, term, target);
-        };
-        return settings.delta != 0 ? sweep_of(std::true_type{}) : sweep_of(std::false_type{});
+        auto run = term ? sliding_sweep_of<soft, NodeQuads, Target> : sliding_sweep_of<soft, NoQuads, Target>;
+        return run(points, mesh, groups, nodes, sweep, term, target);
     });
 }
 

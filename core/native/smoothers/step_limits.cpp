@@ -7,48 +7,18 @@
 
 namespace hexmend {
 
-namespace {
-
-// Shorten a step from a point that is longer than `reach` times the mean distance of its neighbours.
-void shorten_step(Point &step, Points points, Node node, Indices neighbours, double reach) {
-    double total = 0;
-    for (Node other : neighbours) total += length(vector(points[other]) - vector(points[node]));
-    double furthest = reach * total / static_cast<int>(neighbours.size());
-    double far = length(vector(step));
-    if (far > furthest)
-        for (double &x : step) x *= furthest / far;
-}
-
-}  // namespace
-
-void shorten(std::span<Point> step, Points points, Hexes hexes, Indices start, Indices corners, Indices nodes,
-             double reach) {
+void shorten(std::span<Point> step, Points points, Indices ring_start, Indices ring, Indices nodes, double reach) {
     expect(step.size() == nodes.size(), "step: a row for each of nodes is expected");
-    expect_corners(hexes.size(), start, corners);
-    expect(start.size() == points.size() + 1, "start: one more than points is expected");
-    const auto most = 3 * widest(start);
-    parallel_chunks(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Node> ring(most);
-        for (auto k = begin; k < end; ++k) {
-            const Node i = nodes[k];
-            int size = 0;  // of the ring, ascending
-            for (auto s = start[i]; s < start[i + 1]; ++s) {
-                const Hex &hex = hexes[corners[s] / 8];
-                const auto &tetrahedron = CORNER_TETRAHEDRA[corners[s] % 8];
-                for (int j = 1; j < 4; ++j)
-                    if (auto other = hex[tetrahedron[j]]; other != i) placed(ring.data(), size, other);
-            }
-            shorten_step(step[k], points, i, {ring.data(), static_cast<std::size_t>(size)}, reach);
-        }
-    });
-}
-
-void shorten_by_rings(std::span<Point> step, Points points, Indices start, Indices ring, Indices nodes, double reach) {
-    expect(step.size() == nodes.size(), "step: a row for each of nodes is expected");
-    expect_rings(points.size(), start, ring);
+    expect_rings(points.size(), ring_start, ring);
     parallel_for(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t k) {
         const Node i = nodes[k];
-        shorten_step(step[k], points, i, ring.subspan(start[i], start[i + 1] - start[i]), reach);
+        double total = 0;
+        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s)
+            total += length(vector(points[ring[s]]) - vector(points[i]));
+        double furthest = reach * total / (ring_start[i + 1] - ring_start[i]);
+        double far = length(vector(step[k]));
+        if (far > furthest)
+            for (double &x : step[k]) x *= furthest / far;
     });
 }
 

@@ -6,12 +6,8 @@
 namespace hexmend {
 
 // Shorten the steps (k, 3) of `nodes` (k,) that are longer than `reach` times the mean length of the node's edges;
-// start, corners: the corners of hexes at each node.
-void shorten(std::span<Point> step, Points points, Hexes hexes, Indices start, Indices corners, Indices nodes,
-             double reach);
-
-// The same, faster, where the neighbours of each node along edges are known: `ring`, ascending in each row.
-void shorten_by_rings(std::span<Point> step, Points points, Indices start, Indices ring, Indices nodes, double reach);
+// ring_start, ring: `node_rings`.
+void shorten(std::span<Point> step, Points points, Indices ring_start, Indices ring, Indices nodes, double reach);
 
 // Write moved (n, 3): points with `nodes` displaced by alpha times their steps (k, 3).
 void displaced(Points points, Indices nodes, Points step, double alpha, std::span<Point> moved);

@@ -1,5 +1,6 @@
 // Extension module of the native functions that only tests call. Wheels do not contain it.
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 
 #include "bindings/arrays.hpp"
 #include "energy/node_quads.hpp"
@@ -86,8 +87,9 @@ std::array<double, 3> direction(std::array<double, 6> hessian, std::array<double
 // Value, gradient and second derivatives (xx, xy, xz, yy, yz, zz) of the quads at node 0, and their value at y.
 std::tuple<double, std::array<double, 3>, std::array<double, 6>, double> quads_at_node(
     Points points, std::span<const Quad> quads, Indices corners, std::span<const std::array<std::uint8_t, 4>> counted,
-    std::span<const std::array<double, 3>> normals, std::span<const std::array<double, 8>> inverse_lengths,
-    std::array<double, 3> weight_delta_factor, ObjectiveNorm norm, std::array<double, 3> y) {
+    std::span<const std::array<double, 3>> normals,
+    std::optional<std::span<const std::array<double, 8>>> inverse_lengths, std::array<double, 3> weight_delta_factor,
+    ObjectiveNorm norm, std::array<double, 3> y) {
     auto [weight, delta, factor] = weight_delta_factor;
     SurfaceTerm term{counted, normals, inverse_lengths, weight, delta};
     const std::int32_t start[] = {0, static_cast<std::int32_t>(corners.size())};
@@ -103,7 +105,7 @@ std::tuple<double, std::array<double, 3>, std::array<double, 6>, double> quads_a
 void bind_node_quads(nb::module_ m) {
     m.doc() = "The energy of the boundary quads at a node as a function of that node.";
     m.def("quads_at_node", &quads_at_node, "points"_a, "quads"_a, "corners"_a, "counted"_a, "normals"_a,
-          "inverse_lengths"_a, "weight_delta_factor"_a, "norm"_a, "y"_a,
+          "inverse_lengths"_a.none(), "weight_delta_factor"_a, "norm"_a, "y"_a,
           "Value, gradient and Hessian of the quads whose corners (4 * quad + corner) are the node, and their value\n"
           "at its displacement y; lengths are multiplied by the factor.");
 }

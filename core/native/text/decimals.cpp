@@ -24,18 +24,13 @@ class Lines {
     std::string text_;
 };
 
-void expect_width(std::size_t values, std::int64_t width) {
-    expect(width > 0 ? values % width == 0 : values == 0, "values: rows of `width` are expected");
-}
-
-}  // namespace
-
-std::string decimal_lines(Numbers values, std::int64_t width, Integers last) {
-    expect_width(values.size(), width);
+// Rows of `width` values, and behind each one of `last`, if it has any.
+template <class Number> std::string lines_of(std::span<const Number> values, std::int64_t width, Integers last) {
+    expect(width > 0 ? values.size() % width == 0 : values.empty(), "values: rows of `width` are expected");
     expect(last.empty() || last.size() * width == values.size(), "last: a number for each row is expected");
     Lines lines;
     std::int64_t column = 0, row = 0;
-    for (double value : values) {
+    for (Number value : values) {
         bool end = ++column % width == 0;
         if (value != value) value = std::abs(value);  // NaN is written without sign
         lines.put(value, end && last.empty() ? '\n' : ' ');
@@ -44,12 +39,9 @@ std::string decimal_lines(Numbers values, std::int64_t width, Integers last) {
     return std::move(lines).text();
 }
 
-std::string whole_lines(Integers values, std::int64_t width) {
-    expect_width(values.size(), width);
-    Lines lines;
-    std::int64_t column = 0;
-    for (auto value : values) lines.put(value, ++column % width ? ' ' : '\n');
-    return std::move(lines).text();
-}
+}  // namespace
+
+std::string decimal_lines(Numbers values, std::int64_t width, Integers last) { return lines_of(values, width, last); }
+std::string whole_lines(Integers values, std::int64_t width) { return lines_of(values, width, {}); }
 
 }  // namespace hexmend

@@ -51,26 +51,11 @@ std::tuple<OwnedArray<double, 3>, OwnedArray<std::int64_t>, OwnedArray<std::int6
     return {std::move(kept), std::move(begin), std::move(whose)};
 }
 
-void centres_kept(Points points, Hexes hexes, Points normals, Numbers offsets, bool notch, std::span<bool> kept) {
-    expect(offsets.size() == normals.size(), "offsets: one for each of normals is expected");
-    expect(kept.size() == hexes.size(), "kept: one for each of hexes is expected");
-    std::fill(kept.begin(), kept.end(), !notch);
-    std::vector<double> heights(points.size());
-    for (std::size_t p = 0; p < normals.size(); ++p) {
-        for (std::size_t i = 0; i < points.size(); ++i) heights[i] = height(points[i], normals[p]);
-        for (std::size_t h = 0; h < hexes.size(); ++h) {
-            if (kept[h] == notch) continue;  // already decided
-            double sum = 0;
-            for (Node node : hexes[h]) sum += heights[node];
-            kept[h] = sum <= 8 * offsets[p];
-        }
-    }
-}
-
-double centre_heights(Points points, Hexes hexes, const Point &normal, std::span<double> eightfold) {
+double centre_heights(Points points, Hexes hexes, Points normal, std::span<double> eightfold) {
     expect(eightfold.size() == hexes.size(), "eightfold: a row for each of hexes is expected");
+    expect(normal.size() == 1, "normal: one is expected");
     std::vector<double> heights(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) heights[i] = height(points[i], normal);
+    for (std::size_t i = 0; i < points.size(); ++i) heights[i] = height(points[i], normal[0]);
     double furthest = 0;
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         double sum = 0, low = INF, high = -INF;

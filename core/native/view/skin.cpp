@@ -57,31 +57,6 @@ Faces faces_of(Hexes hexes, Neighbours neighbours, HexMask keep, HexMask chosen,
     return {std::move(nodes), std::move(quads), std::move(owners)};
 }
 
-void outer(Neighbours neighbours, HexMask keep, std::span<bool> answer) {
-    expect(have_rows(neighbours.size(), keep, answer), "keep and answer: one for each of neighbours is expected");
-    for (std::size_t h = 0; h < keep.size(); ++h) {
-        bool seen = false;
-        if (keep[h])
-            for (Node behind : neighbours[h]) seen |= is_visible(behind, keep);
-        answer[h] = seen;
-    }
-}
-
-void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places) {
-    expect(nodes.size() % 8 == 0, "nodes: eight of each hex are expected");
-    expect(places.size() == nodes.size(), "places: a row for each of nodes is expected");
-    for (std::size_t first = 0; first + 8 <= nodes.size(); first += 8)
-        for (int k = 0; k < 3; ++k) {
-            double mean = 0;
-            for (int c = 0; c < 8; ++c) mean += points[nodes[first + c]][k];
-            mean /= 8;
-            for (int c = 0; c < 8; ++c) {
-                double x = points[nodes[first + c]][k];
-                places[first + c][k] = shrink * mean + (1 - shrink) * x;
-            }
-        }
-}
-
 void edges_kept(Hexes hexes, Indices start, Indices corners, ArrayView<const Node, 2> edges, HexMask keep,
                 std::span<bool> answer) {
     expect_corners(hexes.size(), start, corners);

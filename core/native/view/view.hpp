@@ -1,4 +1,4 @@
-// Kernels of the picture in the window: faces, sections, shading, histograms. All but `shine` run on one thread,
+// Kernels of the picture in the window: faces, sections, shading. All but `shine` run on one thread,
 // because the window's thread calls them. bindings/view.cpp describes arguments and results.
 #pragma once
 
@@ -16,22 +16,17 @@ using Faces = std::tuple<OwnedArray<Node>, OwnedArray<Node, 4>, OwnedArray<Node>
 // Visible faces of a mesh of which some hexes, keep (m,), are shown.
 Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask keep);
 Faces faces_of(Hexes hexes, Neighbours neighbours, HexMask keep, HexMask chosen, bool hidden);
-void outer(Neighbours neighbours, HexMask keep, std::span<bool> answer);
-void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places);
 void edges_kept(Hexes hexes, Indices start, Indices corners, ArrayView<const Node, 2> edges, HexMask keep,
                 std::span<bool> answer);
 
 // Sides of planes on which hexes lie: a point is beyond a plane if x . normal > offset; normals (k, 3), offsets (k,).
-void centres_kept(Points points, Hexes hexes, Points normals, Numbers offsets, bool notch, std::span<bool> kept);
-double centre_heights(Points points, Hexes hexes, const Point &normal, std::span<double> eightfold);
+double centre_heights(Points points, Hexes hexes, Points normal, std::span<double> eightfold);
 std::pair<OwnedArray<Node, 4>, OwnedArray<Node>> opened(Hexes hexes, Neighbours neighbours, Numbers eightfold,
                                                         double extent, double offset);
 void touched(Points points, Hexes hexes, Points normals, Numbers offsets, bool notch, std::span<bool> answer);
 
 // x . normal without fused multiply-add: whether a node lies on a plane does not depend on the processor.
-inline double height(const Point &x, const Point &normal) {
-    return uncontracted(x[0] * normal[0]) + uncontracted(x[1] * normal[1]) + uncontracted(x[2] * normal[2]);
-}
+inline double height(const Point &x, const Point &normal) { return exact_dot(vector(x), vector(normal)); }
 
 // Polygon i has the points numbered places[start[i]] to places[start[i + 1] - 1].
 using PointNumbers = std::span<const std::int64_t>;
@@ -44,13 +39,5 @@ std::tuple<OwnedArray<double, 3>, OwnedArray<std::int64_t>, OwnedArray<std::int6
 void normals(Points points, PointNumbers start, PointNumbers places, std::span<Point> answer);
 void shine(Points points, PointNumbers start, PointNumbers places, Points normals, Points directions, std::int64_t side,
            std::span<double> light, std::span<double> whole);
-
-// Values of hexes (m,) from values at their nodes (n,).
-void largest(Hexes hexes, Numbers of_nodes, std::span<double> of_hexes);
-void mean(Hexes hexes, Numbers of_nodes, std::span<double> of_hexes);
-
-// Histogram.
-void count(Numbers values, std::span<const bool> inverted, double low, double scale, bool open_low, bool open_high,
-           std::span<std::int64_t> counts);
 
 }  // namespace hexmend

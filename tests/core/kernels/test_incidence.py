@@ -137,7 +137,6 @@ def test_no_hexes_are_no_trouble():
         assert neighbours.shape == (0, 6)
         assert crowded == 0
         assert incidence.node_rings(hexes, start, corners)[1].size == 0
-        assert incidence.layers(neighbours).size == 0
         assert incidence.greedy_colours(start, corners, np.zeros(n, bool)).tolist() == [-1] * n
         ends, valence, outside = structure.edges(hexes, start, corners, neighbours)
         assert (ends.shape, valence.size, outside.dtype) == ((0, 2), 0, bool)

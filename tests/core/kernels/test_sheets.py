@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hexmend.gallery import make
 from hexmend.kernels import structure
 from hexmend.target.edge_lengths import edge_numbers
+from hexmend.target.sheets import Sheets
 
 
 def averages(values, known, groups):
@@ -42,12 +43,12 @@ def mesh_groups(size, seed):
     groups, count = edge_numbers(mesh.topology).reshape(-1, 4).copy(), len(mesh.topology.edges)
     groups[rng.random(groups.shape) < 0.02] = count
     known = np.append(rng.random(count) < rng.choice([0.01, 0.3]), False)
-    return groups, np.append(rng.uniform(-1, 1, count), 7.0), known
+    return mesh, groups, np.append(rng.uniform(-1, 1, count), 7.0), known
 
 
 @given(st.integers(8, 200), st.integers(0, 10**6))
 def test_averages_are_those_of_numpy(size, seed):
-    groups, values, _ = mesh_groups(size, seed)
+    _, groups, values, _ = mesh_groups(size, seed)
     average, count = np.empty(len(values)), np.empty(len(values), dtype=np.int32)
     structure.average_along_sheets(groups, values, average, count)
     expected, number = averages(values, np.arange(len(values)) < len(values) - 1, groups)
@@ -58,18 +59,17 @@ def test_averages_are_those_of_numpy(size, seed):
 
 @given(st.integers(8, 200), st.integers(0, 10**6))
 def test_fronts_are_those_of_numpy(size, seed):
-    groups, values, known = mesh_groups(size, seed)
+    mesh, groups, values, known = mesh_groups(size, seed)
+    values[-1] = 0
     expected, reached = filled(values, known, groups)
-    structure.fill_along_sheets(groups, values, known)
+    Sheets(mesh, np.arange(mesh.n_hexes)).fill(values, known, groups)
     np.testing.assert_array_equal(known, reached)
     np.testing.assert_allclose(values, expected, rtol=1e-12, atol=1e-14)
 
 
 def test_groups_that_name_no_edge_are_refused():
-    values, known = np.zeros(3), np.zeros(3, dtype=bool)
+    values = np.zeros(3)
     for wrong in (-1, 3):
         groups = np.array([[0, 1, 1, wrong]], dtype=np.int32)
-        with pytest.raises(ValueError, match="numbers of edges"):
-            structure.fill_along_sheets(groups, values, known)
         with pytest.raises(ValueError, match="numbers of edges"):
             structure.average_along_sheets(groups, values, np.zeros(3), np.zeros(3, dtype=np.int32))

@@ -32,7 +32,7 @@ def random_term(seed, delta, lengths):
 def at_node(points, term, norm, y, factor=1.0):
     count = len(QUADS)
     inverse = np.ascontiguousarray(term.scales.transpose(1, 2, 0)).reshape(count, 8) if term.has_lengths else None
-    inverse = np.empty((0, 8)) if inverse is None else inverse * factor  # lengths shrink as the points do
+    inverse = None if inverse is None else inverse * factor  # lengths shrink as the points do
     rows = term.counted.view(np.uint8), term.normals, inverse
     return kernels.quads_at_node(
         np.ascontiguousarray(points / factor), QUADS, CORNERS, *rows, (term.weight, term.delta, factor), tuple(norm), y

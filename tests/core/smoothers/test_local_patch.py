@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
-from hexmend.kernels.patches import PatchStepSettings, sweep
+from hexmend.kernels.local import Direction, NodeStepSettings
+from hexmend.kernels.patches import sweep
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.patches import partition_patches
 from hexmend.quality import measure
@@ -34,7 +35,8 @@ def hexes_at(mesh, nodes):
 
 def swept(mesh, patches, k, smoother, delta):
     """The points after the step of patch k alone, and how often its hexes were asked."""
-    points, step = mesh.points.copy(), PatchStepSettings(delta, smoother.norm, smoother.line_search)
+    points = mesh.points.copy()
+    step = NodeStepSettings(Direction.NEWTON, delta, smoother.norm, smoother.line_search)
     asked = sweep(points, patches.kernel_partition, np.array([0, 1], np.int32), np.array([k], np.int32), step)
     return points, asked
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.kernels import binning
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.cells import Cells
 from hexmend_app.picture.visibility import Show
@@ -103,7 +102,12 @@ def distribute(values: np.ndarray, inverted: np.ndarray, axis: Axis, bins: int =
         raise ValueError(
             f"values have shape {values.shape} and inverted {inverted.shape}: expected 1-D arrays of the same length"
         )
-    counts = np.empty(bins + 3, dtype=np.int64)
-    scale = bins / (axis.high - axis.low)
-    binning.count(values, inverted, axis.low, scale, axis.open_low, axis.open_high, counts)
-    return Distribution(values, inverted, axis, counts[:bins], *(int(counts[bins + k]) for k in (2, 1, 0)))
+    with np.errstate(invalid="ignore", over="ignore"):
+        place = (values - axis.low) * (bins / (axis.high - axis.low))
+    counted = place[~(inverted | np.isnan(place))]
+    # One bin more at each end for the values beyond it.
+    counts = np.bincount(np.clip(np.floor(counted), -1, bins).astype(np.int64) + 1, minlength=bins + 2)
+    below, above = (int(counts[0]) if axis.open_low else 0), (int(counts[-1]) if axis.open_high else 0)
+    counts[1] += counts[0] - below
+    counts[-2] += counts[-1] - above
+    return Distribution(values, inverted, axis, counts[1:-1], len(values) - len(counted), below, above)

@@ -31,8 +31,11 @@ def centres_kept(
         If an array has a wrong shape or type, or a hex has a node that does not exist.
     """
     points, hexes, normals, offsets = _checked(points, hexes, normals, offsets)
-    kept = np.empty(len(hexes), bool)
-    clip_planes.centres_kept(points, hexes, normals, offsets, notch, kept)
+    kept, eightfold = np.full(len(hexes), not notch), np.empty(len(hexes))
+    for normal, offset in zip(normals, offsets, strict=True):
+        clip_planes.centre_heights(points, hexes, normal[None], eightfold)
+        before = eightfold <= 8 * offset
+        kept = kept | before if notch else kept & before
     return kept
 
 

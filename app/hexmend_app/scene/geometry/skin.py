@@ -50,10 +50,10 @@ class Faces:
         """Return the drawn positions of the nodes, (u, 3), from the points of the mesh, (n, 3) float64."""
         if not self.shrink:
             return points[self.nodes]
-        places, points = np.empty((len(self.nodes), 3)), as_points(points)
+        points = as_points(points)
         check_node_numbers(self.nodes[:, None], len(points), ("place", "column"))
-        skin.shrunk(points, self.nodes, self.shrink, places)
-        return places
+        corners = points[self.nodes].reshape(-1, 8, 3)
+        return (self.shrink * corners.mean(axis=1, keepdims=True) + (1 - self.shrink) * corners).reshape(-1, 3)
 
 
 class Skin:
@@ -90,8 +90,7 @@ class Skin:
         keep = self._kept(keep)
         if np.count_nonzero(keep) <= WHOLE:
             return Faces(*skin.faces_of(self._hexes, self._neighbours, keep, keep, True), shrink)
-        outer = np.empty(len(keep), bool)
-        skin.outer(self._neighbours, keep, outer)
+        outer = keep & ((self._neighbours < 0) | ~keep[self._neighbours]).any(axis=1)
         return Faces(*skin.faces_of(self._hexes, self._neighbours, keep, outer, fine), shrink, True)
 
     def opened(self, faces: Faces, keep: np.ndarray | None = None) -> np.ndarray:

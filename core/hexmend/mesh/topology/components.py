@@ -30,7 +30,10 @@ def components(count: int, *groups: np.ndarray) -> np.ndarray:
     parent = np.arange(count, dtype=np.int32)
     for group in groups:
         incidence.join(parent, np.ascontiguousarray(group, np.int32).ravel(), group.shape[1])
-    return incidence.component_numbers(parent)
+    own = parent == np.arange(count, dtype=np.int32)  # the lowest items of components
+    while not own[parent].all():
+        parent = parent[parent]
+    return (np.cumsum(own, dtype=np.int32) - 1)[parent]
 
 
 def components_of_cells(count: int, cells: np.ndarray, *others: np.ndarray) -> np.ndarray:

@@ -8,13 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import as_immutable
+from hexmend.arrays import as_immutable, mask
 from hexmend.kernels import incidence, structure, wavefronts
 from hexmend.kernels.hex_mesh import HexMesh
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.size_limits import MAX_HEXES, MAX_ITEMS, overflow_as_mesh_error
 from hexmend.mesh.topology.components import components
+from hexmend.mesh.topology.marked_rows import any_of_rows
 from hexmend.mesh.validation import as_bools, as_hexes
 from hexmend.parameters import Parameter
 
@@ -157,7 +158,10 @@ class Topology:
 
         0 for a hex with a boundary face; hexes that are not connected to the boundary are in one last layer.
         """
-        return incidence.layers(self.face_neighbours)
+        behind = self.face_neighbours
+        inside = behind >= 0
+        start = np.append(0, np.cumsum(inside.sum(axis=1))).astype(np.int32)
+        return wavefronts.levels(start, behind[inside], np.logical_or.reduce(behind < 0, axis=1))
 
     def hexes_around(self, hexes: Iterable[int], rings: int) -> np.ndarray:
         """Find some hexes and those in rings around them.
@@ -181,8 +185,12 @@ class Topology:
         """
         rings = _RINGS.check(rings)
         chosen = as_set(hexes if isinstance(hexes, np.ndarray) else list(hexes), "the set of hexes", len(self.hexes))
-        rows = self.node_corners
-        return incidence.around(self.hexes, rows.start, rows.items, chosen.astype(np.int32), rings)
+        reached = mask(chosen, len(self.hexes))
+        for _ in range(rings):
+            before, reached = reached, any_of_rows(mask(self.hexes[reached], self.n), self.hexes)
+            if np.array_equal(before, reached):
+                break
+        return reached
 
     @cached_property
     def parts(self) -> int:
@@ -195,11 +203,6 @@ class Topology:
         rows = self.node_corners
         with overflow_as_mesh_error("neighbours of nodes"):
             return CSR(*incidence.node_rings(self.hexes, rows.start, rows.items, MAX_ITEMS))
-
-    @property
-    def has_rings(self) -> bool:
-        """True if `rings` are computed and in memory."""
-        return "rings" in self.__dict__
 
     @cached_property
     def _edges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

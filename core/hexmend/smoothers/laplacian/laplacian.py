@@ -9,48 +9,11 @@ import numpy as np
 from hexmend.iteration import Step
 from hexmend.kernels import laplacian as kernels
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology import CSR
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Steps, Sweep, method
 from hexmend.smoothers.laplacian.constrained_means import ConstrainedMeans
 from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps, moving
 from hexmend.smoothers.visit_order import ORDERS
-
-
-class FixedBoundarySweeps:
-    """Sweeps in place, each from the result of the one before.
-
-    Where the order of the nodes is repeated and most of them have the node before them as neighbour, as on structured
-    meshes, sweeps by wavefronts give the same bits in half the time.
-
-    Parameters
-    ----------
-    ring : CSR
-        Edge neighbours of the nodes.
-    """
-
-    def __init__(self, ring: CSR):
-        self._ring = ring
-        self._nodes: np.ndarray | None = None
-        self._sweeps: kernels.LaplacianSweeps | None = None
-        self._repeated = False
-
-    def __call__(self, points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-        """Return the points (n, 3) after a sweep over nodes (k,) int32; an order that comes again is the same array."""
-        start, items = self._ring.start, self._ring.items
-        if nodes is not self._nodes:
-            self._nodes, self._sweeps, self._repeated = nodes, None, False
-        elif not self._repeated:
-            self._repeated = True
-            if kernels.most_wait(start, items, nodes):
-                self._sweeps = kernels.LaplacianSweeps(points, start, items, nodes)
-        if self._sweeps is not None:
-            moved = np.empty_like(points)
-            self._sweeps.next(moved)
-        else:
-            moved = points.copy()
-            kernels.in_place(moved, start, items, nodes)
-        return moved
 
 
 @method
@@ -84,7 +47,6 @@ class Laplacian(SlidingSmoother):
         if sliding is not None:
             mesh, ring, surface = sliding.mesh, sliding.rings, sliding.sliding_surface
         sequence, sweeps = ORDERS[self.order](mesh), Sweeps(sliding, mesh.n_nodes)
-        fixed_boundary = FixedBoundarySweeps(ring)
         points, number = mesh.points, 0
 
         def sweep(moved: np.ndarray, stays: np.ndarray) -> None:
@@ -93,8 +55,11 @@ class Laplacian(SlidingSmoother):
         yield Step(points)
         while True:
             nodes = sequence(points, number)
-            if self.update == "in-place":
-                points = fixed_boundary(points, nodes) if sliding is None else sweeps(points, sweep)[0]
+            if self.update == "in-place" and sliding is not None:
+                points = sweeps(points, sweep)[0]
+            elif self.update == "in-place":
+                points = points.copy()
+                kernels.in_place(points, ring.start, ring.items, nodes)
             else:
                 moved = points.copy()
                 kernels.simultaneous(points, ring.start, ring.items, nodes, moved)

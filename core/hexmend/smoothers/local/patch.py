@@ -59,7 +59,7 @@ class LocalPatch(LocalOptimiser):
         while True:
             delta = self.delta_at(mesh, points)
             points = points.copy()
-            settings = kernels.PatchStepSettings(delta, self.norm, search, of_patches)
+            settings = local.NodeStepSettings(local.Direction.NEWTON, delta, self.norm, search, of_patches)
             energies, derivatives = kernels.sweep(points, partition, colours.start, colours.items, settings)
             if sliding is not None:
                 surface = self.surface_arguments(sliding, quads, points, delta)

@@ -15,12 +15,17 @@ namespace {
 constexpr int MAX_SHIFTS = 10;
 constexpr double INITIAL_SHIFT = 0.001, SHIFT_FACTOR = 4;
 
+// Evaluations of a hex's energy in line searches, and of its energy with derivatives.
+struct EvaluationCount {
+    std::int64_t energies = 0, derivatives = 0;
+};
+
 // A patch during its step. The coordinates x_ of its hexes are relative to the patch's first node and scaled so that
 // the mean edge, each edge counted once a hex, has length 1; with a target, so that the root mean square of the inverse
 // target lengths, of which row `first` on are those of the patch, is 1.
 template <class Target> class MultiNodePatch {
   public:
-    MultiNodePatch(std::span<Point> points, Hexes hexes, Hexes slots, Indices nodes, const PatchStepSettings &settings,
+    MultiNodePatch(std::span<Point> points, Hexes hexes, Hexes slots, Indices nodes, const NodeStepSettings &settings,
                    const Target &target, std::int64_t first)
         : points_(points),
           hexes_(hexes),
@@ -59,7 +64,7 @@ template <class Target> class MultiNodePatch {
     std::span<Point> points_;
     Hexes hexes_, slots_;
     Indices nodes_;
-    const PatchStepSettings &settings_;
+    const NodeStepSettings &settings_;
     std::vector<Corners<Lanes>> x_;
     std::vector<ScalesOf<Lanes, Target>> scales_;
     std::vector<Point> step_;
@@ -154,13 +159,13 @@ template <class Target> class MultiNodePatch {
 
 }  // namespace
 
-EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
-                            const PatchStepSettings &settings) {
+std::pair<std::int64_t, std::int64_t> patch_sweep(std::span<Point> points, const PatchPartition &partition,
+                                                  Indices groups, Indices patches, const NodeStepSettings &settings) {
     expect(are_csr(groups, patches.size()), "groups: its last number is expected to be the length of patches");
     const Indices hex_start = partition.hex_start;
     expect_rows(settings.target, partition.hexes.size());
     std::vector<EvaluationCount> counts(patches.size());
-    with_target(settings.target, [&](const auto &target) {
+    with_cases(settings.target, settings.delta, [&](auto soft, const auto &target) {
         for (std::size_t g = 0; g + 1 < groups.size(); ++g)
             parallel(groups[g + 1] - groups[g], [&](std::int64_t i) {
                 const auto at = groups[g] + i;
@@ -169,12 +174,12 @@ EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &parti
                 MultiNodePatch patch(points, partition.hexes.subspan(h, count), partition.slots.subspan(h, count),
                                      partition.nodes.subspan(from, partition.node_start[k + 1] - from), settings,
                                      target, h);
-                counts[at] = settings.delta != 0 ? patch.template take_step<true>() : patch.template take_step<false>();
+                counts[at] = patch.template take_step<soft>();
             });
     });
     EvaluationCount total;
     for (auto &one : counts) total.energies += one.energies, total.derivatives += one.derivatives;
-    return total;
+    return {total.energies, total.derivatives};
 }
 
 }  // namespace hexmend

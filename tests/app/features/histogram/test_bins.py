@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from hexmend.kernels import binning
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, distribute
@@ -71,10 +70,10 @@ def test_every_value_is_counted_once_where_it_belongs(seed, bins, open_low, open
     at[place[~none] >= bins] = bins if open_high else bins - 1
     expected = np.bincount(at, minlength=bins + 3)
     expected[bins + 2] = none.sum()
-    counts = np.empty(bins + 3, dtype=np.int64)
-    binning.count(values, inverted, low, bins / (high - low), open_low, open_high, counts)
-    assert counts.tolist() == expected.tolist()
-    assert counts.sum() == values.size
+    axis = Axis("volume", low, high, open_low=open_low, open_high=open_high)
+    found = distribute(values, inverted, axis, bins)
+    assert [*found.counts, found.above, found.below, found.inverted] == expected.tolist()
+    assert found.total == values.size
 
 
 # A brushed range contains exactly the hexes that its bars and bins count.

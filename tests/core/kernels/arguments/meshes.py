@@ -42,21 +42,15 @@ def _metrics() -> Iterator[Row]:
 
 
 def _incidence() -> Iterator[Row]:
-    n, nodes, k = case().n, case().nodes, 10
+    n, nodes = case().n, case().nodes
     yield row("hex_mesh.HexMesh")
     yield row("incidence.node_corners", listed="hexes", n=n)
     yield row("incidence.face_neighbours", opposed=True)
     yield row("incidence.overlapping_corners")
     yield row("incidence.join", "parent", empty="items", parent=np.arange(n), items=[1, 2, 3, 4], width=2)
-    yield row("incidence.component_numbers", listed="parent", parent=np.arange(n))
     yield row("incidence.node_rings", max_items=1000)
     yield row("incidence.greedy_colours", chosen=n)
     yield row("incidence.grouped", listed="colour", colour=n, count=1)
-    yield row("incidence.layers", listed="neighbours")
-    yield row("incidence.around", listed="chosen", chosen=3, rings=1)
-    yield row("rows.any_marked", "marks", marks=n, rows=k, found=k)
-    yield row("rows.put_rows", "points", values=k, numbers=k)
-    yield row("rows.scale_rows", "vectors", factors=k, numbers=k, vectors=n)
     yield row("wavefronts.levels", start=n)
     yield row("wavefronts.wavefronts", listed="sequence", sequence=nodes)
 
@@ -65,6 +59,5 @@ def _structure() -> Iterator[Row]:
     n, k = case().n, 10
     yield row("structure.edges", max_items=1000)
     yield row("structure.average_along_sheets", listed="groups", groups=k, values=k, average=k, count=k)
-    yield row("structure.fill_along_sheets", listed="groups", groups=k, values=k, known=k)
     yield row("structure.coarse_blocks")
     yield row("structure.interpolate_blocks", listed="blocks", blocks=1, kept=n, values=n)

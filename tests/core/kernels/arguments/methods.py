@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hexmend.kernels import laplacian, patches, worst_first
+from hexmend.kernels import local, patches, worst_first
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.sliding_surface import SurfaceTerm
 from tests.core.kernels.arguments.rows import Row, case, common, row
@@ -20,21 +20,15 @@ def rows() -> Iterator[Row]:
 
 def _geometric() -> Iterator[Row]:
     n, m, k = case().n, case().m, case().k
-    ring_start = common()["ring_start"]
     yield row("element_step.element_steps", "points", s=0.1, rho=0.5, places=m)
     yield row("getme.weighted_means", listed="nodes", places=m, weights=m, targets=n)
     yield row("getme.relax", listed="harmed", valid=m, harmed=2, moved=n)
     settings = worst_first.WorstFirstSettings(0.5, 0.5, 0.1, 0.1)
     yield row("worst_first.sweep", listed="candidates", candidates=[0, 1], q=m, valid=m, settings=settings)
     yield row("laplacian.in_place", listed="nodes")
-    yield row("laplacian.most_wait", listed="nodes")
     yield row("laplacian.simultaneous", listed="nodes", moved=n)
     yield row("laplacian.smart_sweep", listed="nodes", keep_least_quality=True)
-    yield row("laplacian.LaplacianSweeps", listed="nodes")
-    sweeps = laplacian.LaplacianSweeps(case().mesh.points, ring_start, common()["ring"], case().nodes)
-    yield row("laplacian.LaplacianSweeps.next", of=sweeps)
     yield row("step_limits.shorten", step=k, reach=1.0)
-    yield row("step_limits.shorten_by_rings", step=k, start=ring_start, reach=1.0)
     yield row("step_limits.displaced", step=k, alpha=1.0, moved=n)
 
 
@@ -54,7 +48,7 @@ def _patches() -> Iterator[Row]:
     mesh, m = case().mesh, case().m
     node_start, nodes, hex_start, patch_hexes, slots = patches.partition(mesh.topology.hex_mesh, mesh.free, 4, 0)
     there = {"hexes": mesh.hexes[patch_hexes], "slots": slots, "hex_start": hex_start, "node_start": node_start}
-    settings = patches.PatchStepSettings(0.1, (2.0, 1.0), LineSearch())
+    settings = local.NodeStepSettings(local.Direction.NEWTON, 0.1, (2.0, 1.0), LineSearch())
     one = {"groups": [0, 1], "patches": [0], "settings": settings}
     yield row("patches.partition", size=4, overlap=0)
     yield row("patches.colours", hex_start=hex_start, patch_hexes=patch_hexes, hexes=m)

@@ -75,7 +75,7 @@ def _samples() -> Iterator[Row]:
 
 
 def _points_and_edges() -> Iterator[Row]:
-    given, faces, n, f, j = _trees(), case().faces, case().n, case().f, 5
+    given, faces, n, f = _trees(), case().faces, case().n, case().f
     _, sides, first = edges_of_faces(faces.ravel(), 4, n)
     quads = {"faces": faces.ravel(), "width": 4, "nodes": n}
     corners = {"triangles": given["pieces"], "patch": 4 * f, "normals": 12 * f}
@@ -84,7 +84,6 @@ def _points_and_edges() -> Iterator[Row]:
     yield row("closest_point.count_fans", sides=sides, first=first, **quads)
     edges = {"edges": [[0, 1], [1, 2]], "start": [0, 1, 3, 4], "ends": [0, 1, 2, 3], "values": 2}
     yield row("closest_point.quantiles_around", listed="some", some=[0, 1], most=1.0, share=0.5, **edges)
-    yield row("closest_point.extremes_in_cells", cell=j, values=j, cells=1)
     yield row("closest_point.vertex_normals", "points", points=given["points"], **corners)
     yield row("closest_point.means", "points", nodes=faces, x=f)
 
