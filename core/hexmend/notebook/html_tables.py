@@ -73,7 +73,7 @@ def _cell(figure: Quantity, summary: Summary, worse: bool = False) -> str:
 
 
 def _own_objective(result: Result) -> str:
-    """Return a row of the method's objective, from the history, if it is not that of the summaries.
+    """Return a row with the method's objective, from the history, if the summaries have another one.
 
     Formulas follow the values if they differ before and after.
     """

@@ -97,7 +97,7 @@ class ByteCursor:
         return found.group().decode("utf-8", errors="replace") if found else ""
 
     def _after_space(self) -> int:
-        """Offset of the next byte that is no white space; that of the end of the file if there is none."""
+        """Return the offset of the next byte that is not white space, or the length of the file."""
         pos = self.pos
         while near := self.data[pos : pos + _NEAR]:
             skipped = _SPACE.match(near).end()

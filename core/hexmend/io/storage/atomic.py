@@ -104,7 +104,7 @@ def writable_target(path: Path) -> tuple[Path, int | None]:
 
 @dataclass(frozen=True)
 class _Replacement:
-    """File to be replaced, its temporary file, and the one that keeps its old content until all are replaced."""
+    """File to be replaced, its temporary file, and its backup until all files are replaced."""
 
     path: Path
     target: Path
