@@ -153,7 +153,9 @@ class ByteCursor:
             text = self.data[self.pos : end]
             values = parse_numbers(text, dtype)
             if np.dtype(dtype).kind in "iu" and exceeds_dtype(values, text):
-                raise self.error(f"{section} holds a whole number of more than 64 bits before {self.location_of(end)}")
+                raise self.error(
+                    f"{section} holds a whole number of more than 64 bits before {self.location_of(end + 1)}"
+                )
             self.pos = end
         return values.reshape(rows, width)
 
