@@ -11,7 +11,8 @@ from hexmend.kernels import laplacian as kernels
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
 from hexmend.parameters import parameter
-from hexmend.smoothers.base import Steps, method
+from hexmend.smoothers.base import Steps, Sweep, method
+from hexmend.smoothers.laplacian.constrained_means import ConstrainedMeans
 from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps, moving
 from hexmend.smoothers.visit_order import ORDERS
 
@@ -73,6 +74,9 @@ class Laplacian(SlidingSmoother):
         choices=tuple(ORDERS),
         help="Order of updates in place (5.2.6): natural is by number, inward is by level from the fixed nodes.",
     )
+
+    def constrained_sweep(self, mesh: Mesh, linear: np.ndarray) -> Sweep:
+        return ConstrainedMeans(mesh, linear)
 
     def steps(self, mesh: Mesh) -> Steps:
         sliding, ring = self.sliding(mesh), mesh.topology.rings

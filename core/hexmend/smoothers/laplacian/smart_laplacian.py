@@ -10,7 +10,8 @@ from hexmend.iteration import Step
 from hexmend.kernels import laplacian as kernels
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
-from hexmend.smoothers.base import Steps, method
+from hexmend.smoothers.base import Steps, Sweep, method
+from hexmend.smoothers.laplacian.constrained_means import ConstrainedMeans
 from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps, moving
 
 
@@ -30,6 +31,9 @@ class SmartLaplacian(SlidingSmoother):
         choices=("inversion", "quality"),
         help="Moves that are rejected: those that invert an attached hex, or also those that lower its least q(H).",
     )
+
+    def constrained_sweep(self, mesh: Mesh, linear: np.ndarray) -> Sweep:
+        return ConstrainedMeans(mesh, linear, self.guard)
 
     def steps(self, mesh: Mesh) -> Steps:
         sliding, ring = self.sliding(mesh), mesh.topology.rings
