@@ -18,29 +18,55 @@ __version__ = "1.0.0"
 
 TYPE_CHECKING = False  # which type checkers take for true; `typing` alone would cost as much as `--version` does
 if TYPE_CHECKING:
-    from hexmend import energy, gallery
-    from hexmend.advice import advise
-    from hexmend.errors import FileError, HexmendError, MeshError, ParameterError
-    from hexmend.interop import from_meshio, from_pyvista, to_meshio, to_pyvista
-    from hexmend.io import read, read_surface, write
-    from hexmend.iteration import Iteration, Outcome, Result, Step
-    from hexmend.layers import find_layers
-    from hexmend.mesh.cells import Cells
-    from hexmend.mesh.element_target import Target
-    from hexmend.mesh.fixing import fix, fix_outside, unfix
-    from hexmend.mesh.linear_motion import LinearMotion
-    from hexmend.mesh.mesh import Mesh
-    from hexmend.mesh.rules import MotionRules
-    from hexmend.mesh.tags import add_set, remove_set
-    from hexmend.notebook import view
-    from hexmend.padding import Padding, pad
-    from hexmend.parameters import parameter
-    from hexmend.quality import METRICS, Summary, summarise
-    from hexmend.quality.measure import ElementQuality, measure
-    from hexmend.run import Run, StoppingCriteria, iterate, smooth
-    from hexmend.run.recipe import Recipe, Stage
-    from hexmend.run.recipe_files import read_recipe, write_recipe
-    from hexmend.smoothers import METHODS, Smoother, method
+    from hexmend import energy as energy
+    from hexmend import gallery as gallery
+    from hexmend.advice import advise as advise
+    from hexmend.errors import FileError as FileError
+    from hexmend.errors import HexmendError as HexmendError
+    from hexmend.errors import MeshError as MeshError
+    from hexmend.errors import ParameterError as ParameterError
+    from hexmend.interop import from_meshio as from_meshio
+    from hexmend.interop import from_pyvista as from_pyvista
+    from hexmend.interop import to_meshio as to_meshio
+    from hexmend.interop import to_pyvista as to_pyvista
+    from hexmend.io import read as read
+    from hexmend.io import read_surface as read_surface
+    from hexmend.io import write as write
+    from hexmend.iteration import Iteration as Iteration
+    from hexmend.iteration import Outcome as Outcome
+    from hexmend.iteration import Result as Result
+    from hexmend.iteration import Step as Step
+    from hexmend.layers import find_layers as find_layers
+    from hexmend.mesh.cells import Cells as Cells
+    from hexmend.mesh.element_target import Target as Target
+    from hexmend.mesh.fixing import fix as fix
+    from hexmend.mesh.fixing import fix_outside as fix_outside
+    from hexmend.mesh.fixing import unfix as unfix
+    from hexmend.mesh.linear_motion import LinearMotion as LinearMotion
+    from hexmend.mesh.mesh import Mesh as Mesh
+    from hexmend.mesh.rules import MotionRules as MotionRules
+    from hexmend.mesh.tags import add_set as add_set
+    from hexmend.mesh.tags import remove_set as remove_set
+    from hexmend.notebook import view as view
+    from hexmend.padding import Padding as Padding
+    from hexmend.padding import pad as pad
+    from hexmend.parameters import parameter as parameter
+    from hexmend.quality import METRICS as METRICS
+    from hexmend.quality import Summary as Summary
+    from hexmend.quality import summarise as summarise
+    from hexmend.quality.measure import ElementQuality as ElementQuality
+    from hexmend.quality.measure import measure as measure
+    from hexmend.run import Run as Run
+    from hexmend.run import StoppingCriteria as StoppingCriteria
+    from hexmend.run import iterate as iterate
+    from hexmend.run import smooth as smooth
+    from hexmend.run.recipe import Recipe as Recipe
+    from hexmend.run.recipe import Stage as Stage
+    from hexmend.run.recipe_files import read_recipe as read_recipe
+    from hexmend.run.recipe_files import write_recipe as write_recipe
+    from hexmend.smoothers import METHODS as METHODS
+    from hexmend.smoothers import Smoother as Smoother
+    from hexmend.smoothers import method as method
     from hexmend.smoothers.general import General as General
     from hexmend.smoothers.getme.sequential import SequentialGETMe as SequentialGETMe
     from hexmend.smoothers.getme.simultaneous import GETMe as GETMe
@@ -54,8 +80,9 @@ if TYPE_CHECKING:
     from hexmend.smoothers.local.patch import LocalPatch as LocalPatch
     from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent as LocalSteepestDescent
     from hexmend.smoothers.mend.mend import Mend as Mend
-    from hexmend.study.compare import Comparison, compare
-    from hexmend.target import make_target
+    from hexmend.study.compare import Comparison as Comparison
+    from hexmend.study.compare import compare as compare
+    from hexmend.target import make_target as make_target
 
 hooks.register_hooks(
     fixed_sets="hexmend.mesh.fixing:fixed_sets",
@@ -95,60 +122,7 @@ _HOMES = {
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
-__all__ = [
-    "METHODS",
-    "METRICS",
-    "Cells",
-    "Comparison",
-    "ElementQuality",
-    "FileError",
-    "HexmendError",
-    "Iteration",
-    "LinearMotion",
-    "Mesh",
-    "MeshError",
-    "MotionRules",
-    "Outcome",
-    "Padding",
-    "ParameterError",
-    "Recipe",
-    "Result",
-    "Run",
-    "Smoother",
-    "Stage",
-    "Step",
-    "StoppingCriteria",
-    "Summary",
-    "Target",
-    "add_set",
-    "advise",
-    "compare",
-    "energy",
-    "find_layers",
-    "fix",
-    "fix_outside",
-    "from_meshio",
-    "from_pyvista",
-    "gallery",
-    "iterate",
-    "make_target",
-    "measure",
-    "method",
-    "pad",
-    "parameter",
-    "read",
-    "read_recipe",
-    "read_surface",
-    "remove_set",
-    "smooth",
-    "summarise",
-    "to_meshio",
-    "to_pyvista",
-    "unfix",
-    "view",
-    "write",
-    "write_recipe",
-]
+__all__ = [*_HOME_OF, "energy", "gallery"]
 
 
 if not TYPE_CHECKING:  # else a type checker would accept any name

@@ -222,7 +222,7 @@ class Parametrised:
 
 
 def from_strings(cls: type[T], words: Mapping[str, str], owner: str = "") -> T:
-    """Make `cls` from textual values, such as those of the command line.
+    """Make `cls` from textual values, as the command line gives them.
 
     Parameters
     ----------
@@ -247,7 +247,7 @@ def from_strings(cls: type[T], words: Mapping[str, str], owner: str = "") -> T:
 
 
 def from_values(cls: type[T], values: Mapping[str, Any], owner: str = "") -> T:
-    """Make `cls` from values of their own types, such as those of a TOML or JSON file.
+    """Make `cls` from values of their own types, as a TOML or JSON file gives them.
 
     Parameters, returned value and errors are those of `from_strings`.
     """

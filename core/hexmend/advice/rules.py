@@ -102,7 +102,7 @@ def slide_near_invalid(now: Situation) -> Suggestion | None:
 
 
 def undo_inversion(now: Situation) -> Suggestion | None:
-    """Suggest a safe method after one that inverted hexes."""
+    """Suggest a safe method after a method that inverted hexes."""
     if now.result.before.inverted or not now.unlocked.size:
         return None
     text = (

@@ -62,7 +62,7 @@ def extract_hexes(mesh: Mesh, kept: np.ndarray) -> Mesh:
 
 
 def _on_nodes(cells: Cells, used: np.ndarray) -> Cells:
-    """Cells of which all nodes are marked in `used`, (n,) bool, with their data and sets."""
+    """Cells whose nodes are all marked in `used`, (n,) bool, with their data and sets."""
     kept = used[cells.nodes].all(axis=1)
     data = {name: values[kept] for name, values in cells.data.items()}
     return Cells(

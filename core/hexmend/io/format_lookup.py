@@ -85,7 +85,7 @@ def _endings() -> Iterator[str]:
 
 
 def copy_suffix(path: str | os.PathLike[str]) -> str:
-    """Return the suffix that a copy of a mesh gets: that of the file, or none for a mesh of several files."""
+    """Return the suffix of a copy of a mesh: the file's own, or none for a mesh of several files."""
     return "" if format_by_place(Path(path)) else Path(path).suffix
 
 

@@ -104,7 +104,7 @@ def short_faces(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 def _in_large_groups(quads: np.ndarray, marked: np.ndarray, n: int, least: int) -> np.ndarray:
-    """Mark those of the marked faces (k,) bool that are connected with at least `least` of them, (k,) bool."""
+    """Keep the marks of faces (k,) bool in connected groups of at least `least` marked faces, (k,) bool."""
     group = components_of_cells(n, quads[marked])
     large = np.zeros(len(quads), dtype=bool)
     large[marked] = np.bincount(group, minlength=1)[group] >= least

@@ -1,4 +1,4 @@
-"""Target of a run: the one that is asked for, with the layers of the mesh kept."""
+"""Target of a run: the target of the method's parameters, with the layers of the mesh kept."""
 
 from __future__ import annotations
 

@@ -123,7 +123,7 @@ def find_locking(mesh: Mesh, feature_angle: float = FEATURE_ANGLE, quality: Elem
 
 
 def _without_layer(mesh: Mesh, corners: tuple[LockedCorner, ...], hexes: np.ndarray) -> np.ndarray:
-    """Find which of some hexes (k,), of which these corners are locked, no layer under the boundary mends."""
+    """Find the hexes, of some (k,) with these locked corners, that no layer under the boundary mends."""
     blocked = mask(nodes_without_space(mesh, hexes), mesh.n_nodes)[mesh.hexes[hexes]].any(axis=1)
     inside = [one.hex for one in corners if not mesh.topology.boundary[list(one.nodes)].any()]
     return np.union1d(hexes[blocked], np.array(inside, dtype=np.int64))

@@ -283,7 +283,7 @@ class MeshMotion(MeshData):
         return hook("with_rules")(self, MotionRules(**rules))
 
     def with_node_rules(self: M, rules: NodeRules) -> M:
-        """Return the mesh with rules of motion of its nodes in place of those it has; all else is shared.
+        """Return the mesh with other rules of motion of its nodes; all else is shared.
 
         `hexmend.mesh.rules.resolution.with_rules` makes them of the names of sets.
         """

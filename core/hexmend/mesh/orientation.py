@@ -69,7 +69,7 @@ def left_handed_error(hexes_are: str) -> MeshError:
 
 
 def left_handed_are(mesh: Mesh, which: np.ndarray) -> str:
-    """Return the subject and verb of a sentence about left-handed hexes (m,) bool, of which there is at least one."""
+    """Return the subject and verb of a sentence about left-handed hexes (m,) bool; at least one is marked."""
     count = int(which.sum())
     if count == mesh.n_hexes:
         return "The only hex is" if count == 1 else "All hexes are"

@@ -1,4 +1,4 @@
-"""HTML of meshes and results: tables, embedded pictures, and small curves of convergence.
+"""HTML of meshes and results: tables and embedded pictures.
 
 Jinja2 is not used: it would be a dependency of the core, and 0.02 s, for two short tables.
 """
@@ -6,15 +6,12 @@ Jinja2 is not used: it would be a dependency of the core, and 0.02 s, for two sh
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Sequence
 from html import escape
-from typing import Any
 
 from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Result
-from hexmend.iteration.figures import HISTORY, objective_changes
+from hexmend.iteration.figures import HISTORY
 from hexmend.mesh.mesh import Mesh
-from hexmend.notebook.sparkline import sparkline
 from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary, summarise
 from hexmend.quantity import Quantity
 
@@ -23,9 +20,6 @@ _IMAGE = "width: 480px; max-width: 100%; border-radius: 4px"
 _WORSE = "text-align: right; color: #b3261e; font-weight: 600"
 _LEFT, _MESSAGE = "text-align: left", "max-width: 60em; margin: 0.3em 0"
 _QUIET = "opacity: 0.7; font-size: 90%"
-
-#: Figures with a small curve over the iterations.
-_LINES = ("q_min", "q_mean", "inverted", "invalid", "objective")
 
 
 def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:
@@ -45,11 +39,10 @@ def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:
 
 
 def of_result(result: Result, picture: bytes | None = None, problem: str = "") -> str:
-    """Return the HTML of a run: figures before and after, worse ones in red, with their curves."""
-    head = "<tr><th></th><th>before</th><th>after</th><th>by iteration</th></tr>"
+    """Return the HTML of a run: figures before and after, worse ones in red."""
+    head = "<tr><th></th><th>before</th><th>after</th></tr>"
     rows = [
-        f"<tr>{_head(one)}{_cell(one, result.before)}"
-        f"{_cell(one, result.after, one.key in result.worse)}<td>{_line(one, result)}</td></tr>"
+        f"<tr>{_head(one)}{_cell(one, result.before)}{_cell(one, result.after, one.key in result.worse)}</tr>"
         for one in SUMMARY_QUANTITIES.values()
     ]
     table = f"<table>{head}{''.join(rows)}{_own_objective(result)}</table>"
@@ -80,12 +73,12 @@ def _cell(figure: Quantity, summary: Summary, worse: bool = False) -> str:
 
 
 def _own_objective(result: Result) -> str:
-    """Return a row of the method's objective, from the history, if it is not that of the summaries.
+    """Return a row with the method's objective, from the history, if the summaries have another one.
 
     Formulas follow the values if they differ before and after.
     """
     before, after = result.history[0], result.history[result.kept]
-    if _has_one_objective(result):
+    if all(row["objective_formula"] == SQUARES.formula for row in result.history):
         return ""
     figure = HISTORY["objective"]
     formulas = [str(row["objective_formula"]) for row in (before, after)]
@@ -95,21 +88,4 @@ def _own_objective(result: Result) -> str:
     for row, formula in zip((before, after), formulas, strict=True):
         text = "∞" if row["objective"] is None else figure.text(row["objective"])
         cells += f"<td>{escape(text if same else f'{text} ({formula})')}</td>"
-    return f"<tr>{_head(figure, label)}{cells}<td>{_sparkline('objective', result)}</td></tr>"
-
-
-def _has_one_objective(result: Result) -> bool:
-    """Return True if all iterations have the objective of the summaries."""
-    return all(row["objective_formula"] == SQUARES.formula for row in result.history)
-
-
-def _line(figure: Quantity, result: Result) -> str:
-    if figure.key not in _LINES or (figure.key == "objective" and not _has_one_objective(result)):
-        return ""
-    return _sparkline(figure.key, result)
-
-
-def _sparkline(key: str, result: Result) -> str:
-    values: Sequence[Any] = [row[key] for row in result.history]
-    breaks = objective_changes(result.history) if key == "objective" else ()
-    return sparkline(values, f"{HISTORY[key].label} by iteration", result.kept, breaks)
+    return f"<tr>{_head(figure, label)}{cells}</tr>"

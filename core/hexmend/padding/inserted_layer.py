@@ -108,7 +108,7 @@ class Sheet:
 
     @cached_property
     def originals(self) -> np.ndarray:
-        """Node of which each copy is one, (c,) int64."""
+        """Original node of each copy, (c,) int64."""
         answer = np.empty(int(self.copy_of_corner.max(initial=-1)) + 1, dtype=np.int64)
         hexes, corners = np.nonzero(self.copy_of_corner >= 0)
         answer[self.copy_of_corner[hexes, corners]] = self.mesh.hexes[hexes, corners]
@@ -122,7 +122,7 @@ class Sheet:
 
     @cached_property
     def new_hexes(self) -> np.ndarray:
-        """The hex under each face, (k, 8) int32: its face `OUTER` is the face, `INNER` that of the copies."""
+        """The hex under each face, (k, 8) int32: its side `OUTER` is the face, its side `INNER` has the copies."""
         inner = self.inner_hexes[self.faces[:, :1], FACES[self.faces[:, 1]]]
         return np.concatenate([inner, self.quads], axis=1).astype(np.int32)
 

@@ -35,7 +35,7 @@ class PaddedMidNodes(NamedTuple):
 
 
 def padded_mid_nodes(sheet: Sheet) -> PaddedMidNodes:
-    """Find the mid-nodes of a mesh with a layer; its additional nodes follow those of the mesh and the copies.
+    """Find the mid-nodes of a mesh with a layer; additional nodes follow the nodes of the mesh and the copies.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ def node_ids(mesh: Mesh) -> np.ndarray | None:
 
 
 def with_ids(numbers: Sequence[int] | np.ndarray, ids: np.ndarray | None) -> str:
-    """List numbers, with those of the file if there are any.
+    """List numbers, with the ids of the file in brackets if it has any.
 
     >>> with_ids([0, 2], None), with_ids([0, 2], np.array([501, 502, 503]))
     ('0, 2', '0, 2 (in the file 501, 503)')

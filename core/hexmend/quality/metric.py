@@ -73,7 +73,7 @@ class Metric(HexQuantity):
     of_mesh: MeshValues | None = None
 
     def values(self, mesh: Mesh, quality: ElementQuality) -> np.ndarray:
-        """Compute the values of the hexes of a mesh, (m,) float64; `quality` is that of the mesh."""
+        """Compute the values of the hexes of a mesh, (m,) float64, from the mesh and its measured quality."""
         if self.of_mesh is not None:
             return self.of_mesh(mesh, quality)
         return self.of(mesh.points, mesh.hexes, quality)

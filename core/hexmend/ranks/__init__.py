@@ -1,1 +1,1 @@
-"""A mesh divided among the processes, or ranks, of an MPI program, each of which moves the nodes that it owns."""
+"""A mesh divided among the processes, or ranks, of an MPI program; each rank moves the nodes that it owns."""

@@ -19,7 +19,7 @@ Rows = Mapping[int, np.ndarray]
 
 
 class MPIRanks(Ranks):
-    """The ranks of a communicator, with the nodes of which each of them knows the others' positions.
+    """The ranks of a communicator, with the nodes whose positions they exchange.
 
     Parameters
     ----------

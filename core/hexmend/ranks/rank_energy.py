@@ -20,7 +20,7 @@ _HALVINGS = 60
 
 
 class RankEnergy(MeshEnergy):
-    """Energy of a divided mesh: values and slopes are those of the whole, gradients those of the rank's own nodes.
+    """Energy of a divided mesh: values and slopes of the whole mesh, gradients of the rank's own nodes.
 
     All ranks call the methods together.
 

@@ -67,7 +67,7 @@ def divide(mesh: Mesh, count: int) -> np.ndarray:
 
 
 def owners_of_nodes(mesh: Mesh, rank_of_hex: np.ndarray) -> np.ndarray:
-    """Return the rank that owns each node, (n,) int32: the lowest of those of its hexes (m,); 0 where it has none."""
+    """Return the rank that owns each node, (n,) int32: the lowest rank of its hexes (m,), or 0 without hexes."""
     owner = np.zeros(mesh.n_nodes, np.int32)
     for rank in range(int(rank_of_hex.max(initial=0)), -1, -1):
         owner[mesh.hexes[rank_of_hex == rank].ravel()] = rank
@@ -139,7 +139,7 @@ def distribute(comm: MPI.Comm, mesh: Mesh | None) -> RankPart:
 
 
 def too_many_ranks(count: int, n_hexes: int, idle: int) -> str:
-    """Return the message on ranks of which some would have nothing to do."""
+    """Return the message for more ranks than have work."""
     return f"{count} ranks are too many for {n_hexes:,} hexes: {idle} of them would own no node. Use fewer."
 
 

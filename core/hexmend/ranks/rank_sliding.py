@@ -65,7 +65,7 @@ class RankSliding:
         return self.part.mesh
 
     def with_points(self, points: np.ndarray) -> Mesh:
-        """Return `mesh` with other points (n, 3); its mean edge length stays that of the whole mesh."""
+        """Return `mesh` with other points (n, 3) and the mean edge length of the whole mesh."""
         moved = self.mesh.with_points(points)
         moved._set(mean_edge_length=self.mesh.mean_edge_length)
         return moved

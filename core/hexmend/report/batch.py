@@ -142,7 +142,7 @@ def failures_table(rows: Rows) -> Table | None:
 
 
 def mesh_names(rows: Rows) -> dict[str, str]:
-    """Return a name for each mesh: that of the file, or the whole path if two files have the same name."""
+    """Return a name for each mesh: the file's name, or the whole path if two files have the same name."""
     meshes = dict.fromkeys(row["mesh"] for row in rows)
     counts = Counter(Path(mesh).name for mesh in meshes)
     return {mesh: name if counts[name := Path(mesh).name] == 1 else mesh for mesh in meshes}

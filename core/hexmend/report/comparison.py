@@ -138,7 +138,7 @@ def comparison_table(
 
 
 def label(figure: Quantity, records: Iterable[Mapping[str, Any]]) -> str:
-    """Return the label of a figure; that of the objective with its formula, common to all records.
+    """Return the label of a figure; the objective has its formula, which is common to all records.
 
     >>> label(SUMMARY_QUANTITIES["objective"], [{"objective": 7.0, "objective_formula": "Σ η⁴, offset 0"}])
     'objective Σ η⁴, offset 0'

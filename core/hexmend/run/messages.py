@@ -19,7 +19,7 @@ _NAMED = 8
 
 
 def describe_change(old: Stage, new: Stage) -> str:
-    """Describe the differences between a stage and the one that replaces it.
+    """Describe the differences between a stage and its replacement.
 
     >>> from hexmend.smoothers import METHODS
     >>> local, soft = METHODS["local-sd"](), METHODS["local-sd"](p=4)

@@ -16,7 +16,7 @@ from hexmend.target.builders import SIZE_WEIGHT, WITHOUT_SIZES
 
 @dataclass(frozen=True)
 class TargetedSmoother(SlidingSmoother):
-    """Method that takes the target of the hexes from the mesh; a run gives it the one that the parameters name."""
+    """Method that takes the target of the hexes from the mesh, which a run sets as the parameters say."""
 
     target: str = parameter(
         AUTO,

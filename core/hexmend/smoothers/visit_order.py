@@ -92,7 +92,7 @@ class VisitOrder:
         self._groups: CSR | None = None
 
     def groups(self, points: np.ndarray, sweep: int) -> CSR:
-        """Group the nodes of a sweep so that nodes of a group share no hex; the result is that of the sequence.
+        """Group the nodes of a sweep so that nodes of a group share no hex; the result equals the sequence's.
 
         Parameters
         ----------

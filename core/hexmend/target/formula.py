@@ -1,4 +1,4 @@
-"""Formulas in x, y and z: arithmetic on arrays, parsed to a tree of which only listed nodes are computed."""
+"""Formulas in x, y and z: arithmetic on arrays, parsed to a tree; only listed kinds of nodes are computed."""
 
 from __future__ import annotations
 

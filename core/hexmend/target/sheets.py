@@ -146,7 +146,7 @@ def _recovered(mesh: Mesh, lengths: np.ndarray, quality: ElementQuality, distort
 
 
 def _log_edge_lengths(mesh: Mesh) -> np.ndarray:
-    """Logarithms of the lengths of all edges, (e + 1,); 0 for the one that stands for none."""
+    """Logarithms of the lengths of all edges, (e + 1,); the last, 0, stands for no edge."""
     low, high = mesh.topology.edges.T
     along = mesh.points[high] - mesh.points[low]
     lengths = np.sqrt(np.einsum("ij,ij->i", along, along))

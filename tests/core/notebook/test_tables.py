@@ -9,7 +9,6 @@ import hexmend as hx
 from hexmend.errors import HexmendError
 from hexmend.iteration import StoppingCriteria
 from hexmend.notebook.html_tables import of_mesh, of_result
-from hexmend.notebook.sparkline import sparkline
 from hexmend.quality.summary import SUMMARY_QUANTITIES
 
 
@@ -49,7 +48,6 @@ def test_a_mesh_is_a_table_of_its_figures(mesh):
 def test_a_result_is_a_table_of_before_and_after(result):
     tree = ET.fromstring(of_result(result))
     assert tree.find(".//p").text == result.message
-    assert len(list(tree.iter("svg"))) >= 3
     cells = [one.text for one in next(row for row in tree.iter("tr") if "q mean" in "".join(row.itertext())).iter("td")]
     assert cells[:2] == [
         SUMMARY_QUANTITIES["q_mean"].text(result.before.q_mean),
@@ -60,10 +58,7 @@ def test_a_result_is_a_table_of_before_and_after(result):
 def objective_rows(result):
     rows = ET.fromstring(of_result(result)).iter("tr")
     found = [row for row in rows if "".join(row.find("th").itertext()).startswith("objective")]
-    return {
-        "".join(row.find("th").itertext()): ([cell.text for cell in row.iter("td")][:2], row.find(".//svg") is not None)
-        for row in found
-    }
+    return {"".join(row.find("th").itertext()): [cell.text for cell in row.iter("td")] for row in found}
 
 
 def test_the_objective_of_the_method_has_a_row_of_its_own_where_it_is_another():
@@ -71,13 +66,11 @@ def test_the_objective_of_the_method_has_a_row_of_its_own_where_it_is_another():
     stop = StoppingCriteria(max_iterations=3, keep_last=True)
     usual = hx.smooth(mesh, "local-sd", stop)
     text = SUMMARY_QUANTITIES["objective"].text
-    assert objective_rows(usual) == {
-        "objective Σ η²": ([text(usual.before.objective), text(usual.after.objective)], True)
-    }
+    assert objective_rows(usual) == {"objective Σ η²": [text(usual.before.objective), text(usual.after.objective)]}
     other = hx.smooth(mesh, hx.LocalSteepestDescent(p=4.0, offset=0.0), stop)
     assert objective_rows(other) == {
-        "objective Σ η²": ([text(other.before.objective), text(other.after.objective)], False),
-        "objective Σ η⁴, offset 0": ([text(other.history[k]["objective"]) for k in (0, 3)], True),
+        "objective Σ η²": [text(other.before.objective), text(other.after.objective)],
+        "objective Σ η⁴, offset 0": [text(other.history[k]["objective"]) for k in (0, 3)],
     }
 
 
@@ -89,10 +82,9 @@ def test_objectives_before_and_after_that_differ_are_named():
     ]
     result = hx.smooth(mesh, hx.Recipe.of(*stages))
     assert result.kept == 4
-    cells, line = objective_rows(result)["objective of the method"]
+    cells = objective_rows(result)["objective of the method"]
     values = [SUMMARY_QUANTITIES["objective"].text(result.history[k]["objective"]) for k in (0, 4)]
     assert cells == [f"{values[0]} (Σ η²)", f"{values[1]} (Σ η⁴)"]
-    assert line
 
 
 def test_what_is_worse_is_red(mesh):
@@ -127,13 +119,3 @@ def draws(mesh, size):
 
 def fails(mesh, size):
     raise HexmendError("no graphics here")
-
-
-def test_a_line_rises_where_values_do_and_has_gaps():
-    svg = ET.fromstring(sparkline([0.0, 1.0, None, 3.0, 4.0], "x", marked=4))
-    first, second = (
-        [tuple(map(float, one.split(","))) for one in line.get("points").split()] for line in svg.iter("polyline")
-    )
-    assert first[0][1] > first[1][1] > second[0][1] > second[1][1]
-    dot = next(svg.iter("circle"))
-    assert (float(dot.get("cx")), float(dot.get("cy"))) == second[1]

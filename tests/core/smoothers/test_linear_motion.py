@@ -161,3 +161,17 @@ def test_steps_of_methods_of_others_are_constrained(case):
         CHECKS[case](given, iteration.points, 4)
         assert iteration.quality.n_inverted == 0
         assert iteration.largest_move > 0
+
+
+@pytest.mark.parametrize("method", ["laplacian", "smart-laplacian"])
+def test_laplacian_smoothing_with_nodes_in_planes_ends_at_the_perfect_grid(method):
+    perfect = hx.gallery.make("cube", size=216)
+    at_wall = (perfect.points == 0) | (perfect.points == 1)
+    moves = np.random.default_rng(1).uniform(-0.05, 0.05, perfect.points.shape)
+    moves[at_wall[:, 1:].any(axis=1)] = 0
+    moves[at_wall[:, 0], 0] = 0
+    ends = {"ends": np.flatnonzero(perfect.points[:, 0] == 0), "others": np.flatnonzero(perfect.points[:, 0] == 1)}
+    mesh = perfect.with_points(perfect.points + moves).replace(node_sets=ends)
+    result = hx.smooth(mesh, method, plane=list(ends))
+    assert (result.mesh.points != mesh.points).any()
+    np.testing.assert_allclose(result.mesh.points, perfect.points, atol=1e-3)

@@ -118,7 +118,7 @@ def given_rules(args: argparse.Namespace) -> MotionRules:
 
 
 def motion_rules(args: argparse.Namespace) -> MotionRules:
-    """Return the rules of motion of the options of `add_motion`; those of the recipe of --recipe come first."""
+    """Return the rules of motion of the recipe of --recipe, followed by the options of `add_motion`."""
     if not args.recipe:
         return given_rules(args)
     return read_recipe(args.recipe).with_more_rules(given_rules(args), args.interfaces).rules

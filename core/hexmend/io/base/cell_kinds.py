@@ -40,5 +40,5 @@ def to_vtk_order(nodes: np.ndarray, kind: str, order: Mapping[str, Sequence[int]
 
 
 def from_vtk_order(nodes: np.ndarray, kind: str, order: Mapping[str, Sequence[int] | np.ndarray]) -> np.ndarray:
-    """Reorder the nodes of cells from VTK's order to that of a format, the inverse of `to_vtk_order`."""
+    """Reorder the nodes of cells from VTK's order to the order of a format, the inverse of `to_vtk_order`."""
     return nodes[:, np.argsort(order[kind])] if kind in order else nodes

@@ -25,8 +25,6 @@ _KEYWORD = re.compile(rb"[A-Za-z_]{2,}\Z")
 _NEWLINE = b"\n"
 #: Longest line in bytes: a file without line ends is not taken for a single line.
 _LONGEST_LINE = 1 << 16
-#: Bytes that are parsed at a time in the search for a word that is not a number.
-_CHUNK = 1 << 20
 #: Bytes of numbers that are parsed at a time.
 _TEXT = 1 << 24
 #: Share of the work on a text that parsing it is.
@@ -99,7 +97,7 @@ class ByteCursor:
         return found.group().decode("utf-8", errors="replace") if found else ""
 
     def _after_space(self) -> int:
-        """Offset of the next byte that is no white space; that of the end of the file if there is none."""
+        """Return the offset of the next byte that is not white space, or the length of the file."""
         pos = self.pos
         while near := self.data[pos : pos + _NEAR]:
             skipped = _SPACE.match(near).end()
@@ -151,7 +149,14 @@ class ByteCursor:
         values = self._plain_numbers(count, dtype)
         if values is None:
             self.data = self.data[:]  # the rest is for errors, and for files of unusual layout
-            values = self._checked_numbers(section, rows, width, dtype)
+            end = self._checked_end(section, rows, width, dtype)
+            text = self.data[self.pos : end]
+            values = parse_numbers(text, dtype)
+            if np.dtype(dtype).kind in "iu" and exceeds_dtype(values, text):
+                raise self.error(
+                    f"{section} holds a whole number of more than 64 bits before {self.location_of(end + 1)}"
+                )
+            self.pos = end
         return values.reshape(rows, width)
 
     def _plain_numbers(self, count: int, dtype: np.dtype | type) -> np.ndarray | None:
@@ -174,24 +179,6 @@ class ByteCursor:
             at, k = at + len(text), k + len(numbers)
             report(_SHARE * at, len(self.data))
         self.pos = at
-        return values
-
-    def _checked_numbers(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> np.ndarray:
-        """Read numbers, (rows * width,), of a text in which there may be other words; see `read_numbers`."""
-        count, start = rows * width, self.pos
-        end = _numeric_end(self.data, start)
-        text = self.data[start:end]
-        values, found = parse_numbers(text, dtype), count_words(text)
-        if values is None or values.size != found or found < count:
-            end = self._checked_end(section, rows, width, dtype)
-            text = self.data[start:end]
-            values = parse_numbers(text, dtype)
-        elif found > count:
-            end = start + len(text.rsplit(None, found - count)[0])
-        values = values[:count]
-        if np.dtype(dtype).kind in "iu" and exceeds_dtype(values, text):
-            raise self.error(f"{section} holds a whole number of more than 64 bits before {self.location_of(end)}")
-        self.pos = end
         return values
 
     def read_numbers_until(self, section: str, mark: bytes, dtype: np.dtype | type) -> np.ndarray:
@@ -256,7 +243,7 @@ class ByteCursor:
     def _checked_end(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> int:
         """Parse number by number; returns the offset behind the last one, and raises at the first other word."""
         kind = float if np.dtype(dtype).kind == "f" else int
-        end, k = self._numbers_until(dtype, rows * width)
+        end, k = self.pos, 0
         for found in _WORD.finditer(self.data, end):
             if k == rows * width:
                 return end
@@ -276,18 +263,6 @@ class ByteCursor:
         if k == rows * width:
             return end
         raise self.error(f"{section} ends after {k // width} of {rows} rows: {self._end}")
-
-    def _numbers_until(self, dtype: np.dtype | type, count: int) -> tuple[int, int]:
-        """Skip chunks that hold numbers only; returns an offset and the count of numbers before it, below `count`."""
-        at, k = self.pos, 0
-        while at < len(self.data):
-            chunk = self.data[at : at + _CHUNK]
-            end = max(chunk.rfind(b" "), chunk.rfind(b"\n")) + 1
-            values, found = parse_numbers(chunk[:end], dtype), count_words(chunk[:end])
-            if not end or values is None or values.size != found or k + found >= count:
-                break
-            at, k = at + end, k + found
-        return at, k
 
 
 def _numeric_end(data: bytes, begin: int, is_all: bool = True) -> int:

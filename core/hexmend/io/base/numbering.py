@@ -77,7 +77,7 @@ def _rise_by_one(ids: np.ndarray) -> bool:
 
 
 def node_ids(data: dict[str, np.ndarray], count: int, limit: int = ID_LIMIT) -> np.ndarray:
-    """Choose the ids under which nodes are written: those of the mesh if the format supports them, else from 1.
+    """Choose the ids of nodes for a file: the mesh's ids if the format supports them, else from 1.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def node_ids(data: dict[str, np.ndarray], count: int, limit: int = ID_LIMIT) -> 
 
 
 def element_ids(blocks: Sequence[Block], limit: int = ID_LIMIT) -> list[np.ndarray]:
-    """Choose the ids under which elements are written: those of the mesh if the format supports them.
+    """Choose the ids of elements for a file: the mesh's ids if the format supports them.
 
     Blocks without usable ids get the following numbers; ids are unique.
 

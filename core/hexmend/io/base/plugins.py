@@ -13,7 +13,7 @@ GROUP = "hexmend.formats"
 
 @cache
 def plugin_formats() -> tuple[Format, ...]:
-    """Load the formats of other distributions, once; for one that cannot be loaded a warning is logged."""
+    """Load the formats of other distributions, once; a failure is logged as a warning."""
     found: list[Format] = []
 
     def take(name: str, format: object) -> None:

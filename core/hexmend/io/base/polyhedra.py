@@ -59,7 +59,7 @@ class RaggedArray:
 
     @classmethod
     def of_counted_rows(cls, values: np.ndarray) -> tuple[RaggedArray, bool]:
-        """Take apart numbers (j,) int64 of which each row begins with its length; False if they end within a row."""
+        """Split numbers (j,) int64 into rows, each led by its length; False if they end within a row."""
         starts, at, view = [], 0, memoryview(np.ascontiguousarray(values))
         while at < values.size and view[at] >= 0:
             starts.append(at)
@@ -109,7 +109,7 @@ def _of_kind(kind: str, faces: RaggedArray, cells: RaggedArray, turned: np.ndarr
 def _nodes_of(
     kind: str, faces: RaggedArray, lengths: np.ndarray, cells: RaggedArray, turned: np.ndarray, which: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Find those of some cells that are of a kind, and their nodes; `lengths` are those of the faces."""
+    """Select the cells of a kind, and find their nodes; `lengths` are the numbers of nodes of the faces."""
     sizes = [len(loop) for loop in LOOPS[kind]]
     count, base = len(sizes), sizes[0]
     at = cells.start[which][:, None] + np.arange(count)

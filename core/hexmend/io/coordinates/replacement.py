@@ -1,4 +1,4 @@
-"""Replacement of coordinates in a copy of a mesh's file, where the format of the copy is that of the file."""
+"""Replacement of coordinates in a copy of a mesh's file, in the same format."""
 
 from __future__ import annotations
 

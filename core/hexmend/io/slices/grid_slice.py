@@ -1,4 +1,4 @@
-"""Slice of a grid, and files of which slices can be read."""
+"""Slice of a grid, and files that can be read in slices."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class GridSlice:
 
 
 class SlicedFile(Protocol):
-    """Grid in a file of which slices can be read.
+    """Grid in a file that can be read in slices.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class SlicedFile(Protocol):
     field_data: Mapping[str, object]
 
     def read(self, nodes: slice, cells: slice) -> Grid:
-        """Read rows of nodes and of cells; numbers of nodes in cells are those of the file."""
+        """Read rows of nodes and of cells; cells have the file's numbers of nodes."""
 
     def ids(self) -> tuple[np.ndarray, np.ndarray] | None:
         """Return the numbers of all nodes and cells of the file in a larger grid; None if it is no piece of one."""

@@ -1,4 +1,4 @@
-"""Opening of a mesh file of which slices can be read."""
+"""Opening of a mesh file that can be read in slices."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hexmend.io.slices.vtu_slices import VTUSlices
 
 
 def open_slices(path: Path) -> Sequence[SlicedFile] | None:
-    """Open a mesh file, or all pieces of one, of which slices can be read.
+    """Open a mesh file, or all its pieces, to be read in slices.
 
     They are VTKHDF of one part; VTU of one piece, with its arrays as raw bytes behind the XML; and PVTU of such pieces
     with `GlobalNodeId` and `GlobalElementId`, as Hexmend writes them.

@@ -1,4 +1,4 @@
-"""VTKHDF files of one part, of which slices are read."""
+"""VTKHDF files of one part, read in slices."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hexmend.io.formats.vtk.vtkhdf import VTKHDFReader, group_of
 
 
 class VTKHDFSlices:
-    """VTKHDF file of which slices can be read; see `SlicedFile`."""
+    """VTKHDF file that can be read in slices; see `SlicedFile`."""
 
     def __init__(self, path: Path):
         self._path = path

@@ -1,4 +1,4 @@
-"""VTU files of one piece whose arrays are raw bytes behind the XML, of which slices are read."""
+"""VTU files of one piece whose arrays are raw bytes behind the XML, read in slices."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hexmend.io.formats.vtk.xml_document import Document, XMLElement
 
 
 class VTUSlices:
-    """VTU file of which slices can be read; see `SlicedFile`.
+    """VTU file that can be read in slices; see `SlicedFile`.
 
     Parameters
     ----------

@@ -6,12 +6,12 @@ import os
 import shutil
 import stat
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from hexmend.errors import FileError
-from hexmend.io.storage.temporary_files import TemporaryFile, flush_file, flush_folder
+from hexmend.io.storage.temporary_files import backup_path, create_file, flush_file, flush_folder, temporary_path
 from hexmend.signal_guard import uninterrupted
 
 
@@ -104,12 +104,12 @@ def writable_target(path: Path) -> tuple[Path, int | None]:
 
 @dataclass(frozen=True)
 class _Replacement:
-    """File to be replaced, its temporary file, and the one that keeps its old content until all are replaced."""
+    """File to be replaced, its temporary file, and its backup until all files are replaced."""
 
     path: Path
     target: Path
-    temporary: TemporaryFile
-    backup: TemporaryFile | None
+    temporary: Path
+    backup: Path | None
 
 
 class AtomicFiles:
@@ -118,6 +118,7 @@ class AtomicFiles:
     def __init__(self) -> None:
         self._replacements: list[_Replacement] = []
         self._named: dict[Path, Path] = {}  # path given by the user, by all that errors of the system may name
+        self._needed: set[Path] = set()  # backups of files that could not be restored
 
     def add(self, path: Path) -> Path:
         """Add a file to be replaced, and return a temporary file with the same suffix, to be written.
@@ -139,13 +140,13 @@ class AtomicFiles:
         target, mode = writable_target(path)
         for one in self._replacements:
             if one.target == target:
-                return one.temporary.path
-        temporary, backup = TemporaryFile(target), None if mode is None else TemporaryFile(target)
+                return one.temporary
+        temporary, backup = temporary_path(target), None if mode is None else backup_path(target)
         self._replacements.append(_Replacement(path, target, temporary, backup))  # to be removed if creation fails
         with _named(path):
-            temporary.create(mode)
-        self._named |= dict.fromkeys((path, target, temporary.path, temporary.lock_path), path)
-        return temporary.path
+            create_file(temporary, target, mode)
+        self._named |= dict.fromkeys((path, target, temporary), path)
+        return temporary
 
     def commit(self) -> None:
         """Replace all files, those that were added first last.
@@ -157,7 +158,7 @@ class AtomicFiles:
         """
         for one in self._replacements:
             with _named(one.path):
-                flush_file(one.temporary.path)
+                flush_file(one.temporary)
         if len(self._replacements) > 1:
             for one in self._replacements:
                 with _named(one.path):
@@ -171,13 +172,35 @@ class AtomicFiles:
         done: list[_Replacement] = []
         for one in reversed(self._replacements):
             try:
-                os.replace(one.temporary.path, one.target)
+                os.replace(one.temporary, one.target)
             except OSError as error:
-                problem = f"cannot be replaced: {error.strerror or error}{_restore(done)}"
+                problem = f"cannot be replaced: {error.strerror or error}{self._restore(done)}"
                 raise FileError(
                     one.path, problem, "Check free space and permissions, or choose another folder."
                 ) from None
             done.append(one)
+
+    def _restore(self, done: list[_Replacement]) -> str:
+        """Restore the old files; returns words about them for a message, "" if there are none.
+
+        The old content of a file that cannot be restored stays in its backup, which the message names.
+        """
+        kept, names = [], [one.path.name for one in done]
+        for one in reversed(done):
+            try:
+                if one.backup is None:
+                    one.target.unlink()
+                else:
+                    os.replace(one.backup, one.target)
+            except OSError:
+                if one.backup is None:
+                    kept.append(f"{one.path.name} stays as a new file")
+                else:
+                    self._needed.add(one.backup)
+                    kept.append(f"{one.path.name} cannot be restored: its old content is in {one.backup}")
+        if kept:
+            return f", and {', and '.join(kept)}"
+        return f"; {', '.join(names)} {'is' if len(names) == 1 else 'are'} as before" if names else ""
 
     def path_of(self, error: OSError) -> Path | None:
         """Return the path that an error is about: the first where the error names none, None for another file's."""
@@ -188,11 +211,11 @@ class AtomicFiles:
 
     @uninterrupted
     def remove(self) -> None:
-        """Remove the temporary files that are left."""
-        for one in self._replacements:
-            one.temporary.remove()
-            if one.backup is not None:
-                one.backup.remove()
+        """Remove the temporary files that are left, but for backups of files that could not be restored."""
+        for path in (path for one in self._replacements for path in (one.temporary, one.backup)):
+            if path is not None and path not in self._needed:
+                with suppress(OSError):
+                    path.unlink()
 
 
 @contextmanager
@@ -239,32 +262,7 @@ def _keep(one: _Replacement) -> None:
     """Keep the old content of a file: by another name where the file system has links, else in a copy."""
     if one.backup is None:
         return
-    one.backup.create(None)
-    one.backup.path.unlink()
     try:
-        os.link(one.target, one.backup.path)
+        os.link(one.target, one.backup)
     except OSError:
-        shutil.copy2(one.target, one.backup.path)
-
-
-def _restore(done: list[_Replacement]) -> str:
-    """Restore the old files; returns words about them for a message, "" if there are none.
-
-    The old content of a file that cannot be restored stays in its backup, which the message names.
-    """
-    kept, names = [], [one.path.name for one in done]
-    for one in reversed(done):
-        try:
-            if one.backup is None:
-                one.target.unlink()
-            else:
-                os.replace(one.backup.path, one.target)
-        except OSError:
-            if one.backup is None:
-                kept.append(f"{one.path.name} stays as a new file")
-            else:
-                one.backup.release()
-                kept.append(f"{one.path.name} cannot be restored: its old content is in {one.backup.path}")
-    if kept:
-        return f", and {', and '.join(kept)}"
-    return f"; {', '.join(names)} {'is' if len(names) == 1 else 'are'} as before" if names else ""
+        shutil.copy2(one.target, one.backup)

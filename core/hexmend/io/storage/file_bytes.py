@@ -1,4 +1,4 @@
-"""Content of a file, of which only what is asked for is in memory."""
+"""Content of a file that is read into memory piece by piece."""
 
 from __future__ import annotations
 

@@ -1,10 +1,7 @@
-"""Temporary files in the folder of the file that they will replace, with locks, and removal of abandoned ones.
+"""Temporary files in the folder of the file that they will replace, and removal of abandoned ones.
 
-The name consists of the host, a random number and the target: `.hexmend-3f0c9a1b2c3d4e5f6a7b-mesh.vtu`. An empty file,
-`.hexmend-lock-3f0c9a1b2c3d4e5f6a7b-mesh.vtu`, is created before it and removed after it. The writing process holds a
-lock (`flock`) on this empty file, which the system releases however the process ends. (The lock is not on the temporary
-file itself because libraries such as HDF5 lock the files that they write.) Temporary files of this host whose lock is
-free are therefore abandoned. On Windows and some network file systems, which have no locks, abandoned files stay.
+The name consists of checksums of the host and of the target, the number of the writing process, and a random number:
+`.hexmend-3f0c5e6f7a8b-4711-9a1b2c3d.vtu`. A file of this host whose process has ended is abandoned.
 """
 
 from __future__ import annotations
@@ -16,101 +13,89 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from hexmend.signal_guard import uninterrupted
-
 try:
     import fcntl
 except ImportError:  # Windows
     fcntl = None
 
-_PREFIX = ".hexmend-"
-_LOCK_PREFIX = ".hexmend-lock-"
-#: Random bytes in a name.
-_RANDOM = 8
-#: Longest name of a file in bytes, where the system does not tell it.
-_LONGEST = 255
+#: Longest suffix of a target, in characters, that its temporary files have too.
+_LONGEST_SUFFIX = 16
 
 
-class TemporaryFile:
-    """Temporary file in the folder of `target` that only this writer uses.
+def temporary_path(target: Path) -> Path:
+    """Choose the name of a temporary file, with the suffix of the target.
 
     Parameters
     ----------
     target : Path
         The file that it will replace.
+    """
+    return target.with_name(f"{_name_start(target)}{os.getpid()}-{_random_end(target)}")
 
-    Attributes
+
+def backup_path(target: Path) -> Path:
+    """Choose the name of a file for the old content of a target; it never counts as abandoned.
+
+    Parameters
+    ----------
+    target : Path
+    """
+    return target.with_name(f".hexmend-backup-{_random_end(target)}")
+
+
+def create_file(path: Path, target: Path, mode: int | None) -> None:
+    """Create an empty temporary file, and remove abandoned ones of the same target.
+
+    Parameters
     ----------
     path : Path
-        Ends with the suffix of the target.
-    lock_path : Path
-        The empty file that is locked.
+        As of `temporary_path`.
+    target : Path
+    mode : int or None
+        Permissions; those of the umask if None.
+
+    Raises
+    ------
+    OSError
+        Where the folder is not writable.
     """
+    _remove_abandoned(target)
+    with _opened(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666 if mode is None else 0o600) as handle:
+        if mode is not None and hasattr(os, "fchmod"):
+            os.fchmod(handle, mode)
 
-    def __init__(self, target: Path):
-        self._target = target
-        self._lock: int | None = None
-        self._released = False
-        self._choose_name()
 
-    def create(self, mode: int | None) -> None:
-        """Create the empty file and the lock, and remove abandoned temporary files of the same target.
+def _remove_abandoned(target: Path) -> None:
+    """Remove temporary files of a target whose processes have ended; errors are ignored."""
+    start = _name_start(target)
+    with suppress(OSError):
+        for name in os.listdir(target.parent):
+            number = name.removeprefix(start).partition("-")[0]
+            if name.startswith(start) and number.isdecimal() and not _runs(int(number)):
+                target.with_name(name).unlink(missing_ok=True)
 
-        Parameters
-        ----------
-        mode : int or None
-            Permissions; those of the umask if None.
 
-        Raises
-        ------
-        OSError
-            Where the folder is not writable.
-        """
-        if fcntl is not None:
-            remove_abandoned(self._target)
-            while not self._create_lock():
-                self._choose_name()
-        flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
-        with _opened(self.path, flags, 0o666 if mode is None else 0o600) as handle:
-            if mode is not None and hasattr(os, "fchmod"):
-                os.fchmod(handle, mode)
-
-    @uninterrupted
-    def remove(self) -> None:
-        """Remove the file if it is still there, and then the lock; not after `release`."""
-        for path in (self.lock_path,) if self._released else (self.path, self.lock_path):
-            with suppress(OSError):
-                path.unlink()
-        self._close()
-
-    def release(self) -> None:
-        """Let the file stay when `remove` is called; without its lock it never counts as abandoned."""
-        self._released = True
-
-    def _choose_name(self) -> None:
-        middle, end = os.urandom(_RANDOM).hex(), _name_end(self._target)
-        self.path = self._target.with_name(f"{_PREFIX}{_host()}{middle}{end}")
-        self.lock_path = self._target.with_name(f"{_LOCK_PREFIX}{_host()}{middle}{end}")
-
-    def _create_lock(self) -> bool:
-        """Return False if another process removed the file before it was locked."""
-        self._lock = os.open(self.lock_path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600)
-        try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:  # another process has locked it in order to remove it
-            self._close()
-            return False
-        except OSError:  # this file system has no locks, so nobody removes the file
-            return True
-        if os.fstat(self._lock).st_nlink:
-            return True
-        self._close()
+def _runs(process: int) -> bool:
+    """Return False if a process of this number has certainly ended."""
+    if os.name == "nt":  # a signal would end it
+        return True
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
         return False
+    except OSError:  # of another user
+        return True
+    return True
 
-    def _close(self) -> None:
-        handle, self._lock = self._lock, None
-        if handle is not None:
-            os.close(handle)
+
+def _name_start(target: Path) -> str:
+    host = os.uname().nodename if hasattr(os, "uname") else os.environ.get("COMPUTERNAME", "")
+    return f".hexmend-{zlib.crc32(host.encode()) & 0xFFFF:04x}{zlib.crc32(os.fsencode(target.name)):08x}-"
+
+
+def _random_end(target: Path) -> str:
+    suffix = target.suffix if len(target.suffix) <= _LONGEST_SUFFIX else ""
+    return f"{os.urandom(4).hex()}{suffix}"
 
 
 @contextmanager
@@ -121,59 +106,6 @@ def _opened(path: Path, flags: int, mode: int = 0o777) -> Iterator[int]:
         yield handle
     finally:
         os.close(handle)
-
-
-def remove_abandoned(target: Path) -> None:
-    """Remove temporary files of `target` whose writers have ended; errors are ignored.
-
-    Parameters
-    ----------
-    target : Path
-    """
-    if fcntl is None:
-        return
-    start, end = f"{_LOCK_PREFIX}{_host()}", _name_end(target)
-    length = len(start) + 2 * _RANDOM + len(end)
-    with suppress(OSError):
-        for name in os.listdir(target.parent):
-            if name.startswith(start) and name.endswith(end) and len(name) == length:
-                data = f"{_PREFIX}{name.removeprefix(_LOCK_PREFIX)}"
-                _remove_unlocked(target.with_name(name), target.with_name(data))
-
-
-def _remove_unlocked(lock: Path, data: Path) -> None:
-    flags = os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK
-    with suppress(OSError), _opened(lock, flags) as handle:  # locked, gone, not ours, or without locks
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        data.unlink(missing_ok=True)
-        lock.unlink()
-
-
-def _host() -> str:
-    """Checksum of the host's name in four characters; a lock may be visible on its own host only."""
-    name = os.uname().nodename if hasattr(os, "uname") else os.environ.get("COMPUTERNAME", "")
-    return f"{zlib.crc32(name.encode()) & 0xFFFF:04x}"
-
-
-def _name_end(target: Path) -> str:
-    """End of the names of temporary files, behind the random number.
-
-    A long name of the target is replaced by its checksum and its suffix.
-    """
-    free = _longest_name(target.parent) - len(f"{_LOCK_PREFIX}{_host()}") - 2 * _RANDOM - 1
-    name = target.name
-    if len(os.fsencode(name)) > free:
-        name = f"{zlib.crc32(os.fsencode(name)):08x}{target.suffix}"
-        if len(os.fsencode(name)) > free:
-            name = name[:8]
-    return f"-{name}"
-
-
-def _longest_name(folder: Path) -> int:
-    try:
-        return os.pathconf(folder, "PC_NAME_MAX")
-    except (AttributeError, OSError, ValueError):
-        return _LONGEST
 
 
 def flush_file(path: Path) -> None:

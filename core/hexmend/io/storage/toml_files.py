@@ -9,8 +9,8 @@ from typing import TypeVar
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.io.storage.atomic import atomic_write
+from hexmend.io.storage.readable import check_readable, reading
 from hexmend.io.storage.suffixes import suffix_for
-from hexmend.io.storage.text_files import read_text
 from hexmend.toml_text import MAX_CHARACTERS
 
 T = TypeVar("T")
@@ -40,9 +40,44 @@ def read_toml(path: str | os.PathLike[str], label: str, parse: Callable[[str], T
         Where the file cannot be read, is larger, or is invalid: it names the line, or the table and key.
     """
     try:
-        return parse(read_text(path, label, largest))
+        return parse(_read_text(Path(path), label, largest))
     except ParameterError as error:
         raise FileError(Path(path), str(error), "Correct the file.") from None
+
+
+def _read_text(path: Path, label: str, largest: int) -> str:
+    """Read a text file in UTF-8.
+
+    Parameters
+    ----------
+    path : Path
+    label : str
+        Expected content for errors, such as "a recipe".
+    largest : int
+        Largest number of characters.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    FileError
+        Where the file cannot be read, is larger, or is not UTF-8: it names the line.
+    """
+    check_readable(path, label)
+    try:
+        with reading(path, "Choose a smaller file."), open(path, "rb") as file:
+            data = file.read(4 * largest + 4)  # bytes of `largest` characters
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise FileError(path, f"is not text: line {line} holds bytes that are not UTF-8", f"Choose {label}.") from None
+    if len(text) > largest:
+        raise FileError(
+            path, f"has {len(text):,} characters: expected {label}, of {largest:,} at most", f"Choose {label}."
+        )
+    return text
 
 
 def write_toml(path: str | os.PathLike[str], label: str, text: str) -> None:

@@ -11,7 +11,7 @@ from hexmend.mesh.topology.components import components
 
 
 class Ties(NamedTuple):
-    """Ties of which no master is tied itself, and the restrictions of masters that cycles of ties imply.
+    """Ties to masters that are not tied themselves, and the restrictions that cycles of ties imply for masters.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class Ties(NamedTuple):
 
 
 def resolved(tied: np.ndarray, master: np.ndarray, rotations: np.ndarray) -> Ties:
-    """Resolve chains and cycles of ties, such as those of an edge of a box that is periodic in two directions.
+    """Resolve chains and cycles of ties, as at an edge of a box that is periodic in two directions.
 
     A node that is tied to itself by a rotation, as on the axis of a wedge, may move along the axis.
 

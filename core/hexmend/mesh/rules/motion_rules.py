@@ -87,7 +87,7 @@ class MotionRules:
         return replace(self, periodic=pairs, **sets)
 
     def with_renamed(self, name: str, new: str) -> MotionRules:
-        """Return the rules for a mesh of which a set was renamed.
+        """Return the rules for a mesh with a renamed set.
 
         >>> MotionRules(fix=("a", "b"), periodic=(("a", "c"),)).with_renamed("a", "new").values()
         {'fix': ['new', 'b'], 'periodic': [['new', 'c']]}

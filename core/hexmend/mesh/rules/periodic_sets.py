@@ -103,7 +103,7 @@ def _candidates(
 
 
 def _outward_area(mesh: Mesh, nodes: np.ndarray) -> np.ndarray:
-    """Sum of the outward area vectors of the boundary faces of which all nodes are in a set (k,), (3,); 0 for none."""
+    """Sum of the outward area vectors of the boundary faces whose nodes are all in a set (k,), (3,); 0 for none."""
     faces = mesh.topology.boundary_faces
     a, b, c, d = (mesh.points[column] for column in faces[mask(nodes, mesh.n_nodes)[faces].all(axis=1)].T)
     return np.cross(c - a, d - b).sum(axis=0) / 2

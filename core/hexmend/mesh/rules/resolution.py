@@ -18,7 +18,7 @@ from hexmend.mesh.rules.periodic_sets import PeriodicPair, match_periodic
 
 
 def with_rules(mesh: Mesh, rules: MotionRules) -> Mesh:
-    """Return the mesh with rules of motion of its nodes, in place of those it has.
+    """Return the mesh with other rules of motion of its nodes.
 
     Pins of the mesh stay as they are, and so does a linear motion that no rule has given: the rules hold for runs, and
     no file keeps them. A node that is both fixed and freed is fixed.
@@ -135,7 +135,7 @@ def _marks(mesh: Mesh, names: Iterable[str]) -> np.ndarray | None:
 
 
 def _check_freed(mesh: Mesh, name: str) -> None:
-    """Raise for a set of which freeing sets no node free: those of the boundary are bound to the surface."""
+    """Raise for a set whose nodes a rule cannot free: nodes of the boundary are bound to the surface."""
     nodes = nodes_in_set(mesh, name)
     pinned = mesh.pinned is not None and mesh.pinned[nodes].any()
     if nodes.size and mesh.topology.boundary[nodes].all() and not pinned:

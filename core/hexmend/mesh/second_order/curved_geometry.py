@@ -116,7 +116,7 @@ def quad_nodes(points: np.ndarray, corners: np.ndarray, mid_nodes: np.ndarray) -
 
 
 def hex_nodes(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
-    """Return the positions of all 27 nodes of hexes; missing ones are those of the serendipity hex.
+    """Return the positions of all 27 nodes of hexes; missing nodes are placed as in the serendipity hex.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Faces, hexes and other rows of nodes of which one at least is marked."""
+"""Faces, hexes and other rows of nodes with at least one marked node."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def any_of_rows(marks: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Mark rows (k, w) of numbers of which one at least is marked in `marks` (n,) bool, (k,) bool.
+    """Mark rows (k, w) of numbers with at least one number marked in `marks` (n,) bool, (k,) bool.
 
     >>> any_of_rows(np.array([True, False, False]), np.array([[1, 2], [2, 0]])).tolist()
     [False, True]

@@ -1,1 +1,1 @@
-"""Meshes of which every rank reads and writes a part, so that none ever holds the whole."""
+"""Meshes that ranks read and write in parts, so that no rank ever holds the whole."""

@@ -11,7 +11,7 @@ _HALVINGS = 60
 
 
 def bisect(ranks: Ranks, places: np.ndarray, count: int) -> np.ndarray:
-    """Divide places, of which each rank has some, into parts of about the same size; all ranks call it together.
+    """Divide places, distributed over the ranks, into parts of about the same size; all ranks call it together.
 
     A set of places is cut across its longest extent, into shares for half the parts each, and so is each share.
 

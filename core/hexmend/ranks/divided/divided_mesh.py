@@ -1,4 +1,4 @@
-"""Mesh of which each rank holds a part and writes a piece."""
+"""Mesh in parts: each rank holds one, and writes it as a piece."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class PieceCells:
 
 @dataclass(frozen=True, eq=False)
 class DividedMesh:
-    """Mesh of which each rank holds a part; all ranks call the methods together.
+    """Mesh in parts, one on each rank; all ranks call the methods together.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ class DividedMesh:
         return Mesh(as_immutable_owned(np.concatenate(places)), as_immutable_owned(hexes)).with_fixed(stays)
 
     def scatter(self, mesh: Mesh | None) -> np.ndarray:
-        """Return the points of the part, (n, 3), from those of the whole mesh that rank 0 has."""
+        """Return the points of the part, (n, 3), from the whole mesh on rank 0."""
         everything = np.arange(self.directory.n) if mesh is not None else np.empty(0, np.int64)
         at, (rows,) = self.directory.put(everything, np.empty((0, 3)) if mesh is None else mesh.points)
         self.points[at] = rows

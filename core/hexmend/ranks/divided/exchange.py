@@ -60,7 +60,7 @@ def _begins(counts: np.ndarray) -> np.ndarray:
 
 
 class Directory:
-    """Rows of the nodes of the whole mesh: each rank keeps those of a range of node numbers.
+    """Rows of the nodes of the whole mesh: each rank keeps a range of node numbers.
 
     All ranks call the methods together.
 

@@ -1,4 +1,4 @@
-"""Figures of a divided mesh, those of the whole."""
+"""Figures of a divided mesh as a whole."""
 
 from __future__ import annotations
 

@@ -68,7 +68,7 @@ def left_handed_hexes(
 def _in_whole_mesh(
     ranks: MPIRanks, component: np.ndarray, sign: np.ndarray, ids: np.ndarray, shared: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the components and signs of hexes in the whole mesh, of those in a rank's part; `shared` has others."""
+    """Convert components and signs of hexes from a rank's part to the whole mesh; `shared` has the other parts'."""
     first, component = np.unique(component, return_inverse=True)
     counts = ranks.gather(np.array([first.size]))
     component = component + counts[: ranks.number].sum()

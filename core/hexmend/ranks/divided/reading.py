@@ -151,7 +151,7 @@ def _part(
     pinned: np.ndarray,
     as_is: bool,
 ) -> RankPart:
-    """Make the part of this rank: hexes (m,) with nodes (m, 8), of which the directory keeps points and owners."""
+    """Make the part of this rank: hexes (m,) with nodes (m, 8); the directory keeps points and owners of nodes."""
     comm, numbers = directory.comm, np.unique(rows)
     hexes = np.searchsorted(numbers, rows).astype(np.int32)
     x, of, pins = directory.get(numbers, points, owner, pinned)

@@ -19,7 +19,7 @@ from hexmend.smoothers.visit_order import ORDERS
 @method
 @dataclass(frozen=True)
 class Laplacian(SlidingSmoother):
-    """Move each node to the mean of its edge neighbours; a sliding node to that of those on its curve or patch."""
+    """Move each node to the mean of its edge neighbours; sliding nodes have neighbours on their curve or patch only."""
 
     name = "laplacian"
     title = "Laplacian"

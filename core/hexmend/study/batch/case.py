@@ -88,7 +88,7 @@ class Case:
 
 
 def read_case(data: Mapping[str, Any]) -> Case:
-    """Make a case from its `values`; its name is that of the method, recipe or program.
+    """Make a case from its `values`; it is named after the method or recipe.
 
     Parameters
     ----------

@@ -180,7 +180,7 @@ def _plan_tasks(plan: Plan, meshes: Sequence[Path], version: str, meshes_to: Pat
 
 
 def _remaining(tasks: _Tasks, stored: Container[str]) -> list[Task]:
-    """List the tasks without a stored answer, those of the largest meshes first."""
+    """List the tasks without a stored answer, the largest meshes first."""
     todo = [task for key, (task, _) in tasks.items() if key not in stored]
     return sorted(todo, key=lambda task: -os.path.getsize(task.mesh))
 

@@ -70,7 +70,7 @@ def run(task: Task, version: str) -> dict[str, Any]:
 
 
 class _Mismatch(Exception):
-    """Hexmend or a file differs from that of the client."""
+    """Hexmend or a file differs from the client's."""
 
 
 def _check_environment(task: Task, version: str) -> None:

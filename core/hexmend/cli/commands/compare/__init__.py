@@ -1,4 +1,4 @@
-"""The command `hexmend compare`: several methods on one mesh, as a table like those of the thesis."""
+"""The command `hexmend compare`: a table of several methods on one mesh."""
 
 from __future__ import annotations
 

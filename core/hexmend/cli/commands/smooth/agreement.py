@@ -14,7 +14,7 @@ T = TypeVar("T")
 
 
 class AgreedError(Exception):
-    """Error of which all ranks know.
+    """Error that all ranks know.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Mesh of which each rank reads, keeps and writes its part alone."""
+"""Mesh that is read, kept and written in parts, one for each rank."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 class DividedSource:
-    """Mesh of which each rank reads a slice and writes a piece; all ranks call the methods together.
+    """Mesh that ranks read in slices and write in pieces; all ranks call the methods together.
 
     Parameters
     ----------

@@ -38,7 +38,7 @@ class SecondOrderChange:
         return [f"Second order, {time}: {summary.phrase}." for time, summary in summaries if summary is not None]
 
     def add_to(self, report: dict[str, object]) -> None:
-        """Add the figures to those of a report of --json, in its "before" and "after"."""
+        """Add the figures to "before" and "after" of a report for --json."""
         for time, summary in (("before", self.before), ("after", self.after)):
             if summary is not None:
                 report[time]["second_order"] = summary.to_dict()

@@ -15,7 +15,7 @@ _FIRST_KEYWORDS = (b"HEADING", b"NODE", b"PART", b"PREPRINT", b"ELEMENT", b"ASSE
 
 
 def _matches(head: bytes) -> bool:
-    """Return True if the first keyword, after comments and blank lines, is one that begins an input file."""
+    """Return True if the first keyword, after comments and blank lines, can begin an input file."""
     found = re.search(rb"^[ \t]*\*(?!\*)[ \t]*([A-Za-z ]+)", head, re.MULTILINE)
     before = head[: found.start()].split(b"\n") if found else []
     comments = all(line.strip().startswith(b"**") or not line.strip() for line in before)

@@ -163,7 +163,7 @@ def _unread(instances: list[Instance]) -> dict[str, int]:
 def _lookups(
     deck: Deck, instances: list[Instance], ids: list[np.ndarray], attribute: str, budget: MemberBudget
 ) -> list[SetLookup]:
-    """Lookups of the sets of each instance; the last, the assembly's, knows those of the others."""
+    """Lookups of the sets of each instance; the last, the assembly's, can look up sets of instances."""
     first, lookups = _offsets(ids), []
     known: dict[str, SetLookup] = {}
     for k, instance in enumerate(instances):

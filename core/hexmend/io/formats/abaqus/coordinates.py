@@ -115,7 +115,7 @@ def _placed_cards(deck: Deck) -> list[_PlacedCards]:
 
 
 def _in_part(instance: Instance, before: np.ndarray, after: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Coordinates of a part's nodes, (k, 3), of those in the assembly; as in the file where they have not changed."""
+    """Convert coordinates from the assembly to the part, (k, 3); unchanged ones are as in the file."""
     if np.array_equal(instance.rotation, np.eye(3)):
         return np.where(before == after, rows, after - instance.translation)
     moved = ~(before == after).all(axis=1)

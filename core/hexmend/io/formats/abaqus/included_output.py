@@ -1,4 +1,4 @@
-"""Output of a deck with the files that it includes: copies of those with moved nodes, next to the deck."""
+"""Output of a deck with its included files: files with moved nodes are copied next to the deck."""
 
 from __future__ import annotations
 

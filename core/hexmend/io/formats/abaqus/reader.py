@@ -58,7 +58,7 @@ def read(path: Path) -> Mesh:
 
 
 class _Reader:
-    """Model data of the cards read so far; `part` is the one that the current card adds to."""
+    """Model data of the cards read so far; the current card adds to `part`."""
 
     def __init__(self, deck: Deck):
         self.deck = deck

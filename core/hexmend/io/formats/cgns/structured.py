@@ -1,4 +1,4 @@
-"""Structured zone of a CGNS file: hexes between vertices with indices i, j, k, of which i runs fastest."""
+"""Structured zone of a CGNS file: hexes between vertices with indices i, j, k; i runs fastest."""
 
 from __future__ import annotations
 

@@ -97,5 +97,5 @@ class CGNSNode:
 
 
 def boundary_conditions(node: CGNSNode) -> list[tuple[str, CGNSNode]]:
-    """Boundary conditions of a zone by name, which is that of the family where there is one."""
+    """Boundary conditions of a zone by name, or by the name of their family."""
     return [(child.text_of("FamilyName_t") or child.name, child) for child in node.grandchildren("ZoneBC_t", "BC_t")]

@@ -49,7 +49,7 @@ def read_unstructured(node: CGNSNode) -> Zone:
 
 
 def _sides(section: CGNSSection, which: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Side set, (k, 2), of those of the faces `which` of a section that are faces of hexes, given by their numbers."""
+    """Side set, (k, 2), of the faces `which` of a section, by number; faces that belong to no hex are left out."""
     parents = section.parents[which].reshape(-1, 2)
     order = np.argsort(hexes, kind="stable")
     at = np.searchsorted(hexes, parents[:, 0], sorter=order).clip(0, max(0, len(hexes) - 1))

@@ -20,7 +20,7 @@ def id_lines(found: Sequence[tuple[str, int, str]]) -> dict[str, list[str]]:
 
 
 def assigned_ids(lines: object, entity: str, names: Sequence[str]) -> list[int]:
-    """Ids under which the blocks or sets of an entity are written: those of the lines, unused ones for other names.
+    """Ids of the blocks or sets of an entity for a file: as the lines give them, unused ids for other names.
 
     Parameters
     ----------

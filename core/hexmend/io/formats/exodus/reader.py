@@ -154,7 +154,7 @@ class _Reader:
         return {name: np.ascontiguousarray(column) for name, column in zip(names, values.T, strict=True)}
 
     def node_sets(self) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
-        """Node sets by name, and pinned nodes: those of the set marked so, else of sets named "fixed"."""
+        """Node sets by name, and pinned nodes: the set with the mark, or else sets named "fixed"."""
         marked = "ns_prop2" in self.store and self.store.attribute("ns_prop2", "name") == PINS_PROPERTY
         count = self.store.dimensions.get("num_node_sets", 0)
         marks = self.variables.integers("ns_prop2", count) if marked else None

@@ -116,7 +116,7 @@ def split_tags(blocks: Iterable[tuple[slice, np.ndarray]], count: int, width: in
 
 
 def joined(parts: Sequence[np.ndarray], dtype: type, *shape: int) -> np.ndarray:
-    """Concatenate arrays of rows of a type and shape, of which there may be none; a single one is not copied."""
+    """Concatenate arrays of rows, or none, of a type and shape; a single array is not copied."""
     if len(parts) == 1:
         return parts[0].astype(dtype, copy=False)
     return np.concatenate([np.zeros((0, *shape), dtype), *parts])

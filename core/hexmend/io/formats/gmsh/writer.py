@@ -25,7 +25,7 @@ _Tags = list[np.ndarray]
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write version 4.1; elements keep their order, so that those of an entity may be in several blocks.
+    """Write version 4.1; elements keep their order, so that an entity may have several blocks.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def _write_entities(out: SectionWriter, entities: Mapping[tuple[int, int], list[
 
 
 def _write_nodes(out: SectionWriter, points: np.ndarray, node_tags: np.ndarray, volume: int) -> None:
-    """Write $Nodes; all nodes belong to one entity, the tag of which is `volume`."""
+    """Write $Nodes; all nodes belong to the entity with the tag `volume`."""
     out.file.write(b"$Nodes\n")
     out.integers(([1, len(points), node_tags.min(), node_tags.max()], "u8"))
     out.integers(([3, volume, 0], "i4"), ([len(points)], "u8"))

@@ -160,7 +160,7 @@ DECLARATION = {
 
 
 def _from_zero(numbers: np.ndarray) -> np.ndarray:
-    """Nodes from 0 of those from 1, (k, width), in 32 bits where they fit."""
+    """Convert node numbers that count from 1 to numbers from 0, (k, width), in 32 bits where they fit."""
     parts = row_blocks(len(numbers), numbers.shape[1] * numbers.itemsize)
     return gather_integers(numbers.shape, ((part, numbers[part] - 1) for part in parts))
 

@@ -65,7 +65,7 @@ def read_times(path: Path, n_points: int) -> Iterator[CaseTime]:
 
 
 def _read_points(path: Path, value: float, n_points: int, remeshed: float | None) -> np.ndarray:
-    """Read the points of a time, of which the mesh has its own faces since the time `remeshed`, if it is not None."""
+    """Read the points of a time; the mesh has had its own faces since the time `remeshed`, unless that is None."""
     at = f"t = {value:.12g}"
     if remeshed is not None:
         raise FileError(path, f"{at}: the case has other faces since t = {remeshed:.12g}", "Open that time's polyMesh.")

@@ -99,7 +99,7 @@ class PieceFiles:
             write_grid(temporary, grid, encoding)
 
     def finish(self, count: int, grid: Grid) -> None:
-        """Write the file that names the pieces, whose arrays are those of one piece, and remove those of an old one."""
+        """Write the file that names the pieces and the arrays of each, and remove the pieces of an old file."""
         with atomic_write(self.path) as temporary:
             temporary.write_bytes(self._header(count, grid).encode("utf-8", "replace"))
         self.remove_replaced()

@@ -127,7 +127,7 @@ def _unpack(document: Document, title: str, kind: str, data: bytes | memoryview,
 
 
 def read_strings(document: Document, array: XMLElement) -> list[str]:
-    """Read an array of strings, each of which ends with a zero."""
+    """Read an array of strings that end with a zero each."""
     data = read_values(document, array).astype(np.uint8).tobytes()
     if not data:
         return []
