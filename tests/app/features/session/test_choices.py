@@ -76,7 +76,7 @@ def test_the_pose_history_is_restored(window, qtbot, tmp_path):
         assert window.canvas.pose.position == pytest.approx(pose.position)
 
 
-@pytest.mark.parametrize(("place", "field", "value", "said"), [
+INVALID = [
     (("view", "look"), "colour", "red", "the window.view.look: [look] has an unknown key 'colour'"),
     ("charts", "shown", ["objective", "taste"], "there is no chart 'taste'"),
     ("worst", "metric", "taste", "there is no metric 'taste'"),
@@ -85,16 +85,20 @@ def test_the_pose_history_is_restored(window, qtbot, tmp_path):
     ("histogram", "bins", "many", "the window.features.histogram.bins is of another type"),
     ("histogram", "bins", 10**20, "the number of bins is not from 1 to 1,000,000"),
     ("cut", "colour", 1, "the window.features.cut has an unknown field 'colour'"),
-])  # fmt: skip
-def test_invalid_sessions_are_rejected_and_the_open_mesh_stays(window, qtbot, tmp_path, place, field, value, said):
+]  # fmt: skip
+
+
+def test_invalid_sessions_are_rejected_and_the_open_mesh_stays(window, qtbot, tmp_path):
     path, now = saved(window, tmp_path), window.session.document.now
-    data = read_archive(path, "Hexmend session", VERSION)
-    part = data["window"]
-    for name in ("features", place) if isinstance(place, str) else place:
-        part = part[name]
-    part[field] = value
-    write_archive(path, "Hexmend session", VERSION, data)
-    with qtbot.waitSignal(window.session.opener.failed):
-        window.features["open"].open(path)
-    assert window.session.document.now is now
-    assert said in window.messages.messages()[-1][2]
+    for place, field, value, said in INVALID:
+        data = read_archive(path, "Hexmend session", VERSION)
+        part = data["window"]
+        for name in ("features", place) if isinstance(place, str) else place:
+            part = part[name]
+        part[field] = value
+        invalid = tmp_path / "invalid.hexmend"
+        write_archive(invalid, "Hexmend session", VERSION, data)
+        with qtbot.waitSignal(window.session.opener.failed):
+            window.features["open"].open(invalid)
+        assert window.session.document.now is now
+        assert said in window.messages.messages()[-1][2]
