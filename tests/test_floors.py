@@ -155,45 +155,12 @@ def test_the_core_has_no_import_circle():
     assert not found, f"import circle: {found}"
 
 
-def package(folder: Path, **files: str) -> Path:
-    """Write the modules of a package `hexmend`, with __ for / in their names."""
-    for name, text in files.items():
-        path = folder / "hexmend" / f"{name.replace('__', '/')}.py"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    return folder / "hexmend"
-
-
-@pytest.mark.parametrize("line", [
-    "from hexmend.mesh import upper",
-    "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from hexmend.mesh.upper import X",
-    "import importlib\n\ndef late():\n    importlib.import_module('hexmend.mesh.upper')",
-])  # fmt: skip
-def test_a_circle_is_named(tmp_path, line):
-    found = circle(import_graph(package(tmp_path, mesh__lower=line, mesh__upper="import hexmend.mesh.lower")))
-    assert found.split(" -> ").count("hexmend.mesh.upper") > 0
-    assert circle(import_graph(package(tmp_path, mesh__lower="import os"))) == ""
-
-
 def test_the_core_keeps_its_floors():
     assert broken(ROOT / "core/hexmend", CORE, SEES_THE_FACE) == []
 
 
 def test_the_app_keeps_its_floors():
     assert broken(ROOT / "app/hexmend_app", APP, set()) == []
-
-
-@pytest.mark.parametrize(("module", "line", "complaint"), [
-    ("mesh__mesh", "from hexmend.run import smooth", "not below mesh"),
-    ("mesh__mesh", "import importlib\nimportlib.import_module('hexmend.quality')", "not below mesh"),
-    ("run__recipe", "from hexmend import Mesh", "public face"),
-    ("run__recipe", "from .recipe_files import read_recipe", "absolute name"),
-    ("magic", "import os", "has no layer"),
-    ("cli__info", "from hexmend import read", None),
-])  # fmt: skip
-def test_a_broken_floor_is_seen(tmp_path, module, line, complaint):
-    rows = broken(package(tmp_path, **{module: line}), CORE, SEES_THE_FACE)
-    assert [complaint in row for row in rows] == ([True] if complaint else [])
 
 
 DRAWS = {"pyvista", "vtk", "vtkmodules", "pyvistaqt", "pyqtgraph", "qtpy"}

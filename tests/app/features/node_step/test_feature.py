@@ -114,7 +114,6 @@ def test_undo_reverts_a_sweep_as_one_change(node_window, qtbot):
 @pytest.mark.parametrize("change", ["run", "method"])
 def test_any_other_change_of_the_mesh_ends_the_sweep_first(node_window, qtbot, change):
     window = node_window
-    start = window.session.document.now
     key(window, Qt.Key.Key_F11)
     key(window, Qt.Key.Key_F11)
     stepped = window.session.document.now

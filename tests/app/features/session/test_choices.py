@@ -7,20 +7,11 @@ from PySide6.QtWidgets import QTableView
 
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
-from tests.app.conftest import close, window_with_mesh
 from tests.app.driving import key, named, open_and_wait
 from tests.app.features.session.test_feature import work
 from tests.app.test_resetting import live, session_of
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def other_window(qtbot, mesh_file, fresh_window):
-    """A second window."""
-    window = window_with_mesh(qtbot, mesh_file)
-    yield window
-    close(window)
 
 
 def at_rest(window, qtbot):
@@ -36,9 +27,8 @@ def saved(window, tmp_path):
     return path
 
 
-def test_a_session_restores_the_whole_window(fresh_window, other_window, qtbot, tmp_path):
+def test_a_session_restores_the_whole_window(window, fresh_window, qtbot, tmp_path):
     """All settings differ from the defaults."""
-    window, other = fresh_window, other_window
     work(window, qtbot)
     live(window, qtbot)
     compare = window.features["compare"].panel
@@ -52,9 +42,9 @@ def test_a_session_restores_the_whole_window(fresh_window, other_window, qtbot, 
     at_rest(window, qtbot)
     path = saved(window, tmp_path)
     before = session_of(window, tmp_path / "before.hexmend")
-    open_and_wait(qtbot, other, path)
-    at_rest(other, qtbot)
-    np.testing.assert_equal(session_of(other, tmp_path / "after.hexmend"), before)
+    open_and_wait(qtbot, fresh_window, path)
+    at_rest(fresh_window, qtbot)
+    np.testing.assert_equal(session_of(fresh_window, tmp_path / "after.hexmend"), before)
 
 
 def test_the_pose_history_is_restored(window, qtbot, tmp_path):
