@@ -21,7 +21,6 @@ MESHES = {
     "bridge": ("bridge-sharp", {"size": 864}),
     "bridge, tangled": ("bridge-sharp", {"size": 250, "scramble": 0.4}),
     "five-side, tangled": ("five-side", {"size": 500, "scramble": 1.5}),
-    "plane": ("plane", {"size": 100}),
 }
 LOOSE, SHORT = StoppingCriteria(tolerance=1e-2), StoppingCriteria(max_iterations=12)
 RUNS = {

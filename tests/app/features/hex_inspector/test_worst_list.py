@@ -117,12 +117,3 @@ def test_the_saved_list_reads_back(worst_list, tmp_path):
     assert float(q) == FIGURES.q[int(number)]
     assert float(jacobian) == FIGURES.scaled_jacobian[int(number)]
     assert state == "inverted"
-
-
-def test_keyboard_focus_alone_selects_nothing(worst_list, qtbot):
-    with qtbot.waitActive(worst_list):
-        worst_list.activateWindow()
-    selected = []
-    worst_list.chosen.connect(selected.append)
-    worst_list.findChild(QTableView).setFocus(Qt.FocusReason.TabFocusReason)
-    assert selected == []
