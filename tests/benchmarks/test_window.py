@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
 from benchmarks.window import soak
-from benchmarks.window.soak import Memory, Sample
 from benchmarks.window.start import MOMENTS, measure_start
 from hexmend import io
 from hexmend.gallery import make
@@ -29,21 +27,6 @@ def test_the_window_is_shown_before_its_mesh_and_before_slow_imports(qapp, tmp_p
     assert "vtkmodules" in loaded(moments["picture"])
     assert loaded(moments["window"]) & LATER == set()
     assert "matplotlib.pyplot" not in moments["picture"]["modules"]
-
-
-def memory(mb):
-    found = Memory()
-    for k, one in enumerate(mb):
-        found.add(Sample(k + 1, 0.5 * k, "a.vtu", "mend", float(one)))
-    return found
-
-
-def test_memory_that_grows_after_the_warm_up_is_found():
-    noise = 30 * np.random.default_rng(0).normal(size=100)
-    level = memory([*np.linspace(300, 700, 20), *(700 + noise)])
-    assert level.level
-    assert "memory is level" in level.verdict
-    assert not memory(600 + np.arange(100) + noise).level
 
 
 @pytest.mark.slow

@@ -10,7 +10,6 @@ import pytest
 
 from benchmarks.scale import launching
 from hexmend.cli.main import main
-from hexmend.energy.ranks import ONE_RANK
 from hexmend.gallery import make
 from hexmend.io import read, write
 from hexmend.mesh.mesh import Mesh
@@ -227,14 +226,6 @@ def test_parts_cover_the_mesh_once(count):
         for other in set(range(count)) - {rank}:
             received, sent = part[f"received {other}"], parts[other][f"sent {rank}"]
             np.testing.assert_array_equal(part["nodes"][received], parts[other]["nodes"][sent])
-
-
-def test_one_rank_has_everything():
-    rows = np.arange(3.0)
-    assert ONE_RANK.sum(2) == ONE_RANK.least(2) == ONE_RANK.greatest(2) == 2
-    assert ONE_RANK.any(rows)
-    assert ONE_RANK.norm(rows) == np.sqrt(5)
-    assert ONE_RANK.complete(rows) is rows
 
 
 @needs_mpi
