@@ -69,10 +69,10 @@ def test_floors_rise_on_several_ranks(tangled, tmp_path):
 @pytest.mark.slow
 def test_a_boundary_that_slides_on_planes_reaches_the_lattice(tmp_path):
     given, out = tmp_path / "given.vtu", tmp_path / "out.vtu"
-    write(given, make("kershaw", size=1728))
+    write(given, make("kershaw", size=216))
     run = on_ranks(3, given, "-o", out, "--boundary", "slide", "--goal", "shape", "--tolerance", "1e-10")
     assert run.returncode == 0, run.stderr
-    x = 12 * read(out).points
+    x = 6 * read(out).points
     np.testing.assert_allclose(x, np.round(x), atol=1e-6)
     assert "The boundary slid" in run.stdout
 
@@ -94,7 +94,7 @@ def write_surface(path, mesh):
 @pytest.mark.slow
 def test_a_boundary_slides_on_a_flat_surface_of_a_file_as_in_one_process(tmp_path):
     given, surface = tmp_path / "given.vtu", tmp_path / "box.obj"
-    mesh, box = make("kershaw", size=1728), make("cube", size=27)
+    mesh, box = make("kershaw", size=216), make("cube", size=27)
     corners = np.isin(mesh.points, (0, 1)).all(axis=1)
     moved = mesh.topology.boundary & ~corners
     points = mesh.points.copy()  # off the surface, onto which the run puts all nodes but corners
@@ -105,7 +105,7 @@ def test_a_boundary_slides_on_a_flat_surface_of_a_file_as_in_one_process(tmp_pat
     words = "--surface", surface, "--goal", "shape", "--layers", "off", "--tolerance", "1e-10", "--json", report
     run = on_ranks(3, given, "-o", out, *words)
     assert run.returncode == 0, run.stderr
-    x = 12 * read(out).points
+    x = 6 * read(out).points
     np.testing.assert_allclose(x, np.round(x), atol=1e-5)
     subprocess.run(command(1, given, "-o", tmp_path / "one.vtu", *words), check=True, capture_output=True)
     np.testing.assert_allclose(read(out).points, read(tmp_path / "one.vtu").points, atol=1e-6)
