@@ -1,10 +1,9 @@
-"""Start of the program: the order in which things are shown, and the modules loaded by then; the soak test."""
+"""Start of the program: the order in which things are shown, and the modules loaded by then."""
 
 from __future__ import annotations
 
 import pytest
 
-from benchmarks.window import soak
 from benchmarks.window.start import MOMENTS, measure_start
 from hexmend import io
 from hexmend.gallery import make
@@ -27,10 +26,3 @@ def test_the_window_is_shown_before_its_mesh_and_before_slow_imports(qapp, tmp_p
     assert "vtkmodules" in loaded(moments["picture"])
     assert loaded(moments["window"]) & LATER == set()
     assert "matplotlib.pyplot" not in moments["picture"]["modules"]
-
-
-@pytest.mark.slow
-def test_the_soak_test_works_in_a_window(qapp, tmp_path, capsys):
-    io.write(tmp_path / "small.vtu", make("five-side", size=300, scramble=0.3))
-    assert soak.run([str(tmp_path / "small.vtu")], 0) in (0, 1)
-    assert "4 rounds in" in capsys.readouterr().out
