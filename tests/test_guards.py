@@ -20,25 +20,6 @@ def test_a_thread_that_is_left_running_is_an_error(monkeypatch):
     thread.join()
 
 
-def test_a_thread_of_qt_that_is_left_running_is_an_error(monkeypatch):
-    qt = pytest.importorskip("PySide6.QtCore")
-    monkeypatch.setattr(guards, "GRACE", 0.05)
-    begun, over = threading.Event(), threading.Event()
-
-    class Working(qt.QThread):
-        def run(self):
-            threading.current_thread()  # registers the thread with Python
-            begun.set()
-            over.wait()
-
-    thread = Working()
-    with pytest.raises(pytest.fail.Exception, match="Dummy-"), threads_end():
-        thread.start()
-        begun.wait()
-    over.set()
-    thread.wait()
-
-
 def test_a_file_that_is_left_is_an_error(tmp_path):
     with (
         pytest.raises(pytest.fail.Exception, match=r"temporary files are left: left\.txt"),

@@ -65,8 +65,6 @@ def test_search_finds_pages_that_are_read_from_the_disk(opened, site):
     ("abaqus", "abaqus.html"),
     ("material", "interfaces.html"),
     ("boundary layers", "targets.html"),
-    ("locked", "locked.html"),
-    ("cluster", "cluster.html"),
     ("symmetry", "interfaces.html"),
     ("stopping criteria", "api/run.html"),
 ])  # fmt: skip

@@ -185,3 +185,9 @@ def seen_at(window, place):
     renderer.WorldToDisplay()
     right, up, _ = renderer.GetDisplayPoint()
     return QPoint(round(right / ratio), round(interactor.height() - up / ratio))
+
+
+def sentence(window):
+    """Return the sentence below the buttons of the run."""
+    window.refresh()
+    return named(window.features["smooth"].panel, QLabel, "Outcome").text()

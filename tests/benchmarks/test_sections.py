@@ -3,12 +3,10 @@
 import pytest
 
 from benchmarks.__main__ import parser
-from benchmarks.mend import surface_quality, surfaces
-from benchmarks.mend.freedom import FREEDOM
+from benchmarks.mend import surface_quality
 from benchmarks.scale.scale import SCALE
 from benchmarks.sections import SECTIONS
 from hexmend import io
-from hexmend.boundary import SkinSurface
 from hexmend.gallery import make
 
 
@@ -47,22 +45,6 @@ def test_whole_processes_are_measured_by_size(monkeypatch):
     assert len(cells(lines)) == 1
     assert "inverted hexes left: 0" in lines[-1]
     assert float(lines[-1].split()[-2]) == pytest.approx(0, abs=1e-6)  # kershaw becomes the lattice
-
-
-def test_a_mesh_that_ends_lower_with_more_freedom_is_named():
-    row = {name: {"inverted": 0, "invalid": 0, "least": 0.5} for name in ("fixed", "0.03", "0.1", "0.3", "1", "auto")}
-    row |= {"40 degrees": row["fixed"], "0.1": row["0.1"] | {"least": 0.49}, "1": row["1"] | {"invalid": 1}}
-    lines = FREEDOM.lines({"runs": [{"mesh": "a.vtk", **row}]})
-    assert lines[2].endswith("| 0.03 to 0.1, 0.3 to 1 |")
-    assert lines[-1].startswith("2 of 6 pairs")
-
-
-def test_a_skin_is_divided_until_it_has_enough_triangles():
-    mesh = make("cube", size=8)
-    points, triangles = surfaces.refined(mesh.points, mesh.topology.boundary_faces, 300)
-    assert len(triangles) == 4 * 4 * 24
-    skin = SkinSurface(points, triangles)
-    assert skin.volume() == pytest.approx(SkinSurface(mesh.points, mesh.topology.boundary_faces).volume())
 
 
 @pytest.mark.slow

@@ -1,12 +1,9 @@
-"""Start of the program: the order in which things are shown, and the modules loaded by then; the soak test."""
+"""Start of the program: the order in which things are shown, and the modules loaded by then."""
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
-from benchmarks.window import soak
-from benchmarks.window.soak import Memory, Sample
 from benchmarks.window.start import MOMENTS, measure_start
 from hexmend import io
 from hexmend.gallery import make
@@ -29,25 +26,3 @@ def test_the_window_is_shown_before_its_mesh_and_before_slow_imports(qapp, tmp_p
     assert "vtkmodules" in loaded(moments["picture"])
     assert loaded(moments["window"]) & LATER == set()
     assert "matplotlib.pyplot" not in moments["picture"]["modules"]
-
-
-def memory(mb):
-    found = Memory()
-    for k, one in enumerate(mb):
-        found.add(Sample(k + 1, 0.5 * k, "a.vtu", "mend", float(one)))
-    return found
-
-
-def test_memory_that_grows_after_the_warm_up_is_found():
-    noise = 30 * np.random.default_rng(0).normal(size=100)
-    level = memory([*np.linspace(300, 700, 20), *(700 + noise)])
-    assert level.level
-    assert "memory is level" in level.verdict
-    assert not memory(600 + np.arange(100) + noise).level
-
-
-@pytest.mark.slow
-def test_the_soak_test_works_in_a_window(qapp, tmp_path, capsys):
-    io.write(tmp_path / "small.vtu", make("five-side", size=300, scramble=0.3))
-    assert soak.run([str(tmp_path / "small.vtu")], 0) in (0, 1)
-    assert "4 rounds in" in capsys.readouterr().out

@@ -47,20 +47,23 @@ def periodic(n: int) -> Mesh:
     return mesh.with_linear_motion(motion)
 
 
+def square(n: int) -> tuple[Mesh, np.ndarray, np.ndarray, np.ndarray]:
+    """Square of n^2 hexes, and the nodes of its front, its back and its sides."""
+    mesh = grid(n, n, 1)
+    sides = np.flatnonzero(np.isin(mesh.points[:, :2], (0, n)).any(axis=1))
+    return mesh, face(mesh, 2, 0), face(mesh, 2, 1), sides
+
+
 def layer(n: int) -> Mesh:
     """Square of n^2 hexes: its back is tied to its front, z stays; nodes of the sides stay."""
-    mesh = grid(n, n, 1)
-    front, back = face(mesh, 2, 0), face(mesh, 2, 1)
-    sides = np.flatnonzero(np.isin(mesh.points[:, :2], (0, n)).any(axis=1))
+    mesh, front, back, sides = square(n)
     motion = LinearMotion.tying(back, front).merge(LinearMotion.in_planes(front, [0.0, 0, 1]))
     return mesh.with_linear_motion(motion.merge(LinearMotion.keeping(sides)))
 
 
 def wedge(n: int, degrees: float = 5.0) -> Mesh:
     """Wedge about the x axis of n^2 hexes, in which radii go from n to 2 n: its back is its front, turned."""
-    mesh = grid(n, n, 1)
-    front, back = face(mesh, 2, 0), face(mesh, 2, 1)
-    sides = np.flatnonzero(np.isin(mesh.points[:, :2], (0, n)).any(axis=1))
+    mesh, front, back, sides = square(n)
     points = mesh.points.copy()
     points[:, 1] += n
     points[:, 2] = 0.0

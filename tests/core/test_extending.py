@@ -243,19 +243,14 @@ print(*write_reference.methods(), *write_reference.every_command(), sep="\\n")
         assert any(line.startswith(begin) for line in lines), begin
 
 
-@pytest.mark.parametrize(("text", "complaint"), [
-    ("hexes 8 1\n0 0 0\n", "is not a plain mesh: 1 rows follow its first line"),
-    ("hexes 1 1\n0 0 0\n0 0 0 0 0 0 0 9\n", "numbers from 0 to 0"),
-    ("hexes 8\n", "is not a plain mesh"),
-])  # fmt: skip
-def test_a_malformed_file_of_the_format_is_one_clear_line(extended, tmp_path, text, complaint):
+def test_a_malformed_file_of_the_format_is_one_clear_line(extended, tmp_path):
     path = tmp_path / "mesh.hexes"
-    path.write_text(text)
+    path.write_text("hexes 8 1\n0 0 0\n")
     done = extended(["info", path])
     assert done.returncode == 3
     (line,) = done.stderr.splitlines()
     assert line.startswith(f"hexmend: {path.name}: ")
-    assert complaint in line
+    assert "is not a plain mesh: 1 rows follow its first line" in line
 
 
 @pytest.mark.parametrize(("group", "words"), [

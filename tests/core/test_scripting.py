@@ -97,17 +97,6 @@ def test_worst_hexes_need_a_better_end_and_a_count():
         MESH.worst(-1)
 
 
-def test_a_figure_has_one_name():
-    run = hx.iterate(MESH, "local-sd", max_iterations=2)
-    for iteration in run:
-        row = iteration.row()
-        for name in ("q_min", "q_mean", "scaled_jacobian_min", "inverted"):
-            assert getattr(iteration, name) == row[name]
-        assert iteration.inverted == iteration.quality.n_inverted
-    summary = hx.summarise(run.result().mesh)
-    assert summary.inverted == row["inverted"]
-
-
 def test_choices_are_named_with_underscores_too():
     assert hx.iterate(MESH, goal="scaled_jacobian").smoother == hx.Mend(goal="scaled-jacobian")
 

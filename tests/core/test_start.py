@@ -80,7 +80,7 @@ def test_a_tangled_mesh_is_mended_without_scipy(folder, tmp_path, words):
     ([*SMOOTH, "--method", "mend", "--json", "{out}.json", "--history", "{out}.csv"], HEAVY.keys()),
     ([*SMOOTH, "--method", "local-sd", "--save-recipe", "{out}.toml"], HEAVY.keys() - {"tomli_w"}),
     *(([*SMOOTH, "--method", method], HEAVY.keys()) for method in (
-        "local-nr", "local-mnr", "laplacian", "smart-laplacian", "getme", "getme-sequential", "global-sd",
+        "local-nr", "smart-laplacian", "getme-sequential", "global-sd",
     )),
 ])  # fmt: skip
 def test_a_command_imports_what_it_uses(folder, tmp_path, words, forbidden):

@@ -26,13 +26,12 @@ sys.exit(main(sys.argv[1:]))
 @pytest.mark.slow
 def test_a_signal_while_a_picture_is_drawn_ends_it_in_order(tmp_path):
     io.write(tmp_path / "mesh.vtu", gallery.make("cube", size=27, scramble=0.3))
-    for number in (signal.SIGINT, signal.SIGTERM):
-        done = subprocess.run(
-            [sys.executable, "-c", PROGRAM, "render", tmp_path / "mesh.vtu", "-o", tmp_path / "mesh.png"],
-            capture_output=True,
-            text=True,
-            env=os.environ | {"SIGNAL": str(int(number))},
-            check=False,
-        )
-        assert (done.returncode, done.stderr) == (128 + number, "hexmend: interrupted\n")
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM, "render", tmp_path / "mesh.vtu", "-o", tmp_path / "mesh.png"],
+        capture_output=True,
+        text=True,
+        env=os.environ | {"SIGNAL": str(int(signal.SIGTERM))},
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (128 + signal.SIGTERM, "hexmend: interrupted\n")
     assert [path.name for path in tmp_path.iterdir()] == ["mesh.vtu"]

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from hexmend import gallery, io
 from hexmend.cli import main as program
 from hexmend.run import memory
 from hexmend_app.cli import figure_set, report
@@ -18,6 +19,14 @@ from hexmend_app.report import case, page
 pytestmark = pytest.mark.slow
 
 METHODS = ["--methods", "laplacian,mend", "--max-iterations", "8"]
+
+
+@pytest.fixture(scope="module")
+def mesh_file(tmp_path_factory):
+    """File of a small mesh with inverted hexes."""
+    path = tmp_path_factory.mktemp("mesh") / "bridge.vtu"
+    io.write(path, gallery.make("bridge-sharp", size=256, scramble=0.4, seed=1))
+    return path
 
 
 @pytest.fixture
@@ -40,7 +49,7 @@ def test_a_report_contains_mesh_methods_and_commands(hexmend, mesh_file, tmp_pat
     assert "http" not in text.replace("http-equiv", "")  # nothing is asked of a network
 
 
-@pytest.mark.parametrize("name", ["two words & <b>$x_{.vtu", "odd\udcff.vtu", "-- 'quoted'.vtu"])
+@pytest.mark.parametrize("name", ["-- 'two words' & <b>$x_{.vtu", "odd\udcff.vtu"])
 def test_any_file_name_works(hexmend, mesh_file, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     Path(name).write_bytes(mesh_file.read_bytes())
@@ -144,14 +153,13 @@ def interrupting(monkeypatch):
     return interrupt
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_report_is_written_though_signals_come_in_its_runs_and_while_it_is_drawn(
-    hexmend, mesh_file, tmp_path, capsys, interrupting, number
+    hexmend, mesh_file, tmp_path, capsys, interrupting
 ):
-    interrupting(case, "run_one", number)  # the first: this run ends after its iteration
-    interrupting(page, "chapter", number)
+    interrupting(case, "run_one", signal.SIGTERM)  # the first: this run ends after its iteration
+    interrupting(page, "chapter", signal.SIGTERM)
     path = tmp_path / "report.html"
-    assert hexmend("report", mesh_file, *METHODS, "-o", path) == 128 + number
+    assert hexmend("report", mesh_file, *METHODS, "-o", path) == 128 + signal.SIGTERM
     assert "The runs were interrupted" in path.read_text(encoding="utf-8")
     assert "Interrupted: the report shows the results so far." in capsys.readouterr().err
 

@@ -55,24 +55,22 @@ def answer(window, feature, path, title, names, **style):
     return said[0]
 
 
-@pytest.mark.parametrize(
-    ("feature", "own"), [("histogram", "now"), ("convergence", METHODS["laplacian"].title), ("compare", "getme")]
-)
-def test_what_is_named_in_the_dialog_is_named_so_in_the_table(worked, tmp_path, feature, own):
-    answer(worked, feature, tmp_path / "table.csv", "", {own: "what I did"})
-    with (tmp_path / "table.csv").open(newline="") as file:
-        cells = [cell for row in csv.reader(file) for cell in row]
-    assert "what I did" in cells
-    assert own not in cells
+def test_what_is_named_in_the_dialog_is_named_so_in_the_table(worked, tmp_path):
+    for feature, own in (("histogram", "now"), ("convergence", METHODS["laplacian"].title), ("compare", "getme")):
+        answer(worked, feature, tmp_path / "table.csv", "", {own: "what I did"})
+        with (tmp_path / "table.csv").open(newline="") as file:
+            cells = [cell for row in csv.reader(file) for cell in row]
+        assert "what I did" in cells
+        assert own not in cells
 
 
-@pytest.mark.parametrize("feature", ["histogram", "convergence"])
-def test_a_figure_is_as_wide_as_was_asked_and_the_next_one_too(worked, tmp_path, feature):
-    answer(worked, feature, tmp_path / "a.png", "title", {}, width=76.2, resolution=100.0)
-    with Image.open(tmp_path / "a.png") as picture:
-        assert picture.width == 300
-    answer(worked, feature, tmp_path / "b.png", "title", {})
-    assert (tmp_path / "b.png").read_bytes() == (tmp_path / "a.png").read_bytes()
+def test_figures_are_as_wide_as_was_asked_and_the_next_ones_too(worked, tmp_path):
+    for feature in ("histogram", "convergence"):
+        answer(worked, feature, tmp_path / "a.png", "title", {}, width=76.2, resolution=100.0)
+        with Image.open(tmp_path / "a.png") as picture:
+            assert picture.width == 300
+        answer(worked, feature, tmp_path / "b.png", "title", {})
+        assert (tmp_path / "b.png").read_bytes() == (tmp_path / "a.png").read_bytes()
 
 
 def test_two_methods_of_one_name_are_refused_before_anything_is_written(worked, tmp_path):

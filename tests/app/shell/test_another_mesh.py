@@ -77,18 +77,6 @@ def test_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file):
 
 
 @pytest.mark.slow
-def test_a_session_of_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file, mesh_file, tmp_path):
-    open_and_wait(qtbot, window, small_file)
-    window.session.selection.choose(7, window.session.document.now.mesh.hexes[7, 0])
-    assert window.features["session"].save_and_wait(tmp_path / "small.hexmend")
-    open_and_wait(qtbot, window, mesh_file)
-    everything(window, qtbot)
-    open_and_wait(qtbot, window, tmp_path / "small.hexmend")
-    is_shown(window)
-    assert window.session.selection.hex == 7
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("layer", ["structure", "selection"])
 def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatch):
     overlay_layers, failures = window.canvas.viewport.overlay_layers, []

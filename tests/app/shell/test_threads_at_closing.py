@@ -32,7 +32,7 @@ def windows(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def kept(fresh_window, qtbot, gate, windows, monkeypatch):
+def kept(window, qtbot, gate, windows, monkeypatch):
     """A window whose session is being written beside it, until the gate is opened."""
     reached, write_new = threading.Event(), session_data.write_new
 
@@ -42,12 +42,12 @@ def kept(fresh_window, qtbot, gate, windows, monkeypatch):
         write_new(*values)
 
     monkeypatch.setattr(session_data, "write_new", slow)
-    own = fresh_window.features["session"].recovery
+    own = window.features["session"].recovery
     own.begin()
-    fresh_window.session.commands.pin(0, True)
+    window.session.commands.pin(0, True)
     own.write()
     qtbot.waitUntil(reached.is_set)
-    yield fresh_window
+    yield window
     gate.set()
     for one in running():
         one.join()

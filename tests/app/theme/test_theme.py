@@ -36,8 +36,6 @@ pytestmark = pytest.mark.slow
 MESH = scrambled(grid(5), 0.9, 4)
 FIGURES = measure(MESH.points, MESH.hexes)
 WORST = int(FIGURES.scaled_jacobian.argmin())
-ROLES = {name: role for name, role in vars(theme).items() if isinstance(role, Role)}
-PAIRS = [(name, ground) for name, role in ROLES.items() for ground in role.on]
 
 
 @pytest.fixture(autouse=True)
@@ -53,9 +51,11 @@ def test_the_contrast_agrees_with_wcag():
 
 
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-@pytest.mark.parametrize(("name", "ground"), PAIRS, ids=[f"{name} {ground.light}" for name, ground in PAIRS])
-def test_every_text_is_legible_on_its_backgrounds(name, ground, dark):
-    assert contrast(ROLES[name].of(dark), ground.of(dark)) >= TEXT
+def test_every_text_is_legible_on_its_backgrounds(dark):
+    roles = {name: role for name, role in vars(theme).items() if isinstance(role, Role)}
+    pairs = [(name, role.of(dark), ground.of(dark)) for name, role in roles.items() for ground in role.on]
+    assert len(pairs) > 30
+    assert [pair for pair in pairs if contrast(*pair[1:]) < TEXT] == []
 
 
 def histogram():

@@ -23,12 +23,6 @@ def label(qtbot):
     return label
 
 
-def test_its_preferred_size_fits_the_text_and_its_minimum_is_small(label):
-    whole = label.fontMetrics().horizontalAdvance(TEXT)
-    assert label.sizeHint().width() >= whole
-    assert 0 < label.minimumSizeHint().width() < whole / 5
-
-
 def test_it_keeps_its_text_and_paints_within_its_width(label):
     label.resize(label.sizeHint())
     whole = inked(label)

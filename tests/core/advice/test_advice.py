@@ -17,14 +17,10 @@ from tests.core.grids import grid, with_edge_midpoints
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 
 MESHES = {
-    "cube, scrambled": ("cube", {"size": 125, "scramble": 0.5}),
     "cube, tangled": ("cube", {"size": 216, "scramble": 2.0}),
     "bridge": ("bridge-sharp", {"size": 864}),
     "bridge, tangled": ("bridge-sharp", {"size": 250, "scramble": 0.4}),
-    "five-side": ("five-side", {"size": 300}),
     "five-side, tangled": ("five-side", {"size": 500, "scramble": 1.5}),
-    "plane": ("plane", {"size": 300}),
-    "plane, tangled": ("plane", {"size": 300, "scramble": 0.4}),
 }
 LOOSE, SHORT = StoppingCriteria(tolerance=1e-2), StoppingCriteria(max_iterations=12)
 RUNS = {
@@ -81,7 +77,7 @@ def test_following_a_suggestion_helps(which):
     assert follow_all(make(name, **parameters)), "nothing was suggested at all"
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 8))])
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))])
 def test_following_a_suggestion_helps_on_a_mesh_that_differs_in_its_last_bits(seed):
     name, parameters = MESHES["five-side, tangled"]
     mesh = make(name, **parameters)

@@ -17,7 +17,7 @@ APART = ["med", "vtkhdf"]
 
 
 @pytest.mark.parametrize(("names", "cases"), [
-    ([*(name for name in FORMATS if name not in APART), "session"], 50), (APART, 8),
+    ([*(name for name in FORMATS if name not in APART), "session"], 50), (APART, 4),
 ], ids=["here", "apart"])  # fmt: skip
 def test_a_spoilt_file_gives_a_mesh_or_one_clear_error(names, cases):
     words = ["--cases", str(cases), "--seed", "7", "--meshes", str(Path(__file__).with_name("files")), *names]

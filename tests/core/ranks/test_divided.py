@@ -69,20 +69,18 @@ def test_two_ranks_reach_the_optimum_of_one_process(given, tmp_path):
 
 @needs_mpi
 @pytest.mark.slow
-@pytest.mark.parametrize(("first", "then"), [(3, 2), (2, 5)])
-def test_any_number_of_ranks_reads_any_number_of_pieces(given, tmp_path, first, then):
+def test_any_number_of_ranks_reads_any_number_of_pieces(given, tmp_path):
     pieces = tmp_path / "pieces.pvtu"
-    run = on_ranks(first, given / "given.vtu", "-o", pieces, "--goal", "shape", "--max-iterations", "1")
+    run = on_ranks(2, given / "given.vtu", "-o", pieces, "--goal", "shape", "--max-iterations", "1")
     assert "Written" in run.stdout, run.stderr
     assert figures(pieces)[0] > 0
-    reaches_the_figures_of_one_process(given, pieces, tmp_path / "out.pvtu", then)
+    reaches_the_figures_of_one_process(given, pieces, tmp_path / "out.pvtu", 5)
 
 
 @needs_mpi
 @pytest.mark.slow
 def test_the_file_that_is_read_can_be_written(given, tmp_path):
-    for number in range(3):
-        source = given / "given.vtu" if number == 0 else tmp_path / "a.pvtu"
+    for source in (given / "given.vtu", tmp_path / "a.pvtu"):
         on_ranks(2, source, "-o", tmp_path / "a.pvtu", "--goal", "shape", "--max-iterations", "2")
         assert len(list((tmp_path / "a").iterdir())) == 2
     np.testing.assert_array_equal(read(tmp_path / "a.pvtu").hexes, read(given / "given.vtu").hexes)
@@ -117,9 +115,8 @@ def rich():
 
 @needs_mpi
 @pytest.mark.slow
-@pytest.mark.parametrize("suffix", [".vtu", ".vtkhdf", ".pvtu"])
-def test_all_but_the_points_stays_bit_for_bit(tmp_path, suffix):
-    source, out, whole = tmp_path / f"rich{suffix}", tmp_path / "out.pvtu", tmp_path / "whole.vtu"
+def test_all_but_the_points_stays_bit_for_bit(tmp_path):
+    source, out, whole = tmp_path / "rich.vtkhdf", tmp_path / "out.pvtu", tmp_path / "whole.vtu"
     write(source, rich())
     for target in (out, whole):
         run = on_ranks(3, source, "-o", target, "--goal", "shape", "--tolerance", "1e-10")
@@ -144,13 +141,12 @@ def test_all_but_the_points_stays_bit_for_bit(tmp_path, suffix):
 
 @needs_mpi
 @pytest.mark.slow
-@pytest.mark.parametrize("which", [[3], np.arange(0, 512, 3), np.arange(5, 512)], ids=["one", "a third", "most"])
-def test_left_handed_hexes_are_renumbered_as_in_one_process(which, tmp_path):
+def test_left_handed_hexes_are_renumbered_as_in_one_process(tmp_path):
     mesh = make("cube", size=512, scramble=0.2)
     n = mesh.n_nodes
     both = np.concatenate([mesh.hexes, (mesh.hexes + n)[:, MIRRORED_CORNERS]])
     flipped = mesh.hexes.copy()
-    flipped[which] = flipped[which][:, MIRRORED_CORNERS]
+    flipped[::3] = flipped[::3][:, MIRRORED_CORNERS]
     both[: len(flipped)] = flipped
     write(tmp_path / "a.vtu", Mesh(np.concatenate([mesh.points, mesh.points + [2, 0, 0]]), both))
     words = tmp_path / "a.vtu", "-o", tmp_path / "out.pvtu", "--goal", "shape", "--max-iterations", "1"
@@ -161,18 +157,17 @@ def test_left_handed_hexes_are_renumbered_as_in_one_process(which, tmp_path):
 
 
 @needs_mpi
-@pytest.mark.parametrize("output", [pytest.param("out.vtu", marks=pytest.mark.slow), "out.pvtu"])
-def test_ranks_smooth_no_left_handed_hexes_and_name_their_number(output, tmp_path):
+def test_ranks_smooth_no_left_handed_hexes_and_name_their_number(tmp_path):
     mesh = make("cube", size=64)
     hexes = mesh.hexes.copy()
     hexes[[3, 40]] = hexes[[3, 40]][:, MIRRORED_CORNERS]
     write(tmp_path / "a.vtu", mesh.rebuilt(hexes=hexes))
-    run = on_ranks(2, tmp_path / "a.vtu", "-o", tmp_path / output, "--as-is")
+    run = on_ranks(2, tmp_path / "a.vtu", "-o", tmp_path / "out.pvtu", "--as-is")
     assert run.returncode != 0
     assert len(re.findall("^hexmend: 2 hexes.* are numbered inside out", run.stderr, re.MULTILINE)) == 1
     assert "rank 0 reads the whole mesh" not in run.stderr
     assert "Traceback" not in run.stderr
-    assert not (tmp_path / output).exists()
+    assert not (tmp_path / "out.pvtu").exists()
 
 
 @needs_mpi
@@ -232,7 +227,7 @@ def test_nodes_of_one_number_at_different_places_stay_apart(tmp_path):
 @pytest.mark.slow
 def test_rank_0_raises_an_unsound_mesh_alone_and_all_write_it(tmp_path):
     given, out, report = (tmp_path / name for name in ("given.vtu", "out.pvtu", "report.json"))
-    mesh = make("cube", size=125)
+    mesh = make("cube", size=64)
     points, boundary = mesh.points.copy(), mesh.topology.boundary
     moves = np.random.default_rng(0).uniform(-0.5, 0.5, (np.count_nonzero(boundary), 3))
     points[boundary] += moves * mesh.mean_edge_length
@@ -269,7 +264,7 @@ def test_a_damaged_file_is_an_error_of_one_line(given, tmp_path):
 @pytest.mark.slow
 def test_a_rank_that_is_killed_leaves_whole_files(tmp_path):
     given, out, checkpoint = (tmp_path / name for name in ("given.vtu", "out.pvtu", "out.checkpoint.pvtu"))
-    write(given, make("five-side", size=60_000, scramble=0.3))
+    write(given, make("five-side", size=30_000, scramble=0.3))
     write(out, make("cube", size=8))
     words = given, "-o", out, "--goal", "shape", "--checkpoint", "1e-4"
     with subprocess.Popen(

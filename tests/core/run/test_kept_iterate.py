@@ -108,19 +108,6 @@ def test_worse_tells_exactly_what_is_worse(name, stop, mesh):
         assert (SUMMARY_QUANTITIES[key].label in words) == (one in result.worse)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", METHODS)
-@settings(max_examples=4)
-@given(mesh=meshes())
-def test_the_last_is_kept_where_it_is_asked_for(name, mesh):
-    run = iterate(mesh, name, LAST)
-    for _ in run:
-        pass
-    assert run.best is run.last
-    assert "Kept" not in run.message
-    np.testing.assert_array_equal(run.result().mesh.points, run.last.points)
-
-
 def test_laplacian_gives_back_a_sound_mesh_and_says_so(bridge):
     kept, last = smooth(bridge, "laplacian"), smooth(bridge, "laplacian", StoppingCriteria(keep_last=True))
     assert (kept.after.inverted, kept.worse) == (0, ())
@@ -205,14 +192,3 @@ def test_what_is_worse_is_red_where_there_are_colours(bridge, tmp_path, capsys, 
     which = ["--method" if command == "smooth" else "--methods", "laplacian"]
     main([command, str(tmp_path / "bridge.vtu"), "-o", str(tmp_path / "out.vtu"), *which, *words])
     assert ("\x1b[31m" in capsys.readouterr().out) == bool(words)
-
-
-# Measured on meshes of others
-
-
-@pytest.mark.slow
-def test_smart_laplacian_does_not_spoil_the_worst_hex(real_mesh):
-    mesh = io.read(real_mesh("pierrot_32735.mesh"))
-    result = smooth(mesh, "smart-laplacian")
-    assert result.history[-1]["q_min"] < 0.1 < result.before.q_min <= result.after.q_min
-    assert "was kept: " in result.message

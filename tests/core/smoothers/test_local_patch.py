@@ -1,7 +1,5 @@
 """Patches of several nodes, 5.2.5: what they are made of, and the Newton step of each."""
 
-import itertools
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -18,14 +16,10 @@ from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.local.patch import LocalPatch
 from tests.core.grids import grid, scrambled
+from tests.core.smoothers.test_smoothers import after
 
 SIZES = st.sampled_from([1, 2, 8, 27])
 OVERLAPS = st.sampled_from([0, 1])
-
-
-def after(mesh, smoother, steps=1):
-    """The points after some iterations."""
-    return next(itertools.islice(smoother.steps(mesh), steps, None)).points
 
 
 def hexes_at(mesh, nodes):

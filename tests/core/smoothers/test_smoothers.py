@@ -13,7 +13,8 @@ from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from tests.core.grids import grid, scrambled
 
 
-def after(mesh, smoother, steps):
+def after(mesh, smoother, steps=1):
+    """Return the points after some iterations."""
     return next(itertools.islice(smoother.steps(mesh), steps, None)).points
 
 

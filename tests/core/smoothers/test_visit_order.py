@@ -16,13 +16,9 @@ from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend.smoothers.visit_order import ORDERS, VisitOrder
 from tests.core.grids import grid, scrambled
+from tests.core.smoothers.test_smoothers import after
 
 LOCAL = [name for name, method in METHODS.items() if issubclass(method, LocalDescent)]
-
-
-def after(mesh, smoother, steps=1):
-    """The points after some iterations."""
-    return next(itertools.islice(smoother.steps(mesh), steps, None)).points
 
 
 def one_by_one(mesh, smoother, nodes):

@@ -39,7 +39,7 @@ def test_a_picture_next_to_that_before_the_run_is_as_wide_as_the_view(width, his
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("suffix", [".gif", ".png", ".webp"])
+@pytest.mark.parametrize("suffix", [".gif", ".png"])
 def test_a_film_shows_the_run_as_in_the_view(window, qtbot, tmp_path, monkeypatch, suffix):
     record = stepped(window, qtbot, 5)
     window.canvas.look_along("+x")

@@ -106,23 +106,3 @@ def test_the_selected_row_follows_its_hex_when_the_mesh_changes(worst_list):
     row = worst_list.findChild(QTableView).currentIndex().row()
     listed = worst_list.hexes.tolist()
     assert (listed[row] == hex) if hex in listed else row == -1
-
-
-def test_the_saved_list_reads_back(worst_list, tmp_path):
-    write_worst(tmp_path / "worst.csv", MESH, worst_list.chosen_metric)
-    lines = (tmp_path / "worst.csv").read_text().splitlines()
-    assert lines[0] == "hex,q,scaled-jacobian,state"
-    number, q, jacobian, state = lines[1].split(",")
-    assert int(number) == worst_list.hexes[0]
-    assert float(q) == FIGURES.q[int(number)]
-    assert float(jacobian) == FIGURES.scaled_jacobian[int(number)]
-    assert state == "inverted"
-
-
-def test_keyboard_focus_alone_selects_nothing(worst_list, qtbot):
-    with qtbot.waitActive(worst_list):
-        worst_list.activateWindow()
-    selected = []
-    worst_list.chosen.connect(selected.append)
-    worst_list.findChild(QTableView).setFocus(Qt.FocusReason.TabFocusReason)
-    assert selected == []

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit, QListWidget, QPushButton
+from PySide6.QtWidgets import QFileDialog, QLineEdit, QListWidget, QPushButton
 
 from hexmend.iteration import StoppingCriteria
 from hexmend.run import smooth
@@ -14,7 +14,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.run_setup import RunSetup
-from tests.app.driving import LEFT, brought, choose, key, named, phase, press
+from tests.app.driving import LEFT, brought, choose, key, named, phase, press, sentence
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
 
@@ -45,12 +45,6 @@ def click_on(panel, at):
 def add(window, panel, method, values=None, stop=SHORT):
     choose(window, method, stop, **(values or {}))
     press(button(panel, "Add"))
-
-
-def said(window):
-    """Return the sentence below the buttons of a run."""
-    window.refresh()
-    return named(window.features["smooth"].panel, QLabel, "Outcome").text()
 
 
 def test_a_draft_is_a_sequence_of_stages():
@@ -97,13 +91,13 @@ def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
     add(window, panel, "local-sd")
     recipe = window.session.recipe_draft.recipe
     seen = set()
-    window.session.run.iterated.connect(lambda frame: seen.add(said(window)))
+    window.session.run.iterated.connect(lambda frame: seen.add(sentence(window)))
     press(button(panel, "Run recipe"))
     qtbot.waitUntil(phase(window, Phase.FINISHED))
     np.testing.assert_array_equal(window.session.document.now.mesh.points, smooth(mesh, recipe).mesh.points)
     assert [row["method"] for row in window.session.run.record.rows[1:]] == ["getme"] * 3 + ["local-sd"] * 3
     assert window.session.document.undo_title == recipe.title
-    assert "Stage 1, GETMe" in said(window)
+    assert "Stage 1, GETMe" in sentence(window)
     key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert window.session.document.now.mesh.points is mesh.points
 

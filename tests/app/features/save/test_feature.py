@@ -93,29 +93,31 @@ def test_saving_in_another_format_asks_nothing(deck, qtbot, monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("views", [1, 2, "wipe"])
-def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, views):
+@pytest.mark.parametrize(
+    ("wiping", "page"),
+    [(False, Page(pixels=(700, 420), margin=1.5)), (True, Page(85, 60, dpi=200, background="#20262e"))],
+    ids=["side by side", "wipe"],
+)
+def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, wiping, page):
     session = window.session
     window.action("cut").trigger()
     session.view.change(structure=Structure.of("sharp"), show={"shrink": 0.1})
-    if views != 1:
-        session.side_views.show("as it was", session.document.now)
-        session.side_views.set_wiping(views == "wipe")
+    session.side_views.show("as it was", session.document.now)
+    session.side_views.set_wiping(wiping)
     window.refresh()
     window.canvas.roll(10)
     save_and_wait(session, tmp_path / "mesh.vtu")
-    page = Page(pixels=(700, 420), margin=1.5)
-    for scene in (window.canvas.scene(page), window.canvas.scene(Page(85, 60, dpi=200, background="#20262e"))):
-        write_scene(tmp_path / "scene.toml", scene)
-        assert window.features["save"].write_picture(tmp_path / "here.png", scene)
-        meshes = [str(tmp_path / "mesh.vtu")] * (1 if views == 1 else 2)
-        words = ["render", *meshes, "--scene", str(tmp_path / "scene.toml"), "-o", str(tmp_path / "there.png")]
-        bare = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        subprocess.run([sys.executable, "-m", "hexmend", *words], env=bare, check=True, capture_output=True)
-        here, there = (np.asarray(Image.open(tmp_path / name)).astype(int) for name in ("here.png", "there.png"))
-        assert here.shape == there.shape == (*scene.page.size[::-1], 3)
-        assert np.abs(here - there).mean() < 0.5
-        assert (np.ptp(here, axis=2) > 60).mean() > 0.05
+    scene = window.canvas.scene(page)
+    write_scene(tmp_path / "scene.toml", scene)
+    assert window.features["save"].write_picture(tmp_path / "here.png", scene)
+    meshes = [str(tmp_path / "mesh.vtu")] * 2
+    words = ["render", *meshes, "--scene", str(tmp_path / "scene.toml"), "-o", str(tmp_path / "there.png")]
+    bare = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    subprocess.run([sys.executable, "-m", "hexmend", *words], env=bare, check=True, capture_output=True)
+    here, there = (np.asarray(Image.open(tmp_path / name)).astype(int) for name in ("here.png", "there.png"))
+    assert here.shape == there.shape == (*scene.page.size[::-1], 3)
+    assert np.abs(here - there).mean() < 0.5
+    assert (np.ptp(here, axis=2) > 60).mean() > 0.05
 
 
 @pytest.mark.slow

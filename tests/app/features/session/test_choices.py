@@ -7,20 +7,11 @@ from PySide6.QtWidgets import QTableView
 
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
-from tests.app.conftest import close, window_with_mesh
 from tests.app.driving import key, named, open_and_wait
 from tests.app.features.session.test_feature import work
 from tests.app.test_resetting import live, session_of
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def other_window(qtbot, mesh_file, fresh_window):
-    """A second window."""
-    window = window_with_mesh(qtbot, mesh_file)
-    yield window
-    close(window)
 
 
 def at_rest(window, qtbot):
@@ -36,9 +27,8 @@ def saved(window, tmp_path):
     return path
 
 
-def test_a_session_restores_the_whole_window(fresh_window, other_window, qtbot, tmp_path):
+def test_a_session_restores_the_whole_window(window, fresh_window, qtbot, tmp_path):
     """All settings differ from the defaults."""
-    window, other = fresh_window, other_window
     work(window, qtbot)
     live(window, qtbot)
     compare = window.features["compare"].panel
@@ -52,9 +42,9 @@ def test_a_session_restores_the_whole_window(fresh_window, other_window, qtbot, 
     at_rest(window, qtbot)
     path = saved(window, tmp_path)
     before = session_of(window, tmp_path / "before.hexmend")
-    open_and_wait(qtbot, other, path)
-    at_rest(other, qtbot)
-    np.testing.assert_equal(session_of(other, tmp_path / "after.hexmend"), before)
+    open_and_wait(qtbot, fresh_window, path)
+    at_rest(fresh_window, qtbot)
+    np.testing.assert_equal(session_of(fresh_window, tmp_path / "after.hexmend"), before)
 
 
 def test_the_pose_history_is_restored(window, qtbot, tmp_path):
@@ -76,7 +66,7 @@ def test_the_pose_history_is_restored(window, qtbot, tmp_path):
         assert window.canvas.pose.position == pytest.approx(pose.position)
 
 
-@pytest.mark.parametrize(("place", "field", "value", "said"), [
+INVALID = [
     (("view", "look"), "colour", "red", "the window.view.look: [look] has an unknown key 'colour'"),
     ("charts", "shown", ["objective", "taste"], "there is no chart 'taste'"),
     ("worst", "metric", "taste", "there is no metric 'taste'"),
@@ -85,16 +75,20 @@ def test_the_pose_history_is_restored(window, qtbot, tmp_path):
     ("histogram", "bins", "many", "the window.features.histogram.bins is of another type"),
     ("histogram", "bins", 10**20, "the number of bins is not from 1 to 1,000,000"),
     ("cut", "colour", 1, "the window.features.cut has an unknown field 'colour'"),
-])  # fmt: skip
-def test_invalid_sessions_are_rejected_and_the_open_mesh_stays(window, qtbot, tmp_path, place, field, value, said):
+]  # fmt: skip
+
+
+def test_invalid_sessions_are_rejected_and_the_open_mesh_stays(window, qtbot, tmp_path):
     path, now = saved(window, tmp_path), window.session.document.now
-    data = read_archive(path, "Hexmend session", VERSION)
-    part = data["window"]
-    for name in ("features", place) if isinstance(place, str) else place:
-        part = part[name]
-    part[field] = value
-    write_archive(path, "Hexmend session", VERSION, data)
-    with qtbot.waitSignal(window.session.opener.failed):
-        window.features["open"].open(path)
-    assert window.session.document.now is now
-    assert said in window.messages.messages()[-1][2]
+    for place, field, value, said in INVALID:
+        data = read_archive(path, "Hexmend session", VERSION)
+        part = data["window"]
+        for name in ("features", place) if isinstance(place, str) else place:
+            part = part[name]
+        part[field] = value
+        invalid = tmp_path / "invalid.hexmend"
+        write_archive(invalid, "Hexmend session", VERSION, data)
+        with qtbot.waitSignal(window.session.opener.failed):
+            window.features["open"].open(invalid)
+        assert window.session.document.now is now
+        assert said in window.messages.messages()[-1][2]

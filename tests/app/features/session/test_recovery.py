@@ -60,16 +60,24 @@ def own_state(tmp_path, monkeypatch):
     return tmp_path / "state" / "windows"
 
 
-@pytest.fixture
-def killed(tmp_path, mesh_file, qapp, monkeypatch):
-    """Kill the process of a window during its work; return the points and rows that it had printed."""
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
-    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+@pytest.fixture(scope="module")
+def left(tmp_path_factory, mesh_file, qapp):
+    """Kill the process of a window during its work; return its state, and the points and rows that it had printed."""
+    folder = tmp_path_factory.mktemp("killed")
+    state = {"PYTHONPATH": os.pathsep.join(sys.path), "XDG_CONFIG_HOME": str(folder / "config"), VARIABLE: str(folder)}
     command = [sys.executable, "-c", _PROGRAM, str(mesh_file)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=os.environ | state) as process:
         told = process.stdout.readline()
         process.send_signal(signal.SIGKILL)
-    return json.loads(told)
+    return folder / "windows", json.loads(told)
+
+
+@pytest.fixture
+def killed(left, own_state):
+    """What a killed window had printed; what it left is in the state of this test."""
+    windows, told = left
+    shutil.copytree(windows, own_state)
+    return told
 
 
 def offered(window):
@@ -116,9 +124,9 @@ def test_recovery_is_offered_until_discarded(killed, fresh_window, own_state):
 
 
 @pytest.mark.slow
-def test_a_run_is_recovered_at_its_newest_iteration(fresh_window, qtbot, own_state, tmp_path, monkeypatch):
+def test_a_run_is_recovered_at_its_newest_iteration(window, qtbot, own_state, tmp_path, monkeypatch):
     monkeypatch.setattr(recovery_module, "RUN_PERIOD", 10)
-    session, recovery = fresh_window.session, fresh_window.features["session"].recovery
+    session, recovery = window.session, window.features["session"].recovery
     recovery.begin()
     session.run.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=10), iterations=3)
     wait_for_run(own_state, qtbot, lambda record: record.result == 3)
@@ -153,28 +161,28 @@ def wait_for_run(own_state, qtbot, is_written):
 
 
 @pytest.mark.slow
-def test_a_closed_window_leaves_no_files(fresh_window, qtbot, own_state, mesh_file):
-    recovery = fresh_window.features["session"].recovery
+def test_a_closed_window_leaves_no_files(window, qtbot, own_state, mesh_file):
+    recovery = window.features["session"].recovery
     recovery.begin()
     recovery.write()
     (own,) = own_state.iterdir()
     assert not (own / "session.hexmend").exists()  # there is nothing to lose yet
     with qtbot.waitSignal(recovery.written):
-        smooth(qtbot, fresh_window.session)
+        smooth(qtbot, window.session)
     assert (own / "session.hexmend").exists()
     assert sorted(one.name for one in own.iterdir()) == ["about.json", "lock", "session.hexmend"]
-    open_and_wait(qtbot, fresh_window, mesh_file)
+    open_and_wait(qtbot, window, mesh_file)
     assert not (own / "session.hexmend").exists()  # it was of work that was given up
     recovery.end()
     assert list(own_state.iterdir()) == []
 
 
 @pytest.mark.slow
-def test_autosave_writes_only_changes(fresh_window, qtbot, own_state):
-    session, recovery = fresh_window.session, fresh_window.features["session"].recovery
+def test_autosave_writes_only_changes(window, qtbot, own_state):
+    session, recovery = window.session, window.features["session"].recovery
     recovery.begin()
     with qtbot.waitSignal(recovery.written):
-        smooth(qtbot, fresh_window.session)
+        smooth(qtbot, window.session)
     (arrays,) = own_state.glob("*/session.hexmend/arrays")
     before = {one.name: one.stat().st_mtime_ns for one in arrays.iterdir()}
     session.view.change(show={"peel": 1})
@@ -188,11 +196,11 @@ def test_autosave_writes_only_changes(fresh_window, qtbot, own_state):
 
 
 @pytest.mark.slow
-def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state, monkeypatch):
-    recovery = fresh_window.features["session"].recovery
+def test_an_open_window_is_not_recovered(window, qtbot, own_state, monkeypatch):
+    recovery = window.features["session"].recovery
     recovery.begin()
     with qtbot.waitSignal(recovery.written):
-        smooth(qtbot, fresh_window.session)
+        smooth(qtbot, window.session)
     program = (
         "from PySide6.QtCore import QCoreApplication\n"
         "from hexmend_app.state.session.recovery import Recovery\n"
@@ -211,7 +219,7 @@ def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state, monkeyp
 
 
 @pytest.mark.slow
-def test_a_failed_write_is_repeated(fresh_window, qtbot, own_state, monkeypatch):
+def test_a_failed_write_is_repeated(window, qtbot, own_state, monkeypatch):
     write_session, failures = recovery_module.write_session, []
 
     def fail_once(*arguments):
@@ -221,8 +229,8 @@ def test_a_failed_write_is_repeated(fresh_window, qtbot, own_state, monkeypatch)
         write_session(*arguments)
 
     monkeypatch.setattr(recovery_module, "write_session", fail_once)
-    smooth(qtbot, fresh_window.session)
-    recovery = fresh_window.features["session"].recovery
+    smooth(qtbot, window.session)
+    recovery = window.features["session"].recovery
     recovery.begin()
     with qtbot.waitSignal(recovery.failed):
         recovery.write()
@@ -232,3 +240,4 @@ def test_a_failed_write_is_repeated(fresh_window, qtbot, own_state, monkeypatch)
         return any(own_state.glob("*/session.hexmend"))
 
     qtbot.waitUntil(is_written)
+    recovery.end()

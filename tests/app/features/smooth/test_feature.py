@@ -15,7 +15,7 @@ from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session import commands
 from hexmend_app.state.settings import settings
-from tests.app.driving import choose, click, key, named, phase, run_to_end
+from tests.app.driving import choose, click, key, named, phase, run_to_end, sentence
 from tests.patience import PATIENCE
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
@@ -26,12 +26,6 @@ def endless(window):
     """The window, set up with a method that runs until it is stopped."""
     choose(window, "local-sd", StoppingCriteria(tolerance=0.0))
     return window
-
-
-def sentence(window):
-    """Return the sentence below the buttons."""
-    window.refresh()
-    return named(window.features["smooth"].panel, QLabel, "Outcome").text()
 
 
 def counts(window):

@@ -3,14 +3,14 @@
 import pytest
 from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QLabel, QSpinBox, QToolButton
+from PySide6.QtWidgets import QCheckBox, QSpinBox, QToolButton
 
 from hexmend.iteration import Outcome, Step, StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.features.timeline.run_bar import RunBar
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, choose, click, key, named, phase, press
+from tests.app.driving import LEFT, choose, click, key, named, phase, press, sentence
 
 ENDLESS = StoppingCriteria(tolerance=0.0, max_iterations=1_000_000)
 
@@ -44,12 +44,6 @@ def go(window, qtbot, number):
     QTest.mouseClick(slider(window), LEFT, pos=slider_place(window, number))
     qtbot.waitUntil(at(window, number))
     window.refresh()
-
-
-def said(window):
-    """Return the sentence below the buttons of the run."""
-    window.refresh()
-    return named(window.features["smooth"].panel, QLabel, "Outcome").text()
 
 
 def at(window, number):
@@ -92,7 +86,7 @@ def test_a_breakpoint_pauses_and_selects_the_hex(window, qtbot):
     frame = hit.args[0]
     assert window.session.selection.hex == frame.hit.hexes[0]
     assert window.canvas.viewport.filters.ghosts(window.canvas.viewport.frame) is None  # nothing is before it
-    assert said(window) == f"Paused at a breakpoint: {frame.hit.sentence}."
+    assert sentence(window) == f"Paused at a breakpoint: {frame.hit.sentence}."
     assert at(window, frame.iteration.number)()
     assert frame.hit.sentence in slider(window).toolTip()
 

@@ -13,7 +13,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 from hexmend_app.canvas.view_keys import move_of
 from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.camera_pose import CameraPose
-from hexmend_app.scene.camera.directions import UPS, look_from, up_in
+from hexmend_app.scene.camera.directions import UPS, look_from
 from hexmend_app.scene.camera.flight import Flight
 from hexmend_app.scene.camera.pose_history import PoseHistory
 from hexmend_app.scene.camera.steering import turn
@@ -37,14 +37,6 @@ def test_the_vertical_axis_is_up_in_all_views_not_along_it(name, up):
         assert ahead @ axis < 0  # from above
     else:
         np.testing.assert_allclose(ahead, np.eye(3)["xyz".index(name[1])] * (-1 if name[0] == "+" else 1))
-
-
-@pytest.mark.parametrize("up", UPS)
-def test_a_view_along_the_vertical_axis_has_another_up_vector(up):
-    axis = np.array(UPS[up][0])
-    assert up_in(tuple(3 * axis), up) == UPS[up][1]
-    assert up_in(tuple(-axis), up) == UPS[up][1]
-    assert up_in((1.0, 2.0, 3.0), up) == UPS[up][0]
 
 
 # Stepwise camera movements.

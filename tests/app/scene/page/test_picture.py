@@ -178,8 +178,10 @@ def test_a_picture_has_the_format_of_its_suffix(tmp_path, capsys):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("panels", [1, 2])
-@pytest.mark.parametrize("lines", [{"lines": LineStyle()}, {"show": Show()}, {"structure": Structure.of("sharp")}])
+@pytest.mark.parametrize(
+    ("panels", "lines"),
+    [(1, {"lines": LineStyle()}), (2, {"show": Show()}), (1, {"structure": Structure.of("sharp")})],
+)
 def test_lines_are_as_thick_on_paper_in_every_size(panels, lines):
     if QOpenGLContext.currentContext() is not None:
         QOpenGLContext.currentContext().doneCurrent()  # a window's, in which VTK would draw by another library

@@ -23,16 +23,12 @@ def images(scene, **how):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("supersampling", "background"), [(1, "transparent"), (3, "white")])
 @pytest.mark.parametrize(
-    "tables",
+    ("supersampling", "background", "tables"),
     [
-        {"structure": Structure.of("sharp", "irregular", "fixed"), "cut": Cut((Plane((0, 0, 1), 0.6),))},
-        {
-            "camera": Camera((0.3, -1.0, 0.2), parallel=True),
-            "cut": Cut((Plane((1, 1, 0), 0.4),), style=CutStyle.SMOOTH),
-        },
-        {"panels": (PicturePanel(wipe=WipeLayout(2, 0.37)),)},
+        (1, "transparent", {"structure": Structure.of("sharp", "fixed"), "cut": Cut((Plane((0, 0, 1), 0.6),))}),
+        (3, "white", {"camera": Camera((0.3, -1.0, 0.2)), "cut": Cut((Plane((1, 1, 0), 0.4),), style=CutStyle.SMOOTH)}),
+        (1, "white", {"panels": (PicturePanel(wipe=WipeLayout(2, 0.37)),)}),
     ],
 )
 def test_a_picture_in_tiles_equals_the_one_rendered_at_once(tables, background, supersampling):

@@ -10,6 +10,7 @@ pytestmark = pytest.mark.slow
 
 def test_the_mesh_is_drawn_before_the_other_features_are_built(bare_window, qtbot, mesh_file):
     window, drawn_by = bare_window, []
+    native = window.windowHandle().winId()
     WindowStart(window, mesh_file)
     assert window.session is None  # it is imported in a thread
     qtbot.waitUntil(lambda: window.canvas is not None)
@@ -22,6 +23,8 @@ def test_the_mesh_is_drawn_before_the_other_features_are_built(bare_window, qtbo
     assert set(first_names()) == set(drawn_by[0])
     assert set(window.features) == set(feature_names())
     assert window.session.document.path == mesh_file
+    qtbot.waitUntil(lambda: window.canvas.isVisible())
+    assert window.windowHandle().winId() == native  # adding the view does not make the window again
 
 
 def test_panels_are_built_and_an_error_is_shown_if_the_mesh_cannot_be_opened(bare_window, qtbot, tmp_path):
@@ -31,12 +34,3 @@ def test_panels_are_built_and_an_error_is_shown_if_the_mesh_cannot_be_opened(bar
     assert not bare_window.session.document.is_open
     assert bare_window.messages.isVisible()
     assert bare_window.features["open"].welcome.isVisible()
-
-
-def test_adding_the_view_does_not_recreate_the_window(bare_window, qtbot, mesh_file):
-    before = bare_window.windowHandle().winId()
-    WindowStart(bare_window, mesh_file)
-    with qtbot.waitSignal(bare_window.ready):
-        pass
-    qtbot.waitUntil(lambda: bare_window.canvas.isVisible())
-    assert bare_window.windowHandle().winId() == before

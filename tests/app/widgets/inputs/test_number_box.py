@@ -6,9 +6,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractSpinBox
 
 from hexmend.parameters import Parameter
-from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.inputs.number_box import NumberBox
-from tests.app.theme.contrasts import painted
 
 _BOUNDED = Parameter("delta", float, 0.01, 0.0, 10.0, None, "", "")
 
@@ -69,29 +67,3 @@ def test_a_number_left_to_the_program_is_below_all_numbers(qapp):
     box.lineEdit().selectAll()
     QTest.keyClicks(box.lineEdit(), "101%")
     assert "a percentage such as 0.5%" in box.problem
-
-
-# Combo boxes in narrow panels.
-
-
-TEXT = "Local Newton, large patches and more"
-
-
-def drawn(qtbot, text):
-    box = ComboBox()
-    qtbot.addWidget(box)
-    box.addItem(text)
-    box.setFixedSize(140, 24)
-    box.show()
-    return painted(box)
-
-
-def test_a_long_text_is_elided(qtbot):
-    metrics = ComboBox().fontMetrics()
-    assert metrics.horizontalAdvance(TEXT) > 140
-    shown = drawn(qtbot, TEXT)
-    for letters in range(5, len(TEXT)):
-        if (shown == drawn(qtbot, TEXT[:letters].rstrip() + "…")).all():
-            break
-    else:
-        raise AssertionError("no beginning of the text with an ellipsis was drawn")

@@ -8,6 +8,7 @@ from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.two_dimensional import two_dimensional_motion, with_two_dimensional_motion
 from tests.core.grids import grid
+from tests.core.linear_motions import scrambled_within
 
 
 def layer(nx=6, ny=5, axis=2, kind="empty") -> Mesh:
@@ -33,18 +34,12 @@ def wedge(angle=5.0) -> Mesh:
     return Mesh(points, mesh.hexes, side_sets=sides, side_set_types=types)
 
 
-def inner_scrambled(mesh: Mesh, amplitude=0.3) -> Mesh:
-    """Displace what may move at random, as its motion admits it."""
-    shift = np.random.default_rng(3).uniform(-amplitude, amplitude, mesh.points.shape)
-    return mesh.with_points(mesh.constrained(mesh.points + shift * mesh.free[:, None]))
-
-
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_inner_nodes_of_both_sides_move_in_their_plane_and_as_one(axis):
     mesh = with_two_dimensional_motion(layer(axis=axis))
     inner = (5 - 1 + 1) * (5 - 1) * 2
     assert mesh.free.sum() == inner
-    moved = inner_scrambled(mesh)
+    moved = scrambled_within(mesh, 0.3, 3)
     across = [k for k in range(3) if k != axis]
     np.testing.assert_array_equal(moved.points[:, axis], mesh.points[:, axis])
     low, high = (moved.points[mesh.points[:, axis] == side][:, across] for side in (0, 1))
@@ -54,7 +49,7 @@ def test_inner_nodes_of_both_sides_move_in_their_plane_and_as_one(axis):
 
 @pytest.mark.parametrize(("method", "boundary"), [("laplacian", "fixed"), ("mend", "slide")])
 def test_methods_keep_the_two_sides_congruent_to_the_last_bit(method, boundary):
-    mesh = inner_scrambled(with_two_dimensional_motion(layer()), 0.6)
+    mesh = scrambled_within(with_two_dimensional_motion(layer()), 0.6, 3)
     result = hx.smooth(mesh, method, boundary=boundary, max_iterations=20)
     low, high = (result.mesh.points[mesh.points[:, 2] == side] for side in (0, 1))
     np.testing.assert_array_equal(low[:, :2], high[:, :2])
@@ -66,7 +61,7 @@ def test_methods_keep_the_two_sides_congruent_to_the_last_bit(method, boundary):
 
 def test_the_sides_of_a_wedge_are_rotated_copies():
     mesh = with_two_dimensional_motion(wedge())
-    start = inner_scrambled(mesh)
+    start = scrambled_within(mesh, 0.3, 3)
     result = hx.smooth(start, max_iterations=20)
     assert result.after.q_mean > result.before.q_mean
     for points in (start.points, result.mesh.points):

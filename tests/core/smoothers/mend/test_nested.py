@@ -48,9 +48,8 @@ def test_the_optimum_is_that_without_the_start_or_better(boundary):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("goal", ["shape", "balanced"])
-def test_kershaws_mesh_ends_at_the_lattice_in_fewer_steps_of_all_its_nodes(goal):
-    mesh, smoother = make("kershaw", size=24**3), Mend(goal=goal, boundary="slide", p=1.0)
+def test_kershaws_mesh_ends_at_the_lattice_in_fewer_steps_of_all_its_nodes():
+    mesh, smoother = make("kershaw", size=24**3), Mend(goal="shape", boundary="slide", p=1.0)
     counts = []
     for config in (NEVER, FORCED):
         steps = list(stages.Stages(smoother, config).steps(mesh))
