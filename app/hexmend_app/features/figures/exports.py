@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from hexmend_app.features.figures.drawing import NamedVersion, draw, prepare
-from hexmend_app.features.figures.report_file import draw_report, prepare_report
+from hexmend.io.storage.atomic import check_writable
+from hexmend.io.storage.suffixes import suffix_for
+from hexmend_app.features.figures.drawing import NamedVersion, draw, prepare, version_of
 from hexmend_app.features.figures.versions import recipes_of, versions_of
 from hexmend_app.picture import Scene
-from hexmend_app.report.figure_set import PARTS, Figure, stationary
-from hexmend_app.report.page import FIGURES
+from hexmend_app.report.case import Case, Source
+from hexmend_app.report.charts import check_matplotlib
+from hexmend_app.report.figure_set import PARTS, Figure, Style, stationary
+from hexmend_app.report.page import FIGURES, draw_chapter, page, write_page
+from hexmend_app.report.pdf import check_pdf, write_pdf
 from hexmend_app.state.session.session import Session
 from hexmend_app.translation import tr
+
+#: Suffixes of reports.
+_SUFFIXES = (".html", ".pdf")
+
+#: Pixels per inch of the pictures.
+_DPI = 220.0
 
 
 @dataclass(frozen=True)
@@ -66,3 +76,44 @@ def _drawn(figures: Sequence[str], versions: Sequence[NamedVersion]) -> list[str
     """Return the names of the figures that are drawn: without an iteration of a run there is no convergence."""
     run = any(len(version) == 4 for version in versions)
     return [name for name in figures if run or name != "convergence"]
+
+
+def prepare_report(path: Path) -> None:
+    """Check that a report can be written.
+
+    Raises
+    ------
+    HexmendError
+        If a library is missing, or the file cannot be written.
+    """
+    if suffix_for(path, "a report", _SUFFIXES) == ".pdf":
+        check_pdf()
+    check_writable(path)
+    check_matplotlib()
+
+
+def draw_report(
+    path: str | Path, title: str, mesh: str, scene: Scene, versions: Sequence[NamedVersion], file: str = ""
+) -> Generator[Figure]:
+    """Yield figure by figure, then write the report, HTML or PDF by the suffix.
+
+    Parameters
+    ----------
+    path : path-like
+    title : str
+    mesh : str
+        Name of the mesh.
+    scene : Scene
+        Camera, cut and colours of the pictures.
+    versions : sequence of NamedVersion
+        Meshes to compare, the mesh as opened first.
+    file : str
+        File of the mesh; "" for none.
+    """
+    path = Path(path)
+    interactive = suffix_for(path, "a report", _SUFFIXES) == ".html"
+    source = Source.of(file) if file else None
+    case = Case(mesh, source, tuple(map(version_of, versions)), stop=None)
+    style = Style(replace(scene, page=replace(scene.page, dpi=_DPI)))
+    chapter = yield from draw_chapter(case, style, [], interactive=interactive)
+    (write_page if interactive else write_pdf)(path, page(title, [chapter], "", interactive=interactive))
