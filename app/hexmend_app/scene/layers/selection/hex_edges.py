@@ -10,7 +10,6 @@ from hexmend.mesh.hexahedron import EDGES
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.geometry.curved_edges import DIVISIONS, divided, segments
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
-from hexmend_app.theme.palette import rgb
 
 _LINE, _RIM = "#ffffff", "#11151c"
 
@@ -54,11 +53,9 @@ class HexEdges:
         renderer.AddObserver("StartEvent", self._fit_dashes)
 
     def _actor(self, colour: str, width: float, depth: float) -> vtkActor:
-        actor = flat_actor(self._renderer, self._pixel_ratio * width)
+        actor = flat_actor(self._renderer, self._pixel_ratio * width, colour=colour)
         actor.ForceTranslucentOn()
-        actor.GetProperty().SetColor(rgb(colour))
-        mapper = actor.GetMapper()
-        offset_depth(mapper, lines=depth, slope=-2.0)
+        offset_depth(actor.GetMapper(), lines=depth, slope=-2.0)
         return actor
 
     def show(self, corners: np.ndarray, middles: np.ndarray | None = None) -> None:
@@ -74,11 +71,11 @@ class HexEdges:
         self._middles = None if middles is None else middles.reshape(-1, 3)
         if self._middles is None:
             ends = (EDGES[None] + 8 * np.arange(len(corners))[:, None, None]).reshape(-1, 2)
-            self.lines = _segments(corners.reshape(-1, 3), ends)
+            self.lines = pv.PolyData(corners.reshape(-1, 3), lines=pv.CellArray.from_regular_cells(ends))  # type: ignore[arg-type]
         else:
             points = divided(self._ends, self._middles)
             chains = np.arange(len(points) * (DIVISIONS + 1)).reshape(len(points), -1)
-            self.lines = _segments(points.reshape(-1, 3), segments(chains))
+            self.lines = pv.PolyData(points.reshape(-1, 3), lines=pv.CellArray.from_regular_cells(segments(chains)))
         self._counts = np.empty(0, dtype=np.int64)
         for actor in self._front_actors:
             actor.GetMapper().SetInputData(self.lines)
@@ -133,9 +130,4 @@ def dashed(start: np.ndarray, end: np.ndarray, counts: np.ndarray, middles: np.n
     points = start[edge][:, None] * (1 - shares) + end[edge][:, None] * shares
     if middles is not None:
         points += 4 * shares * (1 - shares) * (middles - (start + end) / 2)[edge][:, None]
-    return _segments(points.reshape(-1, 3), np.arange(2 * len(edge)).reshape(-1, 2))
-
-
-def _segments(points: np.ndarray, ends: np.ndarray) -> pv.PolyData:
-    """Build lines from points, (k, 3), and point numbers of their ends, (e, 2)."""
-    return pv.PolyData(points, lines=np.column_stack([np.full(len(ends), 2), ends]).ravel())
+    return pv.line_segments_from_points(points.reshape(-1, 3))

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend_app.scene.camera.fitting import pixels
-from hexmend_app.scene.layers.flat_actor import label_actor
+from hexmend_app.scene.layers.flat_actor import flat_actor, label_actor
 from hexmend_app.scene.layers.selection.hex_edges import HexEdges
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.theme.palette import rgb
 
 _NODE, _ARROW = "#ffffff", "#ff8c00"
 
@@ -38,10 +37,9 @@ class Highlight:
         self.edges = HexEdges(pane.renderer, pixel_ratio)
         self._corners = np.zeros((1, 8, 3))
         self._texts = [label_actor(self._layer, round(14 * self._pixel_ratio)) for _ in range(8)]
-        self._point = self._add(pv.PolyData(np.zeros((1, 3))), _NODE)
+        self._point, self._arrow = (flat_actor(self._layer, colour=colour) for colour in (_NODE, _ARROW))
         self._point.GetProperty().SetPointSize(12 * pixel_ratio)
         self._point.GetProperty().RenderPointsAsSpheresOn()
-        self._arrow = self._add(pv.PolyData(), _ARROW)
         self._with_values = False
         self._layer.AddObserver("StartEvent", self._fit_texts)
         self.hide()
@@ -50,16 +48,6 @@ class Highlight:
     def layer(self) -> vtkRenderer:
         """Renderer in front of everything else."""
         return self._layer
-
-    def _add(self, poly: pv.PolyData, colour: str) -> vtkActor:
-        mapper = vtkPolyDataMapper()
-        mapper.SetInputData(poly)
-        actor = vtkActor()
-        actor.SetMapper(mapper)
-        actor.GetProperty().SetColor(rgb(colour))
-        actor.GetProperty().LightingOff()
-        self._layer.AddActor(actor)
-        return actor
 
     def show(self, corners: np.ndarray, values: np.ndarray | None = None, middles: np.ndarray | None = None) -> None:
         """Highlight hexes with these corners.
