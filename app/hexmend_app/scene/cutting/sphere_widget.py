@@ -120,5 +120,5 @@ def _unit_circles() -> pv.PolyData:
     angle = np.linspace(0, 2 * np.pi, _CORNERS, endpoint=False)
     circle = np.stack([np.cos(angle), np.sin(angle), np.zeros(_CORNERS)], axis=1)
     points = np.concatenate([np.roll(circle, axis, axis=1) for axis in range(3)])
-    loop = np.append(np.arange(_CORNERS), 0)
-    return pv.PolyData(points, lines=pv.CellArray.from_regular_cells(loop + _CORNERS * np.arange(3)[:, None]))
+    circles = np.append(np.arange(_CORNERS), 0) + _CORNERS * np.arange(3)[:, None]
+    return pv.PolyData(points, lines=pv.CellArray.from_regular_cells(circles))  # type: ignore[arg-type]
