@@ -52,7 +52,7 @@ def everything(window, qtbot):
     session.commands.tag("last", [last_hex])
     session.commands.pin(last_node, True)
     window.show_panel("tags")
-    qtbot.waitUntil(lambda: session.structure_finder.structure is not None)
+    qtbot.waitUntil(lambda: session.structure_finder.result is not None)
     window.show_panel("doctor")
     qtbot.waitUntil(lambda: session.mesh_checker.of(session.document.now.mesh) is not None)
     choose(window, "laplacian", StoppingCriteria(max_iterations=50, tolerance=0))

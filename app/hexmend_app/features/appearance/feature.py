@@ -174,7 +174,7 @@ class FeatureAppearance(Feature):
         """Appearance without edges and node classes that are still being computed, for which drawing would wait."""
         look = self._view.look
         structure = look.structure
-        if self.session.structure_finder.structure is None:
+        if self.session.structure_finder.result is None:
             structure = structure.without(*EDGE_LAYERS)
         if self._classes is None:
             structure = structure.without("kinds")

@@ -195,7 +195,7 @@ class FeatureHexInspector(Feature):
             self.worst_list.set_figures(now.mesh, now.figures)
         self.worst_list.set_selected(selection.hex)
         corners, editable = self.panel.corners_in_view, self.session.editable
-        classes = self.session.boundary_classifier.classes
+        classes = self.session.boundary_classifier.result
         if self._seen.changed("selection", now, selection.hex, selection.node, corners, editable, self.canvas, classes):
             self._show_selection()
 
