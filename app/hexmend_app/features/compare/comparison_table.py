@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from math import floor, log10
 from typing import Any
 
 from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.quality import REGRESSION_KEYS
-from hexmend.quantity import Quantity
+from hexmend.quantity import (
+    Quantity,
+    format_microseconds,
+    format_milliseconds,
+    format_objective,
+    format_significant,
+)
 from hexmend.report.comparison import KEPT_START, LINES, label
 from hexmend.smoothers import METHODS
-from hexmend_app.features.compare.column_format import format_column
 from hexmend_app.theme.style import BETTER, WORSE, bold, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.row_model import RowModel
@@ -35,6 +41,15 @@ _HELP = (
 )
 _Role, _Flag = Qt.ItemDataRole, Qt.ItemFlag
 _CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
+
+
+#: Factor of the values, and significant digits of the smallest one in a column, of formats with varying decimals.
+_SCALES: dict[Callable[[Any], str], tuple[float, int]] = {
+    format_significant: (1.0, 2),
+    format_objective: (1.0, 7),
+    format_milliseconds: (1e3, 2),
+    format_microseconds: (1e6, 2),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -237,3 +252,22 @@ class ComparisonModel(RowModel):
     def help(self, column: int) -> str:
         """Return the help of a column."""
         return tr(LINES[column - _FIRST].help if column >= _FIRST else _HELP[column])
+
+
+def format_column(quantity: Quantity, records: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Format a column of values with one number of decimals; other texts are as `Quantity.of` has them.
+
+    The smallest value gets two significant digits, or the digits in which two optima may differ, and at most four
+    decimals.
+
+    >>> time = Quantity("seconds", "time, s", "", format_significant)
+    >>> format_column(time, [{"seconds": 0.0123}, {"seconds": 19.522}, {}])
+    ['0.012', '19.522', '–']
+    """
+    scale, digits = _SCALES.get(quantity.text, (0.0, 0))
+    values = [record.get(quantity.key) if scale else None for record in records]
+    positive = [abs(value) * scale for value in values if value]
+    if not positive:
+        return [quantity.of(record) for record in records]
+    decimals = min(max(digits - 1 - floor(log10(min(positive))), 0), 4)
+    return ["–" if value is None else f"{value * scale:,.{decimals}f}" for value in values]
