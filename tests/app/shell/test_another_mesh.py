@@ -30,7 +30,7 @@ def everything(window, qtbot):
     key(window, Qt.Key.Key_N)
     session.selection.visit(last_hex)
     session.selection.choose(last_hex, last_node)
-    window.features["hex_inspector"].panel.set_corners_in_view(True)
+    window.features["hex_inspector"].panel.corners_box.setChecked(True)
     window.show_panel("hex")
     session.view.isolate([last_hex, last_hex - 1], 2)
     session.view.dig(last_hex)

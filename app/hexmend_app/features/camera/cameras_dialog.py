@@ -18,8 +18,9 @@ from PySide6.QtWidgets import (
 
 from hexmend.errors import ParameterError
 from hexmend_app.state.view.saved_cameras import SavedCameras
+from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import WORSE, note, set_help, show_text
+from hexmend_app.theme.style import note, set_help, show_text
 from hexmend_app.translation import tr
 
 _NAME = Qt.ItemDataRole.UserRole

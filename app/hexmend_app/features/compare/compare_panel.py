@@ -11,8 +11,9 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout,
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_known
 from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
+from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import MUTED, icon, set_help, smaller, tabular, tint
+from hexmend_app.theme.style import icon, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.tables.hex_table import shape_table

@@ -20,7 +20,8 @@ from hexmend.quantity import (
 )
 from hexmend.report.comparison import KEPT_START, LINES, label
 from hexmend.smoothers import METHODS
-from hexmend_app.theme.style import BETTER, WORSE, bold, tabular
+from hexmend_app.theme.palette import BETTER, WORSE
+from hexmend_app.theme.style import bold, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.row_model import RowModel
 from hexmend_app.widgets.wording import with_minus

@@ -149,8 +149,8 @@ class FeatureHexInspector(Feature):
             StatePart(
                 name="corners",
                 data=bool,
-                to_data=lambda: self.panel.corners_in_view,
-                restore=self.panel.set_corners_in_view,
+                to_data=self.panel.corners_box.isChecked,
+                restore=self.panel.corners_box.setChecked,
             ),
         )
 
@@ -194,7 +194,7 @@ class FeatureHexInspector(Feature):
         if self._seen.changed("figures", now):
             self.worst_list.set_figures(now.mesh, now.figures)
         self.worst_list.set_selected(selection.hex)
-        corners, editable = self.panel.corners_in_view, self.session.editable
+        corners, editable = self.panel.corners_box.isChecked(), self.session.editable
         classes = self.session.boundary_classifier.result
         if self._seen.changed("selection", now, selection.hex, selection.node, corners, editable, self.canvas, classes):
             self._show_selection()
@@ -209,7 +209,7 @@ class FeatureHexInspector(Feature):
         node = None if selection.node is None else describe_node(mesh, selection.node)
         self.panel.show_node(node, not self.session.editable, self._boundary_class(selection.node))
         if self.canvas is not None:
-            self.canvas.select(selection.hex, self.panel.corners_in_view, node)
+            self.canvas.select(selection.hex, self.panel.corners_box.isChecked(), node)
 
     def _can_be_pinned(self) -> bool:
         node = self._selection.node

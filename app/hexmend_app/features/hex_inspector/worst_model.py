@@ -16,7 +16,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend.report.documents import write_text
 from hexmend_app.state.mesh.worst_hexes import WorstHexes
-from hexmend_app.theme.style import INVERTED_TEXT
+from hexmend_app.theme.palette import INVERTED_TEXT
 from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.row_model import RowModel
 from hexmend_app.widgets.wording import figure

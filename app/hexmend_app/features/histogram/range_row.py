@@ -10,8 +10,9 @@ from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.end_box import EndBox
 from hexmend_app.picture.visibility import Show
+from hexmend_app.theme.palette import INVERTED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import INVERTED, narrow, set_help
+from hexmend_app.theme.style import narrow, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.metric_texts import in_sentence
 

@@ -22,9 +22,9 @@ from PySide6.QtWidgets import (
 from hexmend_app.features.node_step.step_plot import NodePlot
 from hexmend_app.features.node_step.step_texts import Row, rows
 from hexmend_app.state.node_step import NodeStep, StepStatus
-from hexmend_app.theme.palette import DESCENT, OTHERWISE, SEARCH, TAKEN, TRIED
+from hexmend_app.theme.palette import DESCENT, MUTED, OTHERWISE, SEARCH, TAKEN, TEXT, TRIED, WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import MUTED, TEXT, WORSE, bold, note, on_theme_change, set_help, smaller, tabular, tint
+from hexmend_app.theme.style import bold, note, on_theme_change, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.legend import legend_entry

@@ -12,8 +12,9 @@ from hexmend.doctor import Finding
 from hexmend_app.features.open.recent_menu import elide
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.settings.recent_files import RecentFiles
+from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import clear, fill
-from hexmend_app.theme.style import MUTED, icon, set_help, set_variant, tint
+from hexmend_app.theme.style import icon, set_help, set_variant, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted, figure, short_folder
 

@@ -19,18 +19,9 @@ from PySide6.QtWidgets import (
 
 from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, regressions
 from hexmend.quantity import Quantity
+from hexmend_app.theme.palette import BETTER, MUTED, TEXT, WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import (
-    BETTER,
-    MUTED,
-    TEXT,
-    WORSE,
-    icon,
-    on_theme_change,
-    set_variant,
-    smaller,
-    tabular,
-)
+from hexmend_app.theme.style import icon, on_theme_change, set_variant, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.link_table import LinkTable
 from hexmend_app.widgets.wording import figure

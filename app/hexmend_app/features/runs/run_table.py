@@ -13,8 +13,8 @@ from PySide6.QtGui import QBrush, QColor, QFont
 from hexmend.quality import SUMMARY_QUANTITIES
 from hexmend_app.features.runs.dominance import KEY_FIGURES
 from hexmend_app.state.mesh.run_record import RunRecord
-from hexmend_app.theme.palette import Role
-from hexmend_app.theme.style import MUTED, TEXT, WORSE, bold, tabular
+from hexmend_app.theme.palette import MUTED, TEXT, WORSE, Role
+from hexmend_app.theme.style import bold, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.row_model import RowModel
 from hexmend_app.widgets.wording import figure

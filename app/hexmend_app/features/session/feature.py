@@ -18,7 +18,7 @@ class FeatureSession(Feature):
     Attributes
     ----------
     recovery : Recovery
-        Inactive until `start_autosave` is called.
+        Inactive until `program_started` is called.
     """
 
     order = 12
@@ -57,10 +57,6 @@ class FeatureSession(Feature):
         )
 
     def program_started(self) -> None:
-        """Start the autosave."""
-        self.start_autosave()
-
-    def start_autosave(self) -> None:
         """Start autosaving, and offer sessions left by a crash."""
         self.recovery.begin()
         self.host.refresh_soon()

@@ -20,8 +20,9 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.errors import FileError, ParameterError
+from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import WORSE, labelled, note, set_help, show_text
+from hexmend_app.theme.style import labelled, note, set_help, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_replacing, folder, named, remember_folder
 

@@ -18,8 +18,9 @@ from hexmend.parameters import Parameter
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.codec.value_text import parse_value
+from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import WORSE, labelled, note, set_help, show_text
+from hexmend_app.theme.style import labelled, note, set_help, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Text, editor_for
 from hexmend_app.widgets.wording import name_in_words

@@ -8,7 +8,7 @@ from typing import Any
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
 from PySide6.QtGui import QBrush, QColor
 
-from hexmend_app.theme.style import MUTED
+from hexmend_app.theme.palette import MUTED
 
 
 class RowModel(QAbstractTableModel):
